@@ -1,0 +1,15 @@
+# The libraries that limn links, as targets with clean include folders.
+
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED CONFIG)
+find_package(tinyobjloader REQUIRED CONFIG)
+find_path(LIMN_STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
+find_path(LIMN_RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+
+if(LIMN_WITH_OPENIMAGEIO)
+    find_package(OpenImageIO REQUIRED CONFIG)
+    # Debian's package names include folders that it does not install.
+    include(LimnFilterIncludes)
+    limn_filter_includes(OpenImageIO::OpenImageIO)
+    limn_filter_includes(OpenImageIO::OpenImageIO_Util)
+endif()

@@ -1,0 +1,28 @@
+/// \file
+#pragma once
+
+#include <cmath>
+
+#include "limn/core/vec.h"
+
+namespace limn {
+
+/// A right-handed orthonormal basis; local z is the given unit normal.
+struct Frame {
+    Vec3 x, y, z;
+
+    /// Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017. \pre n has unit length
+    explicit Frame(const Vec3& n) : z(n) {
+        const double sign = std::copysign(1.0, n.z);
+        const double a = -1 / (sign + n.z);
+        const double b = n.x * n.y * a;
+        x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+        y = {b, sign + n.y * n.y * a, -n.y};
+    }
+    explicit Frame(const Normal3& n) : Frame(Vec3(n)) {}
+
+    Vec3 to_world(const Vec3& local) const { return local.x * x + local.y * y + local.z * z; }
+    Vec3 to_local(const Vec3& world) const { return {dot(world, x), dot(world, y), dot(world, z)}; }
+};
+
+}  // namespace limn

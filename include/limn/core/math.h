@@ -1,0 +1,25 @@
+/// \file
+/// Numeric constants and the bound on accumulated rounding.
+#pragma once
+
+#include <limits>
+
+#ifdef __FAST_MATH__
+#error "limn decides hits by exact comparisons: build without -ffast-math"
+#endif
+
+namespace limn {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Largest relative error of one rounded double operation, 2^-53.
+inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// Bound on the relative error that n rounded operations accumulate (Higham, Accuracy and Stability of Numerical
+/// Algorithms, 2002, Lemma 3.1).
+constexpr double gamma(int n) { return n * kRoundoff / (1 - n * kRoundoff); }
+
+constexpr double radians(double degrees) { return degrees * (kPi / 180); }
+
+}  // namespace limn

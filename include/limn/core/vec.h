@@ -1,0 +1,115 @@
+/// \file
+/// Points, vectors and normals in double precision. They are distinct types so that a normal cannot be transformed as
+/// a vector by accident; `Vec3(n)` and `Normal3(v)` convert on purpose.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace limn {
+
+/// A displacement or direction, in the user's unit of length.
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+
+    constexpr Vec3() = default;
+    constexpr Vec3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+
+    constexpr double& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+    constexpr double operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+    constexpr bool operator==(const Vec3&) const = default;
+};
+
+/// A direction that is perpendicular to a surface; transformed by the inverse transpose.
+struct Normal3 {
+    double x = 0, y = 0, z = 0;
+
+    constexpr Normal3() = default;
+    constexpr Normal3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+    constexpr explicit Normal3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+    constexpr explicit operator Vec3() const { return {x, y, z}; }
+    constexpr Normal3 operator-() const { return {-x, -y, -z}; }
+    constexpr bool operator==(const Normal3&) const = default;
+};
+
+/// A location in space.
+struct Point3 {
+    double x = 0, y = 0, z = 0;
+
+    constexpr Point3() = default;
+    constexpr Point3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+
+    constexpr double& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+    constexpr double operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+    constexpr bool operator==(const Point3&) const = default;
+};
+
+/// Texture coordinates.
+struct Uv {
+    double u = 0, v = 0;
+    constexpr bool operator==(const Uv&) const = default;
+};
+
+/// A triple of float32, the form in which a mesh stores positions and normals.
+struct Float3 {
+    float x = 0, y = 0, z = 0;
+    constexpr bool operator==(const Float3&) const = default;
+};
+
+/// A pair of float32, the form in which a mesh stores texture coordinates.
+struct Float2 {
+    float u = 0, v = 0;
+    constexpr bool operator==(const Float2&) const = default;
+};
+
+/// Three vertex numbers of a mesh triangle.
+struct Index3 {
+    std::uint32_t a = 0, b = 0, c = 0;
+    constexpr bool operator==(const Index3&) const = default;
+};
+
+constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+constexpr Vec3 operator*(const Vec3& a, double s) { return {s * a.x, s * a.y, s * a.z}; }
+constexpr Vec3 operator/(const Vec3& a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+
+constexpr Vec3 operator-(const Point3& a, const Point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Point3 operator+(const Point3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Point3 operator-(const Point3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr double dot(const Normal3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr double dot(const Vec3& a, const Normal3& b) { return dot(b, a); }
+constexpr double dot(const Normal3& a, const Normal3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+constexpr double length_squared(const Vec3& a) { return dot(a, a); }
+
+/// Euclidean length. std::hypot: neither overflows nor underflows on the way.
+inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+
+/// `a` scaled to unit length, right for any finite non-zero length; NaN for the zero vector.
+inline Vec3 normalize(const Vec3& a) {
+    const double squared = dot(a, a);
+    if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
+    const double largest = std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z)));
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const Vec3 scaled{std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
+    return scaled / std::sqrt(dot(scaled, scaled));
+}
+
+constexpr Vec3 abs(const Vec3& a) {
+    return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z};
+}
+
+inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline bool is_finite(const Point3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+}  // namespace limn

@@ -1,0 +1,48 @@
+/// \file
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "limn/core/color.h"
+
+namespace limn {
+
+/// An owning image of linear RGB float32, rows from the top, pixels from the left. Reading is thread-safe.
+class Image {
+public:
+    Image() = default;
+    /// \throws ArgumentError if a side is not positive, or memory lacks
+    Image(int width, int height, const Color& fill = {});
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    bool empty() const { return values_.empty(); }
+
+    /// \pre 0 <= x < width(), 0 <= y < height()
+    Color at(int x, int y) const {
+        const float* p = &values_[offset(x, y)];
+        return {p[0], p[1], p[2]};
+    }
+    /// Rounds to float32.
+    void set(int x, int y, const Color& c) {
+        float* p = &values_[offset(x, y)];
+        p[0] = static_cast<float>(c.r), p[1] = static_cast<float>(c.g), p[2] = static_cast<float>(c.b);
+    }
+
+    /// width * height * 3 values: r g b, r g b, ...
+    std::span<const float> values() const { return values_; }
+    std::span<float> values() { return values_; }
+
+    bool operator==(const Image&) const = default;
+
+private:
+    std::size_t offset(int x, int y) const {
+        return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+    }
+    int width_ = 0, height_ = 0;
+    std::vector<float> values_;
+};
+
+}  // namespace limn

@@ -1,0 +1,44 @@
+/// \file
+/// Image files. Formats by suffix: .exr and .png; others that OpenImageIO reads can be loaded. Built without
+/// OpenImageIO: .png, .hdr (and .jpg for loading).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limn/image/image.h"
+
+namespace limn {
+
+/// How stored values become linear ones. `automatic`: what the file says, else sRGB for 8-bit and 16-bit integer
+/// formats and linear for floating point. `srgb` decodes the sRGB transfer, `raw` takes the values as they are.
+enum class Encoding { automatic, srgb, raw };
+
+struct SaveOptions {
+    bool half = false;  ///< EXR: half instead of float; \throws FileError if a value is too large for it
+    /// Facts about the picture, written as text: EXR attributes, PNG text. Names as in the `--report`.
+    std::vector<std::pair<std::string, std::string>> facts;
+};
+
+/// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]. The file appears whole or not at all: a
+/// temporary file beside it is written, read back and compared, flushed to disk and renamed.
+/// \throws FileError naming the file: unknown suffix, unwritable, disk full, non-finite values for PNG
+void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
+
+/// Throws what save_image would throw for a reason that can be known beforehand: suffix, folder, permissions.
+void check_writable(const std::string& path);
+
+/// Reads the first three channels (a single one as grey). \throws FileError naming the file
+Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
+
+/// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file. \param name for messages
+Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
+                             const std::string& name = "image in memory");
+
+/// The text facts in a picture's header, in no particular order.
+std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
+
+}  // namespace limn

@@ -1,0 +1,22 @@
+/// \file
+#pragma once
+
+#include "limn/material/material.h"
+
+namespace limn {
+
+/// Emits the same radiance in every direction, on both sides, and scatters nothing.
+class DiffuseLight final : public Material {
+public:
+    /// \throws ArgumentError if a component is negative or not finite; if the texture is null
+    explicit DiffuseLight(const Color& radiance);
+    explicit DiffuseLight(std::shared_ptr<const Texture> radiance);
+    Color emitted(const Surface& s) const override;
+    std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
+    MaterialRecord lower(RecordSink& sink) const override;
+
+private:
+    std::shared_ptr<const Texture> radiance_;
+};
+
+}  // namespace limn

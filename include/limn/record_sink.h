@@ -1,0 +1,60 @@
+/// \file
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <unordered_map>
+
+#include "limn/records.h"
+
+namespace limn {
+
+/// What a described object writes its records to. Objects that are shared are described once: the second time the sink
+/// knows their address and answers with the same id. Not thread-safe; used by one compilation.
+class RecordSink {
+public:
+    /// The id of a material or texture; `describe` is called the first time only. The sink keeps the object alive.
+    /// A null object gives `none`.
+    MaterialId material(const std::shared_ptr<const void>& object, const std::function<MaterialRecord()>& describe);
+    TextureId texture(const std::shared_ptr<const void>& object, const std::function<TextureRecord()>& describe);
+    /// Rows of SceneRecords::images and ::lattices.
+    std::uint32_t image(const std::shared_ptr<const Image>& image);
+    std::uint32_t lattice(const std::shared_ptr<const PerlinLattice>& lattice);
+
+    /// A shape of the current group.
+    void sphere(const SphereRecord& record);
+    void triangle(const TriangleRecord& record);
+    void quad(const QuadRecord& record);
+    void mesh(MeshRecord record, const std::shared_ptr<const void>& owner);
+    void foreign(const ForeignRecord& record);
+    void instance(const InstanceRecord& record);
+    void medium(const MediumRecord& record);
+
+    /// A group that instances and media refer to: `fill` writes its shapes, the first time only.
+    /// \throws ArgumentError if an object contains itself
+    GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
+
+    /// Keeps the owner of something that a record points to alive as long as the records.
+    void keep(const std::shared_ptr<const void>& owner);
+
+    /// Primitives in the current group so far.
+    std::uint64_t primitives() const { return records_.groups[current_].primitives; }
+    const SceneRecords& records() const { return records_; }
+    SceneRecords take() && { return std::move(records_); }
+
+private:
+    void append(PrimitiveKind kind, std::size_t row, std::uint64_t count);
+
+    SceneRecords records_;
+    std::size_t current_ = 0;
+    std::unordered_map<const void*, MaterialId> materials_;
+    std::unordered_map<const void*, TextureId> textures_;
+    std::unordered_map<const void*, std::uint32_t> images_, lattices_;
+    struct GroupState {
+        GroupId id;
+        bool open;
+    };
+    std::unordered_map<const void*, GroupState> groups_;
+};
+
+}  // namespace limn

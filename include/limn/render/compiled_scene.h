@@ -1,0 +1,77 @@
+/// \file
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "limn/core/ray.h"
+#include "limn/core/surface.h"
+#include "limn/scene/scene.h"
+
+namespace limn {
+
+namespace flat {
+struct Scene;
+}
+
+/// The nearest hit of a ray in a compiled scene.
+struct RayHit {
+    double t = kInfinity;         ///< in units of the ray's direction; kInfinity: a miss
+    std::uint32_t object = 0;     ///< in the order of Scene::add
+    std::uint64_t element = 0;    ///< the primitive's number within the object: the triangle of a mesh, the place in a list
+    double u = 0, v = 0;          ///< triangle: weights of the second and third vertex; quad: along its edges; foreign: its own; sphere: 0
+    bool index_matched = false;   ///< the boundary of a medium
+    std::uint64_t primitive = 0;  ///< the primitive's number within the scene
+};
+
+struct SceneStats {
+    std::size_t memory_bytes = 0;    ///< of the compiled scene, mesh arrays that it shares with the description included
+    std::uint64_t primitives = 0;    ///< instanced ones counted once an instance
+    std::uint64_t stored_primitives = 0;  ///< instanced ones counted once
+    std::uint64_t degenerate = 0;    ///< stored triangles of exactly zero area, which nothing can hit
+    std::uint64_t lights = 0;        ///< emitters that can be sampled
+    double seconds = 0;              ///< that compiling took
+};
+
+/// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
+/// it was compiled from may be destroyed.
+class CompiledScene {
+public:
+    explicit CompiledScene(std::unique_ptr<const flat::Scene> scene);
+    CompiledScene(CompiledScene&&) noexcept;
+    CompiledScene& operator=(CompiledScene&&) noexcept;
+    ~CompiledScene();
+
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries of
+    /// media count, flagged. An unusable ray misses. Never throws.
+    std::optional<RayHit> closest_hit(const Ray& ray) const;
+    /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
+    bool any_hit(const Ray& ray) const;
+
+    /// The same for many rays. A miss has t == kInfinity. \throws ArgumentError if the spans differ in length
+    void closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
+    void any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+
+    /// All about the point that `ray` hits. \pre hit was found by closest_hit for this ray in this scene
+    Surface surface_at(const Ray& ray, const RayHit& hit) const;
+
+    const SceneStats& stats() const;
+    /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
+    const std::string& features() const;
+    const std::string& name() const;
+
+    const flat::Scene& flat() const { return *scene_; }  ///< for limn's own rooms
+
+private:
+    std::unique_ptr<const flat::Scene> scene_;
+};
+
+/// Compiles a description. Pure: the same scene gives the same tables.
+/// \throws ArgumentError if an object contains itself or there are too many primitives
+CompiledScene compile(const Scene& scene);
+
+}  // namespace limn

@@ -1,0 +1,22 @@
+/// \file
+#pragma once
+
+#include "limn/core/color.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+/// Radiance that arrives from infinitely far away.
+struct Background {
+    Color bottom, top;  ///< for directions straight down and straight up
+
+    static constexpr Background black() { return {}; }
+    static constexpr Background constant(const Color& c) { return {c, c}; }
+    /// (1 - a) bottom + a top with a = (y + 1) / 2 of the unit direction.
+    static constexpr Background gradient(const Color& bottom, const Color& top) { return {bottom, top}; }
+
+    /// \param direction of any non-zero length
+    Color radiance(const Vec3& direction) const;
+};
+
+}  // namespace limn

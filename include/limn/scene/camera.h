@@ -1,0 +1,54 @@
+/// \file
+#pragma once
+
+#include <optional>
+
+#include "limn/core/box.h"
+#include "limn/core/ray.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+/// A thin-lens camera. Angles in degrees, lengths in world units, times in shutter units within [0, 1].
+struct Camera {
+    Point3 look_from{0, 0, 1};
+    Point3 look_at{0, 0, 0};
+    Vec3 up{0, 1, 0};
+    double vertical_fov = 40;            ///< full angle between the top and the bottom edge of the picture
+    std::optional<double> aspect_ratio{};///< width over height of the picture's frame; by default that of its pixels
+    double aperture_angle = 0;           ///< full angle of the cone that the lens fills, seen from the focus plane; 0: pinhole
+    std::optional<double> focus_distance{};///< to the plane in focus, along the view axis; by default |look_at - look_from|
+    double shutter_open = 0;
+    double shutter_close = 1;
+};
+
+/// A camera for a picture of a given size, ready to make rays. Immutable, thread-safe.
+class CameraRays {
+public:
+    /// \throws ArgumentError for an impossible camera: eye equal to target, up along the view, an angle outside (0, 180)
+    /// (aperture [0, 180)), a focus distance or size that is not positive, a shutter outside [0, 1], anything NaN
+    CameraRays(const Camera& camera, int width, int height);
+
+    /// The ray through a point of the picture.
+    /// \param x, y in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
+    /// \param lens_u, lens_v, time_u in [0, 1): where on the lens, when in the shutter
+    Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
+
+    bool has_lens() const { return lens_radius_ > 0; }
+    bool has_shutter() const { return shutter_close_ > shutter_open_; }
+
+private:
+    Point3 eye_;
+    Vec3 right_, up_, forward_;  // unit
+    double half_width_, half_height_;  // of the frame at distance 1
+    double width_, height_;            // in pixels
+    double lens_radius_, focus_distance_;
+    double shutter_open_, shutter_close_;
+};
+
+/// A camera that looks down on a box from the front right and has all of it in the picture.
+/// \param aspect_ratio width over height of the picture
+/// \throws ArgumentError if the box is empty or not finite
+Camera frame_box(const Box& box, double aspect_ratio = 1);
+
+}  // namespace limn

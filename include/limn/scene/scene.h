@@ -1,0 +1,28 @@
+/// \file
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limn/scene/background.h"
+#include "limn/shape/hittable.h"
+
+namespace limn {
+
+/// A description: objects and a background. Filling it is not thread-safe, reading it is.
+class Scene {
+public:
+    Background background = Background::black();
+    std::string name = "scene";  ///< goes into reports and picture headers
+
+    /// Returns the object's number, counted from 0. \throws ArgumentError if it is null
+    std::size_t add(std::shared_ptr<const Hittable> object);
+    const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }
+    Box bounds() const;
+
+private:
+    std::vector<std::shared_ptr<const Hittable>> objects_;
+};
+
+}  // namespace limn

@@ -1,0 +1,45 @@
+/// \file
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "limn/core/box.h"
+#include "limn/core/ray.h"
+#include "limn/core/surface.h"
+#include "limn/material/material.h"
+#include "limn/record_sink.h"
+
+namespace limn {
+
+/// Where a ray meets a described object.
+struct Hit {
+    double t = kInfinity;                ///< in units of the ray's direction
+    Normal3 normal;                      ///< geometric, outward, unit
+    double u = 0, v = 0;                 ///< surface parameters; see the shape
+    const Material* material = nullptr;  ///< not owning
+    std::uint64_t element = 0;           ///< the primitive's number within the object
+    Normal3 shading_normal{};            ///< interpolated, unit; zero: same as normal
+    std::optional<Uv> uv{};              ///< texture coordinates where they differ from u, v
+    Vec3 position_error{};               ///< bound on the hit point's error along each axis, beyond the rounding of ray.at(t)
+    bool index_matched = false;          ///< the boundary of a medium: light passes straight through
+};
+
+/// What a ray can hit. A subclass needs `bounds` and `hit`; it then works everywhere, through the same BVH as the
+/// built-in shapes. Implementations are immutable once added to a scene, and safe to call from any thread.
+class Hittable {
+public:
+    virtual ~Hittable() = default;
+
+    /// A box around the object over the whole shutter, 0 <= time <= 1.
+    virtual Box bounds() const = 0;
+
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure. Shapes are closed sets:
+    /// a tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses.
+    virtual std::optional<Hit> hit(const Ray& ray) const = 0;
+
+    /// Writes what the object consists of. By default one foreign record, through which the compiled scene calls `hit`.
+    virtual void lower(RecordSink& sink) const;
+};
+
+}  // namespace limn

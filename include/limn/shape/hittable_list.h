@@ -1,0 +1,32 @@
+/// \file
+#pragma once
+
+#include <vector>
+
+#include "limn/shape/hittable.h"
+
+namespace limn {
+
+/// Objects in a row; elements are numbered through: those of the first object, then those of the second, ...
+class HittableList final : public Hittable {
+public:
+    HittableList() = default;
+    /// \throws ArgumentError if an object is null
+    explicit HittableList(std::vector<std::shared_ptr<const Hittable>> objects);
+    void add(std::shared_ptr<const Hittable> object);
+
+    Box bounds() const override { return bounds_; }
+    std::optional<Hit> hit(const Ray& ray) const override;
+    void lower(RecordSink& sink) const override;
+
+private:
+    std::vector<std::shared_ptr<const Hittable>> objects_;
+    std::vector<std::uint64_t> first_element_;
+    std::uint64_t elements_ = 0;
+    Box bounds_;
+};
+
+/// The number of primitives that `object` lowers to: the length of its element numbering.
+std::uint64_t count_elements(const Hittable& object);
+
+}  // namespace limn

@@ -1,0 +1,47 @@
+/// \file
+#pragma once
+
+#include <vector>
+
+#include "limn/shape/hittable.h"
+
+namespace limn {
+
+/// The arrays of an indexed triangle mesh.
+struct MeshData {
+    std::vector<Float3> vertices;  ///< stored as given
+    std::vector<Index3> triangles;
+    std::vector<Float3> normals;   ///< per vertex, of any length but zero; or empty: flat shading
+    std::vector<Float2> uvs;       ///< texture coordinates per vertex; or empty: the weights of vertices b and c
+    std::vector<std::uint32_t> material_slots;  ///< per triangle, which of the mesh's materials; or empty: the first
+    std::vector<std::uint32_t> faces;  ///< per triangle, the number of the polygon it was cut from; or empty: its own
+};
+
+/// A triangle mesh. Its elements are numbered as `data.triangles`. u and v are the weights of the second and third
+/// vertex. Triangles whose area is exactly zero are dropped and counted; tiny and huge ones are ordinary. `hit` tests
+/// every triangle: it is the definition; compile a scene to trace many rays.
+class Mesh final : public Hittable {
+public:
+    /// \throws Error if there is no usable triangle; ArgumentError if an index or material slot is out of range, an
+    /// array has the wrong length, or a value is not finite
+    Mesh(MeshData data, std::shared_ptr<const Material> material);
+    Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials);
+
+    const MeshData& data() const { return *data_; }
+    /// The number of the polygon that triangle `element` was cut from.
+    std::uint32_t face(std::uint64_t element) const;
+    /// Triangles of exactly zero area, which no ray can hit.
+    std::size_t degenerate_triangles() const { return degenerate_; }
+
+    Box bounds() const override { return bounds_; }
+    std::optional<Hit> hit(const Ray& ray) const override;
+    void lower(RecordSink& sink) const override;
+
+private:
+    std::shared_ptr<const MeshData> data_;
+    std::vector<std::shared_ptr<const Material>> materials_;
+    Box bounds_;
+    std::size_t degenerate_ = 0;
+};
+
+}  // namespace limn

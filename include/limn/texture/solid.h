@@ -1,0 +1,20 @@
+/// \file
+#pragma once
+
+#include "limn/texture/texture.h"
+
+namespace limn {
+
+/// The same colour everywhere.
+class SolidColor final : public Texture {
+public:
+    /// \throws ArgumentError if a component is negative or not finite
+    explicit SolidColor(const Color& color);
+    Color value(const Surface&) const override { return color_; }
+    TextureRecord lower(RecordSink& sink) const override;
+
+private:
+    Color color_;
+};
+
+}  // namespace limn
