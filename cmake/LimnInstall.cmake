@@ -1,1 +1,29 @@
-# Install rules and package files.
+# Install rules and package files: find_package(limn CONFIG) and pkg-config. The installed tree may be moved.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/limn")
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/limn" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(TARGETS limn_core limn_io limn_limn EXPORT limn ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT limn NAMESPACE limn:: FILE limn-targets.cmake DESTINATION "${package_dir}")
+if(LIMN_BUILD_APPS)
+    install(TARGETS limn RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+
+configure_package_config_file(
+    "${PROJECT_SOURCE_DIR}/cmake/limn-config.cmake.in" "${PROJECT_BINARY_DIR}/limn-config.cmake"
+    INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/limn-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/limn-config-version.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/LimnFilterIncludes.cmake"
+        DESTINATION "${package_dir}")
+
+# pkg-config finds the prefix from where limn.pc stands.
+file(RELATIVE_PATH prefix_from_pc "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
+set(requires_private "tbb tinyobjloader")
+if(LIMN_WITH_OPENIMAGEIO)
+    string(APPEND requires_private " OpenImageIO")
+endif()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/limn.pc.in" "${PROJECT_BINARY_DIR}/limn.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/limn.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

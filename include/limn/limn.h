@@ -8,6 +8,7 @@
 #include "limn/core/frame.h"
 #include "limn/core/fresnel.h"
 #include "limn/core/math.h"
+#include "limn/core/mesh_view.h"
 #include "limn/core/perlin_lattice.h"
 #include "limn/core/ray.h"
 #include "limn/core/surface.h"

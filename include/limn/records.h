@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "limn/core/box.h"
 #include "limn/core/color.h"
 #include "limn/core/fresnel.h"
+#include "limn/core/mesh_view.h"
 #include "limn/core/perlin_lattice.h"
 #include "limn/core/surface.h"
 #include "limn/core/transform.h"
@@ -93,14 +93,10 @@ struct QuadRecord {
 };
 static_assert(sizeof(QuadRecord) == 80);
 
-/// Views of arrays that the mesh's owner shares; every index is in range.
+/// Arrays that the mesh's owner shares.
 struct MeshRecord {
-    std::span<const Float3> vertices;
-    std::span<const Index3> triangles;
-    std::span<const Float3> normals;               // per vertex, or empty
-    std::span<const Float2> uvs;                   // per vertex, or empty
-    std::span<const std::uint32_t> material_slots;  // per triangle, or empty: all slot 0
-    std::vector<MaterialId> materials;             // by slot
+    MeshView arrays;
+    std::vector<MaterialId> materials;  // by slot
 };
 
 /// A group seen through a matrix; a moving one is interpolated entry by entry.

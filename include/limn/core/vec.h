@@ -110,6 +110,7 @@ constexpr Vec3 abs(const Vec3& a) {
 }
 
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline bool is_finite(const Normal3& a) { return is_finite(Vec3(a)); }
 inline bool is_finite(const Point3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 }  // namespace limn

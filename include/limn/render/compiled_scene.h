@@ -59,7 +59,7 @@ public:
     /// All about the point that `ray` hits. \pre hit was found by closest_hit for this ray in this scene
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
 
-    const SceneStats& stats() const;
+    const SceneStats& stats() const { return stats_; }
     /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
     const std::string& features() const;
     const std::string& name() const;
@@ -68,6 +68,7 @@ public:
 
 private:
     std::unique_ptr<const flat::Scene> scene_;
+    SceneStats stats_;
 };
 
 /// Compiles a description. Pure: the same scene gives the same tables.

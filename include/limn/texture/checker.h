@@ -6,7 +6,7 @@
 namespace limn {
 
 /// Space cut into cubes of side `scale` in two textures by turns: parity of floor(x/scale) + floor(y/scale) +
-/// floor(z/scale) of the world position. From 2^53 cells on every cell is even; NaN is even.
+/// floor(z/scale) of the world position. A coordinate from 2^53 cells on, or NaN, counts as even.
 class Checker final : public Texture {
 public:
     /// \throws ArgumentError if scale is not positive and finite, or a texture is null

@@ -12,7 +12,8 @@ struct ImageTextureOptions {
 };
 
 /// An image over the texture coordinates: u to the right, v upward; (0, 0) is the lower left corner. Texel (i, j from
-/// the top) covers u in [i/W, (i+1)/W), 1-v in [j/H, (j+1)/H). NaN coordinates read as 0.
+/// the top) covers u in [i/W, (i+1)/W), 1-v in [j/H, (j+1)/H); the far edges u = 1 and v = 0 belong to the last column
+/// and row, and `wrap` counts beyond. NaN coordinates read as 0.
 class ImageTexture final : public Texture {
 public:
     /// \throws ArgumentError if the image is empty

@@ -1,6 +1,7 @@
 /// \file
 /// Textures made of Perlin noise at `scale` times the world position. A lattice of one's own, or one from a seed: the
-/// same seed gives the same bits everywhere. All throw ArgumentError if scale is not finite or the lattice is null.
+/// same seed gives the same lattice everywhere. All throw ArgumentError if scale is not finite, the lattice is null, or
+/// a component of the colour is negative or not finite.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,13 @@
+/// \file
+/// SIGINT and SIGTERM: the first asks to stop and save, a second one ends the program at once.
+#pragma once
+
+namespace limn::app {
+
+/// Installs the handlers, also where a parent process had the signals ignored.
+void catch_interrupts();
+
+/// The signal that came, or 0.
+int caught_signal();
+
+}  // namespace limn::app

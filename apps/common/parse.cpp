@@ -1,0 +1,57 @@
+#include "parse.h"
+
+#include <cmath>
+
+#include "limn/core/error.h"
+
+namespace limn::app {
+
+namespace {
+
+// No side is longer than this: a mistyped size is refused at once and not when memory runs out.
+constexpr int kLongestSide = 65536;
+
+}  // namespace
+
+void refuse(std::string_view option, std::string_view text, std::string_view problem) {
+    throw ArgumentError(std::string(option) + " " + std::string(text) + ": " + std::string(problem));
+}
+
+double parse_number(std::string_view option, std::string_view text) {
+    double value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, problem] = std::from_chars(text.data(), last, value);
+    if (problem != std::errc{} || end != last || !std::isfinite(value)) refuse(option, text, "is not a finite number");
+    return value;
+}
+
+std::array<double, 3> parse_triple(std::string_view option, std::string_view text) {
+    std::array<double, 3> values{};
+    std::string_view rest = text;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t comma = rest.find(',');
+        if ((comma == std::string_view::npos) != (i == 2)) refuse(option, text, "is not of the form x,y,z");
+        try {
+            values[i] = parse_number(option, rest.substr(0, comma));
+        } catch (const ArgumentError&) {
+            refuse(option, text, "holds something that is not a finite number");
+        }
+        if (i < 2) rest.remove_prefix(comma + 1);
+    }
+    return values;
+}
+
+Size parse_size(std::string_view option, std::string_view text) {
+    const std::size_t x = text.find('x');
+    if (x == std::string_view::npos) refuse(option, text, "is not of the form WIDTHxHEIGHT");
+    const auto side = [&](std::string_view part) {
+        try {
+            return parse_integer(option, part, 1, kLongestSide);
+        } catch (const ArgumentError&) {
+            refuse(option, text, "each side must be a whole number in 1 .. " + std::to_string(kLongestSide));
+        }
+    };
+    return {side(text.substr(0, x)), side(text.substr(x + 1))};
+}
+
+}  // namespace limn::app

@@ -1,0 +1,41 @@
+/// \file
+/// Values of command-line options, read strictly: the whole text is one finite value within its range. Everything throws
+/// ArgumentError with a message that holds the option and the text. The locale plays no part.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace limn::app {
+
+/// \throws ArgumentError "OPTION TEXT: PROBLEM", always
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view problem);
+
+/// A decimal integer in [lowest, highest].
+template <class Integer>
+Integer parse_integer(std::string_view option, std::string_view text, Integer lowest, Integer highest) {
+    Integer value{};
+    const char* const last = text.data() + text.size();
+    const auto [end, problem] = std::from_chars(text.data(), last, value);
+    const bool overflow = problem == std::errc::result_out_of_range && end == last;
+    if (!overflow && (problem != std::errc{} || end != last)) refuse(option, text, "is not a whole number");
+    if (overflow || value < lowest || value > highest)
+        refuse(option, text, "must lie in " + std::to_string(lowest) + " .. " + std::to_string(highest));
+    return value;
+}
+
+double parse_number(std::string_view option, std::string_view text);
+
+/// Three numbers with commas between them.
+std::array<double, 3> parse_triple(std::string_view option, std::string_view text);
+
+struct Size {
+    int width = 0, height = 0;
+};
+/// WIDTHxHEIGHT in pixels.
+Size parse_size(std::string_view option, std::string_view text);
+
+}  // namespace limn::app

@@ -1,0 +1,36 @@
+/// \file
+/// How every program reads its arguments, speaks and ends.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace limn::app {
+
+// Exit status.
+inline constexpr int kDone = 0;
+inline constexpr int kFailed = 1;       ///< something is wrong in files, memory or environment
+inline constexpr int kBadArguments = 2;  ///< something is wrong in the arguments alone
+
+/// Speaks on stderr, each line with the program's name before it.
+struct Console {
+    std::string program;
+    bool quiet = false;  ///< errors only
+
+    void note(const std::string& message) const;
+    void error(const std::string& message) const;
+};
+
+/// Parses into the variables that the app's options are bound to.
+/// \returns false if the user asked for help, which is then on stdout
+/// \throws ArgumentError for bad usage
+bool parse_arguments(CLI::App& app, int argc, const char* const* argv);
+
+/// Runs `body` and turns what it throws into a message on stderr and an exit status.
+int run_program(const std::string& program, const std::function<int()>& body) noexcept;
+
+}  // namespace limn::app

@@ -1,0 +1,98 @@
+#include "render_job.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+#include "interrupt.h"
+#include "limn/core/error.h"
+#include "limn/io/image_io.h"
+#include "limn/render/compiled_scene.h"
+#include "limn/render/render.h"
+#include "progress_bar.h"
+#include "report.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+void check_outputs(const RenderJob& job, const RenderOptions& options) {
+    std::vector<std::string> outputs = options.outputs;
+    outputs.push_back(options.report);
+    check_distinct(outputs, job.inputs);
+    for (const std::string& path : options.outputs) check_writable(path);
+    if (!options.report.empty()) check_text_path(options.report);
+}
+
+// An argument that a library function refuses here came out of a file, not from the command line.
+template <class Step>
+auto from_files(const Step& step) {
+    try {
+        return step();
+    } catch (const ArgumentError& e) {
+        throw Error(e.what());
+    }
+}
+
+// Saves each output whatever becomes of the others: hours of rendering may be in them. Returns whether all were saved.
+bool save_all(const RenderResult& result, const RenderSettings& settings, const RenderOptions& options,
+              const Console& console) {
+    const SaveOptions save{.half = options.half, .facts = picture_facts(result, settings, options.command_line)};
+    bool all = true;
+    for (const std::string& path : options.outputs) try {
+            save_image(result.image, path, save);
+        } catch (const Error& e) {
+            console.error(e.what());
+            all = false;
+        }
+    return all;
+}
+
+std::string summary(const RenderResult& result, const RenderOptions& options) {
+    const RenderReport& r = result.report;
+    const std::string error =
+        result.error.reason.empty() ? fmt::format("relMSE {:.2g}", result.error.estimate) : result.error.reason;
+    return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}", r.complete ? "" : "interrupted; ",
+                       fmt::join(options.outputs, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds,
+                       error);
+}
+
+int interrupted_status() { return 128 + caught_signal(); }
+
+}  // namespace
+
+int run_render_job(const RenderJob& job, const RenderOptions& options, const Console& console) {
+    check_camera_alone(options.camera);
+    check_outputs(job, options);
+    catch_interrupts();
+
+    Figure figure = from_files(job.make);
+    figure.scene.name = figure.name;
+    apply(options, figure);
+    CameraRays(figure.camera, figure.settings.width, figure.settings.height);  // refuses an impossible camera
+    const CompiledScene scene = from_files([&] { return compile(figure.scene); });
+
+    ProgressBar bar(!options.quiet && stderr_is_terminal());
+    figure.settings.progress = [&bar](const Progress& progress) {
+        bar.update(progress);
+        return caught_signal() == 0;
+    };
+    const RenderResult result = render(scene, figure.camera, figure.settings);
+    bar.clear();
+    if (result.report.samples_per_pixel == 0) {
+        console.note("interrupted before the first sample: nothing was saved");
+        return interrupted_status();
+    }
+
+    const auto begin = std::chrono::steady_clock::now();
+    const bool saved = save_all(result, figure.settings, options, console);
+    const std::chrono::duration<double> save_seconds = std::chrono::steady_clock::now() - begin;
+    if (saved) console.note(summary(result, options));
+    if (!options.report.empty()) write_text(options.report, report_json(result, save_seconds.count()));
+    if (!saved) return kFailed;
+    return result.report.complete ? kDone : interrupted_status();
+}
+
+}  // namespace limn::app

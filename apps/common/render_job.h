@@ -1,0 +1,27 @@
+/// \file
+/// The whole way from options to files.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "figure.h"
+#include "program.h"
+#include "render_options.h"
+
+namespace limn::app {
+
+struct RenderJob {
+    /// Reads files and describes the scene; whatever it throws counts as a fault of those files.
+    std::function<Figure()> make;
+    std::vector<std::string> inputs;  ///< files that `make` reads, which no output may replace; empty names do not count
+};
+
+/// Checks everything that can be known, makes the figure, renders it, saves every output, then the report. Nothing is
+/// created before there are pixels to save. SIGINT and SIGTERM end the render early; what there is is saved.
+/// \returns the exit status
+/// \throws ArgumentError, FileError, Error for what is found wrong before rendering
+int run_render_job(const RenderJob& job, const RenderOptions& options, const Console& console);
+
+}  // namespace limn::app

@@ -1,0 +1,54 @@
+/// \file
+/// The options that `limn render` and the figures share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "figure.h"
+#include "parse.h"
+
+namespace CLI {
+class App;
+}
+
+namespace limn::app {
+
+struct CameraOptions {
+    std::optional<Point3> look_from, look_at;
+    std::optional<Vec3> up;
+    std::optional<double> vertical_fov, aperture_angle, focus_distance;
+};
+
+/// What the command line says; empty where it says nothing.
+struct RenderOptions {
+    std::vector<std::string> outputs;
+    std::optional<Size> size;
+    std::optional<int> samples_per_pixel, threads, max_depth;
+    std::optional<std::uint64_t> seed;
+    std::optional<Estimator> estimator;
+    CameraOptions camera;
+    bool no_antialias = false;
+    bool half = false;
+    bool quiet = false;
+    std::string report;        ///< path, "-" or empty
+    std::string command_line;  ///< for the picture's header
+};
+
+/// Adds the options to `app`, bound to `options`, which must outlive the parsing. A value that cannot be right is refused
+/// while parsing, with an ArgumentError that names it; so are the options that later versions will bring.
+void add_render_options(CLI::App& app, RenderOptions& options);
+
+/// Replaces what the command line names.
+void apply(const RenderOptions& options, Figure& figure);
+
+/// Refuses a camera that is impossible whatever the figure: eye equal to target, up along the view.
+/// \throws ArgumentError
+void check_camera_alone(const CameraOptions& options);
+
+/// The arguments as one line that a shell would read back.
+std::string command_line(int argc, const char* const* argv);
+
+}  // namespace limn::app

@@ -1,0 +1,93 @@
+#include "report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace limn::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMetric = "relMSE";
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json error_json(const ErrorEstimate& error) {
+    return {{"metric", kMetric},
+            {"estimate", number(error.estimate)},
+            {"ci95_low", number(error.ci95_low)},
+            {"ci95_high", number(error.ci95_high)},
+            {"target", nullptr},   // nobody can ask for one yet
+            {"reached", nullptr},
+            {"max_sample_share", number(error.max_sample_share)},
+            {"reason", error.reason.empty() ? Json(nullptr) : Json(error.reason)}};
+}
+
+Json words(const std::string& text) {
+    Json list = Json::array();
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) list.push_back(word);
+    return list;
+}
+
+}  // namespace
+
+std::string report_json(const RenderResult& result, double save_seconds) {
+    const RenderReport& r = result.report;
+    const Json json = {
+        {"scene", r.scene},
+        {"width", r.width},
+        {"height", r.height},
+        {"seed", r.seed},
+        {"threads", r.threads},
+        {"spp", r.samples_per_pixel},
+        {"seconds", {{"compile", r.compile_seconds}, {"render", r.render_seconds}, {"save", save_seconds}}},
+        {"rays", r.rays},
+        {"mrays_per_second", number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
+        {"error", error_json(result.error)},
+        {"nonfinite_samples", r.nonfinite_samples},
+        {"features", words(r.features)},
+        {"memory_bytes", r.memory_bytes},
+        {"version", version()},
+    };
+    // Names of files need not be UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result,
+                                                               const RenderSettings& settings,
+                                                               const std::string& command_line) {
+    const RenderReport& r = result.report;
+    const ErrorEstimate& e = result.error;
+    const auto text = [](const auto& value) { return fmt::format("{}", value); };
+    std::vector<std::pair<std::string, std::string>> facts = {
+        {"scene", r.scene},
+        {"width", text(r.width)},
+        {"height", text(r.height)},
+        {"seed", text(r.seed)},
+        {"spp", text(r.samples_per_pixel)},
+        {"max_depth", r.max_depth == kUnlimitedDepth ? "unlimited" : text(r.max_depth)},
+        {"antialias", settings.antialias ? "yes" : "no"},
+        {"estimator", settings.estimator == Estimator::path ? "path" : "naive"},
+        {"seconds.compile", text(r.compile_seconds)},
+        {"seconds.render", text(r.render_seconds)},
+        {"error.metric", kMetric},
+    };
+    if (e.reason.empty()) {
+        facts.emplace_back("error.estimate", text(e.estimate));
+        facts.emplace_back("error.ci95_low", text(e.ci95_low));
+        facts.emplace_back("error.ci95_high", text(e.ci95_high));
+    } else {
+        facts.emplace_back("error.reason", e.reason);
+    }
+    facts.emplace_back("complete", r.complete ? "yes" : "no");
+    facts.emplace_back("version", version());
+    facts.emplace_back("command_line", command_line);
+    return facts;
+}
+
+}  // namespace limn::app

@@ -1,0 +1,20 @@
+/// \file
+/// Text results: reports and tables. The path "-" is stdout.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limn::app {
+
+/// Throws the FileError that write_text would throw for a reason that can be known beforehand.
+void check_text_path(const std::string& path);
+
+/// Writes a file that appears whole or not at all, or stdout. \throws FileError
+void write_text(const std::string& path, std::string_view text);
+
+/// \throws ArgumentError if two of the outputs, or an output and an input, are the same file; "-" and "" do not count
+void check_distinct(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+}  // namespace limn::app

@@ -1,0 +1,10 @@
+// The subcommands. Each takes the arguments from its own name on, and returns the exit status; what it throws becomes
+// one (see program.h).
+#pragma once
+
+namespace limn::app {
+
+int render_command(int argc, const char* const* argv);
+int compare_command(int argc, const char* const* argv);
+
+}  // namespace limn::app

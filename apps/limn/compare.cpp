@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "limn/core/error.h"
+#include "limn/image/compare.h"
+#include "limn/io/image_io.h"
+#include "program.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+struct Arguments {
+    std::string test, reference, reference_b, json;
+};
+
+ImageMetrics measure(const Arguments& a) {
+    const Image test = load_image(a.test);
+    const Image reference = load_image(a.reference);
+    try {
+        if (a.reference_b.empty()) return compare_images(test, reference);
+        return compare_images(test, reference, load_image(a.reference_b));
+    } catch (const ArgumentError& e) {
+        throw Error(a.test + ": " + e.what());  // the sizes come out of the files
+    }
+}
+
+std::string table(const ImageMetrics& m) {
+    std::string text;
+    const auto row = [&text](const char* name, const std::string& value) {
+        text += fmt::format("{:<24}{}\n", name, value);
+    };
+    const auto number = [](double value) { return std::isnan(value) ? "undefined" : fmt::format("{:.6g}", value); };
+    row("relMSE", m.valid ? number(m.relative_mse) : "invalid");
+    row("MSE", number(m.mse));
+    row("SMAPE", number(m.smape));
+    row("PSNR", number(m.psnr_srgb) + " dB");
+    row("largest relative error",
+        fmt::format("{} at pixel ({}, {})", number(m.largest_relative), m.largest_x, m.largest_y));
+    row("share of worst 0.1 %", number(m.worst_share));
+    row("non-finite values", fmt::format("{} in the test, {} in the reference", m.nonfinite_test, m.nonfinite_reference));
+    if (m.has_reference_error) {
+        row("reference's own relMSE", number(m.reference_relative_mse));
+        row("corrected relMSE", number(m.corrected_relative_mse));
+        row("reference good enough", m.reference_too_noisy ? "no: its own error is over a tenth of relMSE" : "yes");
+    }
+    return text;
+}
+
+// Not-a-number and infinity, which the PSNR of equal images is, are null.
+std::string json(const ImageMetrics& m, const Arguments& a) {
+    const auto number = [](double value) {
+        return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+    };
+    nlohmann::ordered_json json = {
+        {"test", a.test},
+        {"reference", a.reference},
+        {"valid", m.valid},
+        {"relmse", number(m.relative_mse)},
+        {"mse", number(m.mse)},
+        {"smape", number(m.smape)},
+        {"psnr", number(m.psnr_srgb)},
+        {"largest_relative_error", {{"value", number(m.largest_relative)}, {"x", m.largest_x}, {"y", m.largest_y}}},
+        {"worst_share", number(m.worst_share)},
+        {"nonfinite", {{"test", m.nonfinite_test}, {"reference", m.nonfinite_reference}}},
+    };
+    if (m.has_reference_error) {
+        json["reference_b"] = a.reference_b;
+        json["reference_relmse"] = number(m.reference_relative_mse);
+        json["corrected_relmse"] = number(m.corrected_relative_mse);
+        json["reference_too_noisy"] = m.reference_too_noisy;
+    }
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int compare_command(int argc, const char* const* argv) {
+    CLI::App cli("Prints the error of an image against a reference, or against two independent halves of one, whose own "
+                 "error is then subtracted.",
+                 "limn compare");
+    Arguments a;
+    cli.add_option("TEST", a.test, "The image in question")->required();
+    cli.add_option("REF", a.reference, "The reference, or one half of it")->required();
+    cli.add_option("REF_B", a.reference_b, "The other half of the reference");
+    cli.add_option("--json", a.json, "Write JSON too; - for standard output, in place of the table")->type_name("FILE");
+    if (!parse_arguments(cli, argc, argv)) return kDone;
+    check_distinct({a.json}, {a.test, a.reference, a.reference_b});
+    if (!a.json.empty()) check_text_path(a.json);
+
+    const ImageMetrics metrics = measure(a);
+    if (a.json != "-") write_text("-", table(metrics));
+    if (!a.json.empty()) write_text(a.json, json(metrics, a));
+    if (metrics.valid) return kDone;
+    throw Error(fmt::format("the error is invalid: {} values are not finite",
+                            metrics.nonfinite_test + metrics.nonfinite_reference));
+}
+
+}  // namespace limn::app

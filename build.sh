@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Everything that is done with limn, on a fresh Debian 12 too: installs what is missing, builds, runs.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+usage() {
+    cat >&2 <<'TEXT'
+usage: ./build.sh COMMAND [--full]
+
+  figures      render the eighteen figures to build/figures/ as EXR and PNG
+  test         build and run the whole suite
+  convergence  measure speed against error: docs/speed-against-error.md
+  accuracy     the exactness report
+  bench        rays a second, scaling, instruction counts
+  mutants      faults that the suite must catch
+  docs         the API reference
+
+--full takes the longer form where there is one.
+TEXT
+    exit 2
+}
+
+# install_missing PACKAGE...: those that are not there yet; asks nothing. Other systems than Debian must have them.
+install_missing() {
+    local missing=() package
+    command -v dpkg-query >/dev/null || return 0
+    for package in "$@"; do
+        [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" == installed ]] ||
+            missing+=("$package")
+    done
+    [[ ${#missing[@]} -gt 0 ]] || return 0
+    echo "installing: ${missing[*]}" >&2
+    local as_root=()
+    [[ $EUID -eq 0 ]] || as_root=(sudo)
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2 </dev/null
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -q --no-install-recommends "${missing[@]}" >&2 </dev/null
+}
+
+# Compiler, what the libraries link, and what programs and suite need: the default targets are all of these.
+build() {
+    install_missing \
+        g++ cmake ninja-build pkg-config \
+        libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev librandom123-dev \
+        libcli11-dev libfmt-dev nlohmann-json3-dev \
+        catch2 libboost-dev xplanet-images
+    cmake --preset release
+    cmake --build --preset release
+}
+
+figures() {
+    build
+    local out=build/figures program name started failed=0
+    mkdir -p "$out"
+    rm -f "$out"/fig*
+    for program in build/release/bin/fig[0-9][0-9]_*; do
+        name=$(basename "$program")
+        started=$EPOCHREALTIME
+        if "$program" --quiet -o "$out/$name.exr" -o "$out/$name.png" --report "$out/$name.json" </dev/null; then
+            awk -v n="$name" -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%-28s %7.1f s\n", n, b - a }'
+        else
+            echo "$name failed, exit status $?" >&2
+            failed=1
+        fi
+    done
+    local exr png
+    exr=$(find "$out" -name 'fig*.exr' -size +0 | wc -l)
+    png=$(find "$out" -name 'fig*.png' -size +0 | wc -l)
+    echo "$exr EXR and $png PNG in $out"
+    [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
+}
+
+not_yet() {
+    echo "build.sh: '$1' comes with a later issue; there is nothing to run yet" >&2
+    exit 2
+}
+
+[[ $# -ge 1 ]] || usage
+command=$1
+shift
+full=()
+for option in "$@"; do
+    [[ $option == --full ]] || usage
+    full=(--full)
+    export LIMN_FULL=1
+done
+
+case $command in
+    figures) figures ;;
+    test)
+        build
+        ctest --preset release
+        ;;
+    convergence)
+        build
+        install_missing python3 python3-matplotlib python3-numpy
+        python3 apps/bench/convergence.py "${full[@]}"
+        ;;
+    accuracy | bench | mutants | docs) not_yet "$command" ;;
+    *) usage ;;
+esac

@@ -1,0 +1,14 @@
+// "Metal Material": the ball of figure 10, brushed.
+#include "figures.h"
+#include "scene_parts.h"
+
+namespace limn::figures {
+
+Figure fig11_metal(const FigureInputs&) {
+    return {.name = __func__,
+            .scene = ball_on_checker(std::make_shared<Metal>(Color{.7, .6, .5}, .3)),
+            .camera = ball_on_checker_camera(),
+            .settings = {.samples_per_pixel = 300}};
+}
+
+}  // namespace limn::figures

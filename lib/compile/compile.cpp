@@ -1,0 +1,152 @@
+#include "compile/compile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "compile/groups.h"
+#include "compile/lights.h"
+
+namespace limn::compiler {
+
+namespace {
+
+// Still spheres lose their second centre; each kind keeps its order, so that a range stays a range.
+void split_spheres(const std::vector<SphereRecord>& spheres, std::vector<PrimitiveRange>& ranges, flat::Scene& out) {
+    std::vector<std::uint32_t> row(spheres.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const SphereRecord& s = spheres[i];
+        if (s.center0 == s.center1) {
+            row[i] = static_cast<std::uint32_t>(out.spheres.size());
+            out.spheres.push_back({s.center0, s.radius, s.material});
+        } else {
+            row[i] = static_cast<std::uint32_t>(out.moving_spheres.size());
+            out.moving_spheres.push_back(s);
+        }
+    }
+    for (PrimitiveRange& range : ranges)
+        if (range.kind == PrimitiveKind::sphere || range.kind == PrimitiveKind::moving_sphere)
+            range.first_row = row[range.first_row];
+}
+
+flat::Instance pack(const InstanceRecord& record) {
+    flat::Instance instance{record.world_from_object0, record.world_from_object1, {}, record.group, record.moving};
+    if (!record.moving) instance.object_from_world = inverse(record.world_from_object0);
+    return instance;
+}
+
+void move_tables(SceneRecords&& records, flat::Scene& out) {
+    for (const GroupRecord& group : records.groups) {
+        flat::Group packed;
+        packed.first_range = static_cast<std::uint32_t>(out.ranges.size());
+        packed.range_count = static_cast<std::uint32_t>(group.ranges.size());
+        out.groups.push_back(packed);
+        out.ranges.insert(out.ranges.end(), group.ranges.begin(), group.ranges.end());
+    }
+    split_spheres(records.spheres, out.ranges, out);
+    out.primitives = records.groups.front().primitives;
+    out.triangles = std::move(records.triangles);
+    out.quads = std::move(records.quads);
+    out.meshes = std::move(records.meshes);
+    out.foreign = std::move(records.foreign);
+    out.medium_shapes = std::move(records.media);
+    for (const InstanceRecord& instance : records.instances) out.instances.push_back(pack(instance));
+    out.materials = std::move(records.materials);
+    out.textures = std::move(records.textures);
+    out.images = std::move(records.images);
+    out.lattices = std::move(records.lattices);
+    out.kept = std::move(records.kept);
+}
+
+void gather_features(flat::Scene& s) {
+    flat::Features& f = s.features;
+    f.spheres = !s.spheres.empty();
+    f.moving_spheres = !s.moving_spheres.empty();
+    f.triangles = !s.triangles.empty();
+    f.quads = !s.quads.empty();
+    f.meshes = !s.meshes.empty();
+    f.foreign_shapes = !s.foreign.empty();
+    f.instances = !s.instances.empty();
+    for (const flat::Instance& instance : s.instances) f.moving_instances |= instance.moving;
+    f.media = !s.media.empty();
+    for (const flat::Mesh& mesh : s.meshes) f.smooth_normals |= !mesh.arrays.normals.empty();
+    for (const TextureRecord& t : s.textures) {
+        f.textures |= t.kind != TextureKind::solid;
+        f.foreign_textures |= t.kind == TextureKind::foreign;
+    }
+    for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == MaterialKind::foreign;
+    f.lights = !s.lights.empty();
+    f.background = !is_black(s.background_bottom) || !is_black(s.background_top);
+
+    const std::pair<bool, const char*> names[] = {{f.spheres, "sphere"},
+                                                  {f.moving_spheres, "moving-sphere"},
+                                                  {f.triangles, "triangle"},
+                                                  {f.quads, "quad"},
+                                                  {f.meshes, "mesh"},
+                                                  {f.smooth_normals, "smooth-normals"},
+                                                  {f.instances, "instance"},
+                                                  {f.moving_instances, "moving-instance"},
+                                                  {f.foreign_shapes, "foreign-shape"},
+                                                  {f.media, "medium"},
+                                                  {f.textures, "texture"},
+                                                  {f.foreign_textures, "foreign-texture"},
+                                                  {f.foreign_materials, "foreign-material"},
+                                                  {f.lights, "light"},
+                                                  {f.background, "background"}};
+    for (const auto& [present, name] : names) {
+        if (!present) continue;
+        if (!s.feature_names.empty()) s.feature_names += ' ';
+        s.feature_names += name;
+    }
+}
+
+void count_unassigned(flat::Scene& s) {
+    const auto missing = [](const auto& rows) {
+        return static_cast<std::size_t>(
+            std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.material == MaterialId::none; }));
+    };
+    s.unassigned = missing(s.spheres) + missing(s.moving_spheres) + missing(s.triangles) + missing(s.quads);
+    for (const flat::Mesh& mesh : s.meshes)
+        s.unassigned += static_cast<std::size_t>(std::count(mesh.materials.begin(), mesh.materials.end(), MaterialId::none));
+}
+
+std::size_t memory_of(const flat::Scene& s) {
+    const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+    std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
+                      bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
+                      bytes(s.references) + bytes(s.nodes) + bytes(s.first_of_object) + bytes(s.medium_shapes) +
+                      bytes(s.media) + bytes(s.lights) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept);
+    for (const flat::Mesh& mesh : s.meshes)
+        sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() + mesh.arrays.normals.size_bytes() +
+               mesh.arrays.uvs.size_bytes() + mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials);
+    for (const auto& image : s.images) sum += image->values().size_bytes();
+    return sum + s.lattices.size() * sizeof(PerlinLattice);
+}
+
+}  // namespace
+
+flat::Scene flatten(const limn::Scene& scene) {
+    const auto start = std::chrono::steady_clock::now();
+    RecordSink sink;
+    flat::Scene out;
+    for (const auto& object : scene.objects()) {
+        out.first_of_object.push_back(sink.primitives());
+        object->lower(sink);
+    }
+    move_tables(std::move(sink).take(), out);
+    if (!out.foreign.empty())  // their records point into the described objects
+        for (const auto& object : scene.objects()) out.kept.push_back(object);
+    out.name = scene.name;
+    out.background_bottom = scene.background.bottom;
+    out.background_top = scene.background.top;
+    build_trees(out);
+    place_media(out);
+    collect_lights(out);
+    gather_features(out);
+    count_unassigned(out);
+    out.memory_bytes = memory_of(out);
+    out.compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+}  // namespace limn::compiler

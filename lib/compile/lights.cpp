@@ -1,0 +1,183 @@
+#include "compile/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/reach.h"
+#include "core/hit_error.h"
+#include "core/mesh_triangle.h"
+#include "core/object_ray.h"
+
+namespace limn::compiler {
+
+namespace {
+
+// A brightness that stands for the whole texture when lights are weighed against each other. Zero only where all is
+// black; a wrong guess costs noise, not bias.
+double typical_brightness(const flat::Scene& scene, TextureId id) {
+    const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
+    switch (t.kind) {
+        case TextureKind::solid: return max_component(t.color);
+        case TextureKind::checker:
+            return (typical_brightness(scene, t.even) + typical_brightness(scene, t.odd)) / 2;
+        case TextureKind::image: {
+            const auto values = scene.images[t.data]->values();
+            double sum = 0;
+            for (const float v : values) sum += v;
+            return sum / static_cast<double>(values.size()) * 3;
+        }
+        case TextureKind::noise:
+        case TextureKind::turbulence:
+        case TextureKind::marble: return max_component(t.color) / 2;
+        case TextureKind::foreign: return 1;
+    }
+    return 1;
+}
+
+// How the composed matrix changes lengths, if it changes all alike; else nothing.
+std::optional<double> uniform_scale(const Transform& m) {
+    const Vec3 x{m.rows[0][0], m.rows[1][0], m.rows[2][0]}, y{m.rows[0][1], m.rows[1][1], m.rows[2][1]},
+        z{m.rows[0][2], m.rows[1][2], m.rows[2][2]};
+    const double s = dot(x, x);
+    const double off = std::max({std::abs(dot(y, y) - s), std::abs(dot(z, z) - s), std::abs(dot(x, y)),
+                                 std::abs(dot(y, z)), std::abs(dot(z, x))});
+    // Products of rotations are off by their rounding.
+    return off <= 1e-12 * s ? std::optional(std::sqrt(s)) : std::nullopt;
+}
+
+class LightCollector {
+public:
+    explicit LightCollector(flat::Scene& scene) : scene_(scene) {
+        for (const MaterialRecord& m : scene.materials)
+            brightness_.push_back(m.kind == MaterialKind::diffuse_light ? typical_brightness(scene, m.texture) : 0);
+        emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
+        visit(GroupId::root, 0, Transform{});
+        weigh();
+    }
+
+private:
+    double brightness(MaterialId id) const {
+        return id == MaterialId::none ? 0 : brightness_[static_cast<std::size_t>(id)];
+    }
+
+    MaterialId material_of(const PrimitiveRange& range, std::uint64_t element) const {
+        const auto row = range.first_row + element;
+        switch (range.kind) {
+            case PrimitiveKind::sphere: return scene_.spheres[row].material;
+            case PrimitiveKind::moving_sphere: return scene_.moving_spheres[row].material;
+            case PrimitiveKind::triangle: return scene_.triangles[row].material;
+            case PrimitiveKind::quad: return scene_.quads[row].material;
+            case PrimitiveKind::mesh: {
+                const flat::Mesh& mesh = scene_.meshes[range.first_row];
+                return mesh.materials[mesh.arrays.material_slots.empty() ? 0 : mesh.arrays.material_slots[element]];
+            }
+            case PrimitiveKind::instance:
+            case PrimitiveKind::medium:
+            case PrimitiveKind::foreign: break;
+        }
+        return MaterialId::none;
+    }
+
+    bool any_emits(const PrimitiveRange& range) const {
+        if (range.kind == PrimitiveKind::mesh) {
+            const auto& ids = scene_.meshes[range.first_row].materials;
+            return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) { return brightness(id) > 0; });
+        }
+        for (std::uint64_t i = 0; i < range.count; ++i)
+            if (brightness(material_of(range, i)) > 0) return true;
+        return false;
+    }
+
+    void visit(GroupId id, std::uint64_t first_number, const Transform& world_from_group) {
+        if (!emits_[static_cast<std::size_t>(id)]) return;
+        const flat::Group group = flat::group_at(scene_, id);
+        for (std::uint32_t i = 0; i < group.range_count; ++i) {
+            const PrimitiveRange range = scene_.ranges[group.first_range + i];
+            const std::uint64_t number = first_number + range.first_number;
+            if (range.kind == PrimitiveKind::instance) {
+                const flat::Instance& instance = scene_.instances[range.first_row];
+                if (!instance.moving) visit(instance.group, number, world_from_group * instance.world_from_object0);
+            } else if (range.kind != PrimitiveKind::medium && any_emits(range)) {
+                for (std::uint64_t e = 0; e < range.count; ++e) add(range, e, number + e, world_from_group);
+            }
+        }
+    }
+
+    void add(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number, const Transform& m) {
+        flat::Light light;
+        light.number = number;
+        light.material = material_of(range, element);
+        if (!(brightness(light.material) > 0)) return;
+        const auto row = range.first_row + element;
+        const auto sphere = [&](const Point3& center, const Vec3& motion, double radius) {
+            const std::optional<double> scale = uniform_scale(m);
+            if (!scale) return false;
+            light.kind = flat::LightKind::sphere;
+            light.origin = transform_point(m, center);
+            light.edge_u = transform_vector(m, motion);
+            light.radius = *scale * std::abs(radius);
+            light.position_error = sphere_error(light.origin, light.radius);
+            return true;
+        };
+        const auto planar = [&](flat::LightKind kind, const Point3& origin, const Vec3& u, const Vec3& v) {
+            light.kind = kind;
+            light.origin = transform_point(m, origin);
+            light.edge_u = transform_vector(m, u);
+            light.edge_v = transform_vector(m, v);
+            light.position_error = planar_error(light.origin, light.edge_u, light.edge_v);
+            return length_squared(cross(light.edge_u, light.edge_v)) > 0;
+        };
+        bool usable = false;
+        if (range.kind == PrimitiveKind::sphere) {
+            const flat::Sphere& s = scene_.spheres[row];
+            usable = sphere(s.center, {}, s.radius);
+        } else if (range.kind == PrimitiveKind::moving_sphere) {
+            const flat::MovingSphere& s = scene_.moving_spheres[row];
+            usable = sphere(s.center0, s.center1 - s.center0, s.radius);
+        } else if (range.kind == PrimitiveKind::quad) {
+            const flat::Quad& q = scene_.quads[row];
+            usable = planar(flat::LightKind::quad, q.corner, q.edge_u, q.edge_v);
+        } else if (range.kind == PrimitiveKind::triangle) {
+            const flat::Triangle& t = scene_.triangles[row];
+            usable = planar(flat::LightKind::triangle, t.a, t.b - t.a, t.c - t.a);
+        } else {
+            const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
+            usable = !is_degenerate(v) && planar(flat::LightKind::triangle, v.a, v.b - v.a, v.c - v.a);
+        }
+        if (!usable) return;
+        // An object-space bound and the composition of the matrices, seen in world space.
+        light.position_error = transformed_error(m, inverse(m), light.origin, light.position_error);
+        scene_.lights.push_back(light);
+    }
+
+    static double area(const flat::Light& light) {
+        if (light.kind == flat::LightKind::sphere) return 4 * kPi * light.radius * light.radius;
+        const double parallelogram = length(cross(light.edge_u, light.edge_v));
+        return light.kind == flat::LightKind::quad ? parallelogram : parallelogram / 2;
+    }
+
+    // Half by power, half alike: power alone starves a weak light in the places that it is closest to.
+    void weigh() {
+        double total = 0;
+        for (const flat::Light& light : scene_.lights) total += brightness(light.material) * area(light);
+        const auto count = static_cast<double>(scene_.lights.size());
+        double below = 0;
+        for (flat::Light& light : scene_.lights) {
+            const double share = brightness(light.material) * area(light) / total;
+            light.pick = std::isfinite(share) ? (share + 1 / count) / 2 : 1 / count;
+            light.pick_below = below;
+            below += light.pick;
+        }
+        for (flat::Light& light : scene_.lights) light.pick /= below, light.pick_below /= below;
+    }
+
+    flat::Scene& scene_;
+    std::vector<double> brightness_;  // by material; 0: does not emit
+    std::vector<bool> emits_;         // by group
+};
+
+}  // namespace
+
+void collect_lights(flat::Scene& scene) { LightCollector{scene}; }
+
+}  // namespace limn::compiler

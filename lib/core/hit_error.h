@@ -1,0 +1,48 @@
+// Bounds on how far a computed hit point may lie from its surface, plus what the next intersection rounds: a ray that
+// starts as far off the surface is on a known side of it. The bounds are the same along every axis, for an intersection
+// in a rotated or sheared frame mixes the axes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "limn/core/math.h"
+#include "limn/core/transform.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+inline double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+inline double largest(const Point3& p) { return largest(p - Point3{}); }
+inline Vec3 along_every_axis(double bound) { return {bound, bound, bound}; }
+
+// corner + u edge_u + v edge_v: five roundings, and the sheared test's own, of the same magnitudes.
+inline Vec3 planar_error(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v) {
+    return along_every_axis(gamma(16) * (largest(corner) + largest(edge_u) + largest(edge_v)));
+}
+
+// A point projected back onto the sphere.
+inline Vec3 sphere_error(const Point3& center, double radius) {
+    return along_every_axis(gamma(16) * (largest(center) + std::abs(radius)));
+}
+
+// origin + t direction, where nothing better is known.
+inline Vec3 ray_error(const Ray& ray, double t) {
+    return along_every_axis(gamma(16) * (largest(ray.origin) + std::abs(t) * largest(ray.direction)));
+}
+
+inline double norm(const Transform& m) {
+    double sum = 0;
+    for (const auto& row : m.rows) sum = std::max(sum, std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]));
+    return sum;
+}
+
+// An object-space bound seen in world space, plus the rounding of the way out and of the next ray's way in.
+inline Vec3 transformed_error(const Transform& world_from_object, const Transform& object_from_world,
+                              const Point3& world_position, const Vec3& object_error) {
+    const double magnitude = largest(world_position) + largest(world_from_object.translation());
+    const double way_in = gamma(16) * norm(object_from_world) * magnitude;
+    return along_every_axis(norm(world_from_object) * (largest(object_error) + way_in) + gamma(16) * magnitude);
+}
+
+}  // namespace limn

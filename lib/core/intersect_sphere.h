@@ -1,0 +1,67 @@
+// Ray against sphere, one definition for the described and the compiled world.
+#pragma once
+
+#include <cmath>
+
+#include "limn/core/ray.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+struct SphereRoots {
+    bool any = false;
+    double near = 0, far = 0;  // near <= far
+};
+
+// The discriminant comes from the vector between the sphere's centre and the ray's point closest to it, so that it
+// does not cancel for small distant spheres; the root that would cancel comes from the product of the roots. Haines,
+// Guenther, Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, ch. 7.
+inline SphereRoots sphere_roots_in_range(const Vec3& from_center, double radius, const Vec3& direction) {
+    const double a = dot(direction, direction);
+    const double t_foot = -dot(from_center, direction) / a;
+    const Vec3 foot = from_center + t_foot * direction;
+    const double discriminant = radius * radius - dot(foot, foot);
+    if (!(discriminant >= 0)) return {};
+    const double half_chord = std::sqrt(discriminant / a);
+    const double outer = t_foot + std::copysign(half_chord, t_foot);
+    if (outer == 0) return {true, 0, 0};  // tangent at the origin
+    const double inner = (dot(from_center, from_center) - radius * radius) / (a * outer);
+    return outer < inner ? SphereRoots{true, outer, inner} : SphereRoots{true, inner, outer};
+}
+
+inline SphereRoots sphere_roots(const Point3& center, double radius, const Ray& ray) {
+    const Vec3 from_center = ray.origin - center;
+    const double squares[3] = {dot(ray.direction, ray.direction), dot(from_center, from_center), radius * radius};
+    const auto safe = [](double x) { return x > 1e-140 && x < 1e140; };
+    if (safe(squares[0]) && (safe(squares[1]) || from_center == Vec3{}) && safe(squares[2]))
+        return sphere_roots_in_range(from_center, radius, ray.direction);
+    // Squares would overflow or underflow: scale lengths and the direction by powers of two, which is exact.
+    const auto exponent = [](const Vec3& v) {
+        int e = 0;
+        std::frexp(std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z))), &e);
+        return e;
+    };
+    const auto scaled = [](const Vec3& v, int e) {
+        return Vec3{std::ldexp(v.x, -e), std::ldexp(v.y, -e), std::ldexp(v.z, -e)};
+    };
+    int length_exponent = 0;
+    std::frexp(radius, &length_exponent);
+    length_exponent = from_center == Vec3{} ? length_exponent : std::max(length_exponent, exponent(from_center));
+    const int direction_exponent = exponent(ray.direction);
+    SphereRoots roots = sphere_roots_in_range(scaled(from_center, length_exponent),
+                                              std::ldexp(radius, -length_exponent),
+                                              scaled(ray.direction, direction_exponent));
+    roots.near = std::ldexp(roots.near, length_exponent - direction_exponent);
+    roots.far = std::ldexp(roots.far, length_exponent - direction_exponent);
+    return roots;
+}
+
+// The nearest root in (t_min, t_max], or false.
+inline bool intersect_sphere(const Point3& center, double radius, const Ray& ray, double t_max, double& t) {
+    const SphereRoots roots = sphere_roots(center, radius, ray);
+    if (!roots.any) return false;
+    t = roots.near > ray.t_min ? roots.near : roots.far;
+    return t > ray.t_min && t <= t_max;
+}
+
+}  // namespace limn

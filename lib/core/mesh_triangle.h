@@ -1,0 +1,52 @@
+// One triangle of an indexed mesh, one definition for the described and the compiled world.
+#pragma once
+
+#include <span>
+
+#include "core/intersect_triangle.h"
+#include "limn/core/box.h"
+#include "limn/core/mesh_view.h"
+
+namespace limn {
+
+struct TriangleVertices {
+    Point3 a, b, c;
+};
+
+inline TriangleVertices triangle_vertices(const MeshView& mesh, std::size_t i) {
+    const Index3 t = mesh.triangles[i];
+    return {to_point(mesh.vertices[t.a]), to_point(mesh.vertices[t.b]), to_point(mesh.vertices[t.c])};
+}
+
+// Exactly no area. Differences of float32 are exact in double unless their magnitudes are far apart, and then the
+// area is not zero; products of them may underflow for subnormals, so the edges are scaled up first, exactly.
+inline bool is_degenerate(const TriangleVertices& v) {
+    const Vec3 ab = 0x1p200 * (v.b - v.a), ac = 0x1p200 * (v.c - v.a);
+    return cross(ab, ac) == Vec3{};
+}
+
+inline Box triangle_bounds(const TriangleVertices& v) {
+    Box box;
+    for (const Point3& p : {v.a, v.b, v.c}) box.extend(p);
+    return box;
+}
+
+// Interpolated, unit, on the outward side as the mesh has it; `flat` where there are none or they cancel.
+inline Normal3 shading_normal(const MeshView& mesh, std::size_t i, const PlanarHit& hit, const Normal3& flat) {
+    if (mesh.normals.empty()) return flat;
+    const Index3 t = mesh.triangles[i];
+    const Vec3 n = (1 - hit.u - hit.v) * normalize(to_vec(mesh.normals[t.a])) +
+                   hit.u * normalize(to_vec(mesh.normals[t.b])) + hit.v * normalize(to_vec(mesh.normals[t.c]));
+    const Vec3 unit = normalize(n);
+    return is_finite(unit) ? Normal3(unit) : flat;
+}
+
+inline Uv texture_coordinates(const MeshView& mesh, std::size_t i, const PlanarHit& hit) {
+    if (mesh.uvs.empty()) return {hit.u, hit.v};
+    const Index3 t = mesh.triangles[i];
+    const Float2 a = mesh.uvs[t.a], b = mesh.uvs[t.b], c = mesh.uvs[t.c];
+    const double w = 1 - hit.u - hit.v;
+    return {w * a.u + hit.u * b.u + hit.v * c.u, w * a.v + hit.u * b.v + hit.v * c.v};
+}
+
+}  // namespace limn

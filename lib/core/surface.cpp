@@ -1,0 +1,47 @@
+#include "limn/core/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limn {
+
+namespace {
+
+double max_abs(const Point3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+double max_abs(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+}  // namespace
+
+Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
+    const double distance = dot(abs(Vec3(normal)), error);
+    const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);
+    Point3 origin = position + offset;
+    for (std::size_t a = 0; a < 3; ++a) {  // the sum is rounded, perhaps back towards the surface
+        if (offset[a] > 0) origin[a] = std::nextafter(origin[a], kInfinity);
+        if (offset[a] < 0) origin[a] = std::nextafter(origin[a], -kInfinity);
+    }
+    return origin;
+}
+
+Ray Surface::spawn_ray(const Vec3& direction, double time) const {
+    return {offset_origin(position, position_error, normal, direction), direction, 0, kInfinity, time};
+}
+
+Ray Surface::spawn_ray_to(const Point3& target, double time) const {
+    const Point3 origin = offset_origin(position, position_error, normal, target - position);
+    const Vec3 direction = target - origin;
+    // A point that was computed lies off its surface by some units in the last place of its largest coordinate; seen
+    // at a grazing angle (here: down to 1/8) this is as much more along the ray.
+    const double off_surface = gamma(8) * (max_abs(target) + max_abs(origin));
+    const double t_max = 1 - 8 * off_surface / max_abs(direction);
+    return {origin, direction, 0, std::max(0.0, std::min(t_max, std::nextafter(1.0, 0.0))), time};
+}
+
+Ray Surface::spawn_ray_to(const Surface& target, double time) const {
+    const Point3 from = offset_origin(position, position_error, normal, target.position - position);
+    const Point3 to = offset_origin(target.position, target.position_error, target.normal, from - target.position);
+    // gamma(16): the rounding of the direction and of the t of whatever lies at its end.
+    return {from, to - from, 0, 1 - gamma(16), time};
+}
+
+}  // namespace limn

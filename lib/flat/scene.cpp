@@ -1,0 +1,30 @@
+#include "flat/scene.h"
+
+#include <algorithm>
+
+namespace limn::flat {
+
+Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
+    Place place;
+    for (;;) {
+        const Group& group = group_at(scene, id);
+        const auto begin = scene.ranges.begin() + group.first_range;
+        const auto after = std::upper_bound(begin, begin + group.range_count, number,
+                                            [](std::uint64_t n, const PrimitiveRange& r) { return n < r.first_number; });
+        const auto range = after - 1;
+        place.range = static_cast<std::uint32_t>(range - scene.ranges.begin());
+        place.element = number - range->first_number;
+        number = place.element;
+        if (range->kind == PrimitiveKind::instance) {
+            place.instances[place.depth++] = range->first_row;
+            id = scene.instances[range->first_row].group;
+        } else if (range->kind == PrimitiveKind::medium) {
+            place.index_matched = true;
+            id = scene.medium_shapes[range->first_row].boundary;
+        } else {
+            return place;
+        }
+    }
+}
+
+}  // namespace limn::flat

@@ -1,0 +1,156 @@
+// The compiled scene: plain tables and typed ids. No virtual functions, no pointer to a described object but those of
+// foreign shapes, which are called through their thunks.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "limn/core/box.h"
+#include "limn/core/color.h"
+#include "limn/core/math.h"
+#include "limn/records.h"
+
+namespace limn::flat {
+
+// What traversal carries: which primitive, and the t that decides between two. u, v, normal and material are worked out
+// once, for the winner.
+struct RawHit {
+    static constexpr std::uint64_t kMiss = ~std::uint64_t{0};
+    double t = kInfinity;
+    std::uint64_t primitive = kMiss;  // its number in the scene, instanced primitives counted once an instance
+};
+static_assert(sizeof(RawHit) == 16);
+
+// Two children with their boxes, rounded outward to float.
+struct Node {
+    float lower[2][3], upper[2][3];
+    std::uint32_t child[2];  // inner: node; leaf: first reference
+    std::uint32_t count[2];  // 0: inner; else references in the leaf; kAbsent: no child
+    static constexpr std::uint32_t kAbsent = 0xffffffff;
+};
+static_assert(sizeof(Node) == 64);
+
+// A primitive as the tree names it.
+struct Reference {
+    std::uint32_t range;    // row of Scene::ranges
+    std::uint32_t element;  // within the range
+};
+static_assert(sizeof(Reference) == 8);
+
+struct Sphere {
+    Point3 center;
+    double radius;  // negative: the normal points inward
+    MaterialId material;
+};
+static_assert(sizeof(Sphere) == 40);
+
+using MovingSphere = SphereRecord;
+using Triangle = TriangleRecord;
+using Quad = QuadRecord;
+using Mesh = MeshRecord;
+using Foreign = ForeignRecord;
+
+struct Instance {
+    Transform world_from_object0, world_from_object1;
+    Transform object_from_world;  // of a still one
+    GroupId group = GroupId::root;
+    bool moving = false;
+};
+
+// Primitives under one tree. Numbers count from 0 in each group.
+struct Group {
+    std::uint32_t root = 0;         // row of Scene::nodes
+    std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
+    std::uint32_t range_count = 0;
+    Box bounds;
+};
+
+// A medium where it stands in the scene: seen through instances, outermost first.
+struct Medium {
+    std::uint32_t shape = 0;           // row of Scene::medium_shapes
+    std::uint32_t first_instance = 0;  // in Scene::medium_instances
+    std::uint32_t instance_count = 0;
+    std::uint64_t first_number = 0;    // of its boundary's primitives, in the scene
+    Box bounds;                        // in world space
+};
+
+enum class LightKind : std::uint8_t { triangle, quad, sphere };
+
+// An emitter that can be sampled, in world space.
+struct Light {
+    LightKind kind = LightKind::triangle;
+    MaterialId material = MaterialId::none;
+    std::uint64_t number = 0;  // of its primitive
+    Point3 origin;             // a triangle's first vertex, a quad's corner, a sphere's centre at time 0
+    Vec3 edge_u, edge_v;       // of triangle and quad; of a sphere edge_u is the motion of its centre
+    double radius = 0;
+    Vec3 position_error;       // of points computed on it
+    double pick = 0;           // probability with which it is chosen
+    double pick_below = 0;     // sum of the probabilities before it
+};
+
+struct Features {
+    bool spheres = false, moving_spheres = false, triangles = false, quads = false, meshes = false;
+    bool instances = false, moving_instances = false, foreign_shapes = false, media = false;
+    bool smooth_normals = false, textures = false, foreign_materials = false, foreign_textures = false;
+    bool lights = false, background = false;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Sphere> spheres;
+    std::vector<MovingSphere> moving_spheres;
+    std::vector<Triangle> triangles;
+    std::vector<Quad> quads;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Foreign> foreign;
+
+    std::vector<Group> groups;  // [0] is the scene itself
+    std::vector<PrimitiveRange> ranges;
+    std::vector<Reference> references;
+    std::vector<Node> nodes;
+    std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
+
+    std::vector<MediumRecord> medium_shapes;
+    std::vector<Medium> media;
+    std::vector<std::uint32_t> medium_instances;
+    std::vector<Light> lights;  // sorted by number
+
+    std::vector<MaterialRecord> materials;
+    std::vector<TextureRecord> textures;
+    std::vector<std::shared_ptr<const Image>> images;
+    std::vector<std::shared_ptr<const PerlinLattice>> lattices;
+    Color background_bottom, background_top;
+
+    std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and foreign objects
+    Features features;
+    unsigned kinds = 0;  // of primitives in the trees: bit 1 << PrimitiveKind
+    std::string feature_names;
+    std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
+    std::size_t unassigned = 0;   // stored primitives without a material
+    std::size_t memory_bytes = 0;
+    double compile_seconds = 0;
+};
+
+constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
+
+// Instances may nest this deep, those of a medium's boundary included.
+inline constexpr std::uint32_t kMaxNesting = 16;
+
+// Where a primitive stands: the instances around it, outermost first, then its range and place in it.
+struct Place {
+    std::uint32_t instances[kMaxNesting];
+    std::uint32_t depth = 0;
+    std::uint32_t range = 0;
+    std::uint64_t element = 0;
+    bool index_matched = false;  // part of a medium's boundary
+};
+
+// \pre number < primitives of the group
+Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::root);
+
+inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
+
+}  // namespace limn::flat

@@ -1,0 +1,171 @@
+#include "io/clean_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+
+#include "io/text_lines.h"
+#include "limn/core/error.h"
+
+namespace limn {
+
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+[[noreturn]] void fail(const std::string& path, const TextLines& lines, const std::string& problem) {
+    throw FileError(path, "line " + std::to_string(lines.number()) + ": " + problem);
+}
+
+float require_number(std::string_view word, const std::string& path, const TextLines& lines) {
+    const std::optional<float> value = parse_float(word);
+    if (!value) fail(path, lines, "'" + std::string(word) + "' is not a number within the range of float32");
+    return *value;
+}
+
+class ObjCleaner {
+public:
+    ObjCleaner(std::string_view text, const std::string& path) : lines_(text), path_(path) {}
+
+    CleanObj clean() {
+        while (lines_.next()) clean_line(lines_.words());
+        if (passed_over_ > 0)
+            result_.warnings.push_back(std::to_string(passed_over_) + " lines were passed over; the first is line " +
+                                       std::to_string(first_passed_over_));
+        return std::move(result_);
+    }
+
+private:
+    void clean_line(const Words& words) {
+        if (words.empty()) return;
+        const std::string_view key = words[0];
+        if (key == "v") {
+            numbers(words, 3, 3, vertices_);
+        } else if (key == "vt") {
+            numbers(words, 1, 2, uvs_);
+        } else if (key == "vn") {
+            numbers(words, 3, 3, normals_);
+        } else if (key == "f") {
+            face(words);
+        } else if (key == "usemtl") {
+            material(std::string(lines_.rest()));
+        } else if (key == "mtllib") {
+            result_.libraries.emplace_back(lines_.rest());
+        } else if (key != "o" && key != "g" && key != "s" && key != "l" && key != "p") {
+            if (passed_over_++ == 0) first_passed_over_ = lines_.number();
+        }
+    }
+
+    // All words must be numbers; the first `kept` go on, missing ones as 0. What follows (a weight, a vertex colour) is
+    // not used.
+    void numbers(const Words& words, std::size_t needed, std::size_t kept, std::size_t& count) {
+        if (words.size() <= needed)
+            fail(path_, lines_, std::string(words[0]) + " needs " + std::to_string(needed) + " numbers");
+        result_.text += words[0];
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            const float value = require_number(words[i], path_, lines_);
+            if (i > kept) continue;
+            result_.text += ' ';
+            append_number(result_.text, value);
+        }
+        for (std::size_t i = words.size(); i <= kept; ++i) result_.text += " 0";
+        result_.text += '\n';
+        ++count;
+    }
+
+    void face(const Words& words) {
+        if (words.size() > 1) {
+            result_.faces.push_back({result_.face_count, lines_.number()});
+            result_.text += 'f';
+            for (std::size_t i = 1; i < words.size(); ++i) corner(words[i]);
+            result_.text += '\n';
+        }
+        ++result_.face_count;
+    }
+
+    // v, v/vt, v//vn or v/vt/vn; an empty vt or vn counts as left out.
+    void corner(std::string_view word) {
+        const std::size_t counts[3] = {vertices_, uvs_, normals_};
+        const char* names[3] = {"vertex", "texture coordinate", "normal"};
+        std::string_view parts[3];
+        std::string_view rest = word;
+        for (std::string_view& part : parts) {
+            part = rest.substr(0, rest.find('/'));
+            rest.remove_prefix(std::min(rest.size(), part.size() + 1));
+        }
+        const bool too_many = std::count(word.begin(), word.end(), '/') > 2;
+        if (parts[0].empty() || too_many) fail(path_, lines_, "'" + std::string(word) + "' is not a corner of a face");
+        result_.text += ' ';
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (i == 2 && parts[2].empty()) break;
+            if (i == 1 && parts[1].empty() && parts[2].empty()) break;
+            if (i > 0) result_.text += '/';
+            if (!parts[i].empty()) result_.text += std::to_string(index(parts[i], counts[i], names[i]));
+        }
+    }
+
+    // Counted from 1. Forward references are legal, so what lies behind the last element is found out at the end.
+    int index(std::string_view word, std::size_t count, const char* name) {
+        const auto refuse = [&](const std::string& problem) {
+            fail(path_, lines_, "a face refers to " + std::string(name) + " " + std::string(word) + ", " + problem);
+        };
+        const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+        long long value = 0;
+        const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (error == std::errc::invalid_argument || stop != digits.data() + digits.size())
+            refuse("which is not a number");
+        if (value == 0 && error == std::errc{}) refuse("but they are counted from 1");
+        if (value < 0) value += static_cast<long long>(count) + 1;
+        if (error != std::errc{} || value > std::numeric_limits<int>::max() || value < 1)
+            refuse("but only " + std::to_string(count) + " are defined so far");
+        return static_cast<int>(value);
+    }
+
+    void material(const std::string& name) {
+        const auto [found, is_new] = material_numbers_.try_emplace(name, result_.materials.size());
+        if (is_new) result_.materials.push_back(name);
+        result_.text += "usemtl " + std::to_string(found->second) + "\n";
+    }
+
+    TextLines lines_;
+    const std::string& path_;
+    CleanObj result_;
+    std::map<std::string, std::size_t> material_numbers_;
+    std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0;
+    std::size_t passed_over_ = 0, first_passed_over_ = 0;
+};
+
+}  // namespace
+
+CleanObj clean_obj(std::string_view text, const std::string& path) { return ObjCleaner(text, path).clean(); }
+
+std::string clean_mtl(std::string_view text, const std::string& path, std::vector<std::string>& warnings) {
+    std::string clean;
+    for (TextLines lines(text); lines.next();) {
+        Words words = lines.words();
+        if (words.empty()) continue;
+        const std::string key(words[0]);
+        const bool is_color = key == "Kd" || key == "Ks" || key == "Ke";
+        if (key == "newmtl" || key == "map_Kd") {
+            clean += key + " " + std::string(lines.rest()) + "\n";
+        } else if (is_color || key == "Ns" || key == "Ni" || key == "d" || key == "Tr" || key == "illum") {
+            if (key == "d" && words.size() > 1 && words[1] == "-halo") words.erase(words.begin() + 1);
+            if (words.size() < 2) fail(path, lines, key + " needs a number");
+            if (words[1] == "spectral" || words[1] == "xyz") {
+                warnings.push_back(path + ": line " + std::to_string(lines.number()) + ": only RGB colours are read");
+                continue;
+            }
+            clean += key;
+            // A colour of fewer than three numbers repeats the first.
+            for (std::size_t i = 1; i <= (is_color ? 3u : 1u); ++i) {
+                clean += ' ';
+                append_number(clean, require_number(words[words.size() > 3 ? i : 1], path, lines));
+            }
+            clean += '\n';
+        }
+    }
+    return clean;
+}
+
+}  // namespace limn

@@ -1,0 +1,34 @@
+// What stands between a user's OBJ or MTL file and tinyobjloader, which reads well-formed text right, but is silent
+// about much that is not (a byte order mark, a continued line, an index that wraps, 1e40, "nan"). Every line is checked
+// here and written anew in the one form that it cannot misread.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limn {
+
+struct CleanObj {
+    // v, vt, vn, f with at least one corner, and usemtl; numbers are exact float32, indices positive, and the material
+    // is given by its place in `materials`.
+    std::string text;
+    struct Face {
+        std::size_t number, line;
+    };
+    std::vector<Face> faces;  // those in `text`: their number among all of the file, from 0, and their line
+    std::size_t face_count = 0;
+    std::vector<std::string> materials;
+    std::vector<std::string> libraries;  // what stands behind each mtllib
+    std::vector<std::string> warnings;
+};
+
+/// \throws FileError naming `path` and the line: a malformed number or corner, a value that is not a finite float32, a
+/// relative index that reaches before the first element
+CleanObj clean_obj(std::string_view text, const std::string& path);
+
+/// The lines of an MTL file that limn uses. \throws FileError naming `path` and the line of a malformed number
+std::string clean_mtl(std::string_view text, const std::string& path, std::vector<std::string>& warnings);
+
+}  // namespace limn

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "io/image_codec.h"
+
+namespace limn {
+
+// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory. \throws FileError naming `name`
+StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace limn

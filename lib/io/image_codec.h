@@ -1,0 +1,52 @@
+// Picture files as they are stored, before any transfer function is undone. Two sources implement this: image_oiio.cpp
+// and, for a build without OpenImageIO, image_stb.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace limn {
+
+enum class FileFormat { exr, png, hdr };
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+// A fact's name in a file carries this prefix, to be told from what other programs write.
+inline constexpr const char* kFactPrefix = "limn:";
+
+// What a file says of its transfer function.
+enum class Transfer { unsaid, linear, srgb, power };
+
+struct StoredImage {
+    int width = 0, height = 0, channels = 0;
+    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
+    Transfer transfer = Transfer::unsaid;
+    double exponent = 1;  // of Transfer::power: linear = stored ^ exponent
+    Facts facts;          // without their prefix
+};
+
+// A picture to be written: 8-bit sRGB values for PNG, else linear ones, three channels.
+struct EncodeJob {
+    FileFormat format = FileFormat::exr;
+    int width = 0, height = 0;
+    std::variant<std::span<const std::uint8_t>, std::span<const float>> values;
+    bool half = false;
+    const Facts& facts;
+};
+
+bool can_encode(FileFormat format);
+
+// The bytes of the file `path`. \throws FileError
+std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
+
+// The first three channels at most. \throws FileError naming `path`
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
+StoredImage decode_file(const std::string& path);
+Facts decode_facts(const std::string& path);
+
+}  // namespace limn

@@ -1,0 +1,163 @@
+// Pictures through OpenImageIO. Writing goes to memory, since its writers report success on a full disk.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <new>
+
+#include "io/image_codec.h"
+#include "io/read_file.h"
+#include "limn/core/error.h"
+
+namespace limn {
+
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+// x and y of red, green, blue and white (ITU-R BT.709-6, section 1).
+constexpr float kBt709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
+ImageSpec spec_of(const EncodeJob& job) {
+    if (job.format == FileFormat::png) {
+        ImageSpec spec(job.width, job.height, 3, TypeDesc::UINT8);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        return spec;
+    }
+    ImageSpec spec(job.width, job.height, 3, job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), kBt709);
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // else the time of day is written, and no two files are alike
+    return spec;
+}
+
+std::string message(std::string detail) {
+    while (!detail.empty() && detail.back() == '\n') detail.pop_back();
+    return detail.empty() ? "unknown reason" : detail;
+}
+
+std::unique_ptr<ImageInput> open(const std::string& path, OIIO::Filesystem::IOProxy* memory) {
+    ImageSpec raw;  // colours as stored, not multiplied by alpha
+    raw.attribute("oiio:UnassociatedAlpha", 1);
+    std::unique_ptr<ImageInput> input = ImageInput::open(path, &raw, memory);
+    if (!input) throw FileError(path, "is not a readable image: " + message(OIIO::geterror()));
+    return input;
+}
+
+// A header may promise any size. Deflate packs 1032 to 1 at best, so a small file of a large picture is broken; up to
+// a gibibyte the reader finds out by itself.
+void require_plausible(const ImageSpec& spec, std::uintmax_t file_bytes, const std::string& path) {
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 || spec.deep)
+        throw FileError(path, "is not a flat picture with at least one pixel");
+    constexpr double kHarmless = 1 << 30, kBestPacking = 5000;
+    const double bytes = static_cast<double>(spec.width) * spec.height * spec.nchannels * 4.0;
+    if (bytes > kHarmless && bytes > kBestPacking * static_cast<double>(file_bytes))
+        throw FileError(path, "is too short for a picture of " + std::to_string(spec.width) + " x " +
+                                  std::to_string(spec.height));
+}
+
+void read_transfer(const ImageSpec& spec, StoredImage& image) {
+    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    const float gamma = spec.get_float_attribute("oiio:Gamma", 0);
+    if (OIIO::Strutil::iequals(space, "linear")) {
+        image.transfer = Transfer::linear;
+    } else if (OIIO::Strutil::iequals(space, "srgb")) {
+        image.transfer = Transfer::srgb;
+    } else if (gamma > 0 && std::isfinite(gamma)) {
+        image.transfer = Transfer::power;
+        image.exponent = gamma;
+    }
+}
+
+Facts read_facts(const ImageSpec& spec) {
+    const std::size_t prefix = std::strlen(kFactPrefix);
+    Facts facts;
+    for (const auto& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name.compare(0, prefix, kFactPrefix) == 0 && attribute.type() == TypeDesc::STRING)
+            facts.emplace_back(name.substr(prefix), attribute.get_string());
+    }
+    return facts;
+}
+
+template <class T>
+void read_values(ImageInput& input, TypeDesc type, StoredImage& image, const std::string& path) {
+    std::vector<T>& values = image.values.emplace<std::vector<T>>();
+    try {
+        values.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                      static_cast<std::size_t>(image.channels));
+    } catch (const std::bad_alloc&) {
+        throw FileError(path, "there is not enough memory for its pixels");
+    }
+    if (!input.read_image(0, 0, 0, image.channels, type, values.data()) || input.has_error())
+        throw FileError(path, "cannot be read: " + message(input.geterror()));
+}
+
+StoredImage read(ImageInput& input, std::uintmax_t file_bytes, const std::string& path) {
+    const ImageSpec spec = input.spec();
+    require_plausible(spec, file_bytes, path);
+    StoredImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = std::min(spec.nchannels, 3);
+    read_transfer(spec, image);
+    image.facts = read_facts(spec);
+    if (spec.format == TypeDesc::UINT8) {
+        read_values<std::uint8_t>(input, TypeDesc::UINT8, image, path);
+    } else if (spec.format.is_floating_point()) {
+        read_values<float>(input, TypeDesc::FLOAT, image, path);
+    } else {
+        read_values<std::uint16_t>(input, TypeDesc::UINT16, image, path);  // wider integers lose their lowest bits
+    }
+    return image;
+}
+
+}  // namespace
+
+bool can_encode(FileFormat format) { return format == FileFormat::exr || format == FileFormat::png; }
+
+std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
+    const std::string name = job.format == FileFormat::png ? "memory.png" : "memory.exr";
+    const std::unique_ptr<ImageOutput> output = ImageOutput::create(name);
+    if (!output) throw FileError(path, "cannot be written: " + message(OIIO::geterror()));
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    ImageSpec spec = spec_of(job);
+    for (const auto& [fact, value] : job.facts) spec.attribute(kFactPrefix + fact, value);
+    const TypeDesc type = job.format == FileFormat::png ? TypeDesc::UINT8 : TypeDesc::FLOAT;
+    const auto data = [](const auto& values) { return static_cast<const void*>(values.data()); };
+    bool done = output->set_ioproxy(&memory) && output->open(name, spec);
+    done = done && output->write_image(type, std::visit(data, job.values));
+    done = output->close() && done;
+    if (!done || output->has_error()) throw FileError(path, "cannot be written: " + message(output->geterror()));
+    const auto* begin = reinterpret_cast<const std::byte*>(bytes.data());
+    return {begin, begin + bytes.size()};
+}
+
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    const std::unique_ptr<ImageInput> input = open(format == FileFormat::png ? "memory.png" : "memory.exr", &memory);
+    return read(*input, bytes.size(), path);
+}
+
+StoredImage decode_file(const std::string& path) {
+    require_readable(path);
+    std::error_code unknown;
+    return read(*open(path, nullptr), std::filesystem::file_size(path, unknown), path);
+}
+
+Facts decode_facts(const std::string& path) {
+    require_readable(path);
+    return read_facts(open(path, nullptr)->spec());
+}
+
+}  // namespace limn

@@ -1,0 +1,98 @@
+// Pictures without OpenImageIO: PNG and HDR through stb.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/decode_stb.h"
+#include "io/image_codec.h"
+#include "io/png_chunks.h"
+#include "io/read_file.h"
+#include "limn/core/error.h"
+
+namespace limn {
+
+namespace {
+
+void append(void* context, void* data, int size) {
+    const auto* begin = static_cast<const std::byte*>(data);
+    auto* bytes = static_cast<std::vector<std::byte>*>(context);
+    bytes->insert(bytes->end(), begin, begin + size);
+}
+
+std::vector<std::byte> encode_png(const EncodeJob& job, const std::uint8_t* values) {
+    std::vector<std::byte> bytes;
+    if (!stbi_write_png_to_func(append, &bytes, job.width, job.height, 3, values, 3 * job.width)) return {};
+    std::vector<PngChunk> chunks{{"sRGB", std::string(1, '\0')}};  // 0: perceptual
+    for (const auto& [name, value] : job.facts) chunks.push_back({"tEXt", kFactPrefix + name + '\0' + value});
+    return insert_png_chunks(bytes, chunks);
+}
+
+// A fact is a comment line of the header, so line breaks in it become blanks.
+std::string hdr_comment(const std::string& name, std::string value) {
+    std::replace(value.begin(), value.end(), '\n', ' ');
+    return std::string("# ") + kFactPrefix + name + "=" + value + "\n";
+}
+
+std::vector<std::byte> encode_hdr(const EncodeJob& job, const float* values) {
+    std::vector<std::byte> bytes;
+    if (!stbi_write_hdr_to_func(append, &bytes, job.width, job.height, 3, values)) return {};
+    std::string comments;
+    for (const auto& [name, value] : job.facts) comments += hdr_comment(name, value);
+    const auto* begin = reinterpret_cast<const std::byte*>(comments.data());
+    const auto first_line_end = std::find(bytes.begin(), bytes.end(), std::byte{'\n'}) + 1;
+    bytes.insert(first_line_end, begin, begin + comments.size());
+    return bytes;
+}
+
+Facts read_hdr_facts(const std::string& file) {
+    const std::string beginning = std::string("# ") + kFactPrefix;
+    Facts facts;
+    std::size_t start = 0;
+    for (std::size_t end; (end = file.find('\n', start)) != std::string::npos && end > start; start = end + 1) {
+        const std::string line = file.substr(start, end - start);
+        const std::size_t equals = line.find('=');
+        if (line.compare(0, beginning.size(), beginning) == 0 && equals != std::string::npos)
+            facts.emplace_back(line.substr(beginning.size(), equals - beginning.size()), line.substr(equals + 1));
+    }
+    return facts;
+}
+
+void refuse_exr(const std::string& file, const std::string& path) {
+    if (file.compare(0, 4, "\x76\x2f\x31\x01") == 0)
+        throw FileError(path, "is an EXR, which this build, without OpenImageIO, cannot read");
+}
+
+}  // namespace
+
+bool can_encode(FileFormat format) { return format == FileFormat::png || format == FileFormat::hdr; }
+
+std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
+    const std::vector<std::byte> bytes =
+        job.format == FileFormat::png
+            ? encode_png(job, std::get<std::span<const std::uint8_t>>(job.values).data())
+            : encode_hdr(job, std::get<std::span<const float>>(job.values).data());
+    if (bytes.empty()) throw FileError(path, "there is not enough memory to write it");
+    return bytes;
+}
+
+StoredImage decode(FileFormat, std::span<const std::byte> bytes, const std::string& path) {
+    return decode_stb(bytes, path);
+}
+
+StoredImage decode_file(const std::string& path) {
+    const std::string file = read_file(path);
+    refuse_exr(file, path);
+    return decode_stb(std::as_bytes(std::span(file)), path);
+}
+
+Facts decode_facts(const std::string& path) {
+    const std::string file = read_file(path);
+    refuse_exr(file, path);
+    if (file.compare(0, 2, "#?") == 0) return read_hdr_facts(file);
+    return decode_stb(std::as_bytes(std::span(file)), path).facts;
+}
+
+}  // namespace limn

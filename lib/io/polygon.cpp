@@ -1,0 +1,173 @@
+#include "io/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/intersect_triangle.h"
+
+namespace limn {
+
+Vec3 newell_normal(std::span<const Float3> polygon) {
+    const Point3 origin = to_point(polygon[0]);
+    Vec3 normal;
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+        normal = normal + cross(to_point(polygon[i]) - origin, to_point(polygon[i + 1]) - origin);
+    return normal;
+}
+
+bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& triangles) {
+    triangles.clear();
+    const Place count = static_cast<Place>(polygon.size());
+    const auto fan = [&triangles](Place a, Place b, Place c) { triangles.push_back({a, b, c}); };
+    if (count == 3 || !project(polygon)) {
+        for (Place i = 1; i + 1 < count; ++i) fan(0, i, i + 1);
+        return true;
+    }
+    previous_.resize(count);
+    next_.resize(count);
+    version_.assign(count, 0);
+    is_dent_.assign(count, false);
+    candidates_.clear();
+    for (Place i = 0; i < count; ++i) {
+        previous_[i] = i == 0 ? count - 1 : i - 1;
+        next_[i] = i + 1 == count ? 0 : i + 1;
+    }
+    for (Place i = 0; i < count; ++i) {
+        is_dent_[i] = turn(previous_[i], i, next_[i]) <= 0;
+        candidates_.push_back({next_[i], 0});  // from corner 1 on: a quadrilateral is cut between 0 and 2
+    }
+    fill_grid();
+    remaining_ = count;
+    tests_ = 0;
+
+    Place on_ring = 0;
+    bool progress = false;
+    for (std::size_t head = 0; remaining_ > 3; ++head) {
+        if (head == candidates_.size()) {
+            tests_ += remaining_;
+            if (!progress) on_ring = without_area(on_ring);
+            if (!progress && turn(previous_[on_ring], on_ring, next_[on_ring]) != 0) break;  // no ear: it crosses itself
+            if (!progress) clip(on_ring, triangles), on_ring = next_[on_ring];
+            candidates_.clear();
+            head = 0;
+            progress = false;
+            for (std::size_t i = 0; i < remaining_; ++i, on_ring = next_[on_ring])
+                candidates_.push_back({on_ring, version_[on_ring]});
+        }
+        const auto [i, version] = candidates_[head];
+        if (version != version_[i]) continue;
+        if (is_ear(i)) {
+            clip(i, triangles);
+            on_ring = next_[i];
+            progress = true;
+        }
+        if (tests_ > kMaxTests) return false;
+    }
+    for (; remaining_ >= 3; on_ring = next_[on_ring]) clip(on_ring, triangles);
+    return true;
+}
+
+// Onto the axes' plane in which the polygon looks largest, turning left. False if it has no side to look at.
+bool PolygonCutter::project(std::span<const Float3> polygon) {
+    const Vec3 normal = newell_normal(polygon), size = abs(normal);
+    const std::size_t axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    if (!(size[axis] > 0)) return false;
+    std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+    if (normal[axis] < 0) std::swap(x, y);
+    points_.clear();
+    for (const Float3& p : polygon) points_.push_back({to_point(p)[x], to_point(p)[y]});
+    return true;
+}
+
+void PolygonCutter::fill_grid() {
+    const std::size_t dents = static_cast<std::size_t>(std::count(is_dent_.begin(), is_dent_.end(), true));
+    side_ = static_cast<std::size_t>(std::sqrt(static_cast<double>(dents)));  // about one dent a cell
+    if (dents == 0) return;
+    lower_ = upper_ = points_[0];
+    for (const Point& p : points_) {
+        lower_ = {std::min(lower_.x, p.x), std::min(lower_.y, p.y)};
+        upper_ = {std::max(upper_.x, p.x), std::max(upper_.y, p.y)};
+    }
+    const auto cell = [this](Place i) { return row(points_[i].y) * side_ + column(points_[i].x); };
+    cell_start_.assign(side_ * side_ + 1, 0);
+    for (Place i = 0; i < points_.size(); ++i)
+        if (is_dent_[i]) ++cell_start_[cell(i)];
+    for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
+    dents_.resize(dents);
+    for (Place i = 0; i < points_.size(); ++i)
+        if (is_dent_[i]) dents_[--cell_start_[cell(i)]] = i;
+}
+
+std::size_t PolygonCutter::column(double x) const {
+    const double place = (x - lower_.x) / (upper_.x - lower_.x) * static_cast<double>(side_);
+    return std::min(static_cast<std::size_t>(place), side_ - 1);
+}
+
+std::size_t PolygonCutter::row(double y) const {
+    const double place = (y - lower_.y) / (upper_.y - lower_.y) * static_cast<double>(side_);
+    return std::min(static_cast<std::size_t>(place), side_ - 1);
+}
+
+// Twice the signed area of a triangle, positive where it turns left.
+double PolygonCutter::turn(Place a, Place b, Place c) const {
+    const Point p = points_[a], q = points_[b], r = points_[c];
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+}
+
+bool PolygonCutter::is_ear(Place i) {
+    const Place a = previous_[i], b = next_[i];
+    if (points_[i] == points_[a] || points_[i] == points_[b]) return true;  // the same point twice
+    return turn(a, i, b) > 0 && !holds_a_dent(a, i, b);
+}
+
+// Whether another part of the ring reaches into the closed triangle: then one of its dents does. Corners in the same
+// place as one of the triangle's are no obstacle (the ends of a cut that leads to a hole).
+bool PolygonCutter::holds_a_dent(Place a, Place i, Place b) {
+    if (side_ == 0) return false;
+    const auto [x0, x1] = std::minmax({points_[a].x, points_[i].x, points_[b].x});
+    const auto [y0, y1] = std::minmax({points_[a].y, points_[i].y, points_[b].y});
+    for (std::size_t y = row(y0); y <= row(y1); ++y) {
+        const std::size_t first = cell_start_[y * side_ + column(x0)], last = cell_start_[y * side_ + column(x1) + 1];
+        for (std::size_t k = first; k < last; ++k) {
+            const Place d = dents_[k];
+            ++tests_;
+            if (!is_dent_[d] || turn(a, i, d) < 0 || turn(i, b, d) < 0 || turn(b, a, d) < 0) continue;
+            if (points_[d] != points_[a] && points_[d] != points_[i] && points_[d] != points_[b]) return true;
+        }
+    }
+    return false;
+}
+
+void PolygonCutter::clip(Place i, std::vector<Index3>& triangles) {
+    const Place a = previous_[i], b = next_[i];
+    const Place lowest = std::min({a, i, b});
+    triangles.push_back(lowest == a ? Index3{a, i, b} : lowest == i ? Index3{i, b, a} : Index3{b, a, i});
+    next_[a] = b;
+    previous_[b] = a;
+    is_dent_[i] = false;
+    ++version_[i];
+    --remaining_;
+    touch(a);
+    touch(b);
+}
+
+// A corner with a new neighbour goes to the end of the queue, so that ears are taken all around before any next to each
+// other: the triangles stay small.
+void PolygonCutter::touch(Place i) {
+    is_dent_[i] = is_dent_[i] && turn(previous_[i], i, next_[i]) <= 0;
+    candidates_.push_back({i, ++version_[i]});
+}
+
+// The next corner on the ring that its neighbours are in line with, or else `start`.
+PolygonCutter::Place PolygonCutter::without_area(Place start) const {
+    Place i = start;
+    do {
+        if (turn(previous_[i], i, next_[i]) == 0) return i;
+        i = next_[i];
+    } while (i != start);
+    return start;
+}
+
+}  // namespace limn

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace limn {
+
+// The message of the system's last error.
+std::string system_message();
+
+/// \throws FileError if `path` is missing, a folder, or may not be read
+void require_readable(const std::string& path);
+
+/// The bytes of a file. \throws FileError
+std::string read_file(const std::string& path);
+
+}  // namespace limn

@@ -1,0 +1,264 @@
+#include "kernels/traverse.h"
+
+#include <utility>
+
+#include "accel/binary_bvh.h"
+#include "accel/slab.h"
+#include "core/intersect_sphere.h"
+#include "core/mesh_triangle.h"
+#include "core/object_ray.h"
+#include "core/sphere_uv.h"
+
+namespace limn::kernels {
+
+namespace {
+
+// What to do with hits. `limit` is the t beyond which nothing matters; `report` returns true to end the search.
+struct Closest {
+    static constexpr bool kEveryHit = false;
+    flat::RawHit best;
+
+    double limit() const { return best.t; }
+    bool report(double t, std::uint64_t number, bool /*inward*/) {
+        if (t < best.t || number < best.primitive) best = {t, number};
+        return false;
+    }
+};
+
+struct Any {
+    static constexpr bool kEveryHit = false;
+    double t_max;
+    bool found = false;
+
+    double limit() const { return t_max; }
+    bool report(double, std::uint64_t, bool) { return found = true; }
+};
+
+struct Every {
+    static constexpr bool kEveryHit = true;
+    double t_max;
+    std::vector<Crossing>& crossings;
+
+    double limit() const { return t_max; }
+    bool report(double t, std::uint64_t, bool inward) {
+        crossings.push_back({t, inward});
+        return false;
+    }
+};
+
+// One ray through one group. kKinds: the primitive kinds that the scene has; code for the others is left out.
+template <unsigned kKinds, class Query>
+class Traversal {
+public:
+    Traversal(const flat::Scene& scene, const Ray& ray, std::uint64_t first_number, Query& query)
+        : scene_(scene), ray_(ray), slab_(ray), sheared_(ray), first_number_(first_number), query_(query) {}
+
+    // True if the query ended the search.
+    bool run(const flat::Group& group) {
+        struct Entry {
+            double near;
+            std::uint32_t child, count;
+        } stack[accel::kMaxDepth + 2];
+        int size = 0;
+        std::uint32_t node_row = group.root;
+        for (;;) {
+            const flat::Node& node = scene_.nodes[node_row];
+            double near[2];
+            const bool met[2] = {slab_.meets(node.lower[0], node.upper[0], query_.limit(), near[0]),
+                                 slab_.meets(node.lower[1], node.upper[1], query_.limit(), near[1])};
+            const int first = met[0] && met[1] ? near[1] < near[0] : met[1];
+            if (met[1 - first]) stack[size++] = {near[1 - first], node.child[1 - first], node.count[1 - first]};
+            if (met[first]) stack[size++] = {near[first], node.child[first], node.count[first]};
+            for (;;) {
+                if (size == 0) return false;
+                const Entry entry = stack[--size];
+                if (entry.near > query_.limit()) continue;
+                if (entry.count == 0) {
+                    node_row = entry.child;
+                    break;
+                }
+                for (std::uint32_t i = 0; i < entry.count; ++i)
+                    if (test(scene_.references[entry.child + i])) return true;
+            }
+        }
+    }
+
+private:
+    static constexpr bool has(PrimitiveKind kind) { return (kKinds & flat::bit(kind)) != 0; }
+
+    bool test(const flat::Reference& reference) {
+        const PrimitiveRange& range = scene_.ranges[reference.range];
+        const std::uint64_t number = first_number_ + range.first_number + reference.element;
+        const std::uint32_t row = range.first_row + reference.element;
+        switch (range.kind) {
+            case PrimitiveKind::sphere:
+                if constexpr (has(PrimitiveKind::sphere)) {
+                    const flat::Sphere& s = scene_.spheres[row];
+                    return sphere(s.center, s.radius, number);
+                }
+                break;
+            case PrimitiveKind::moving_sphere:
+                if constexpr (has(PrimitiveKind::moving_sphere)) {
+                    const flat::MovingSphere& s = scene_.moving_spheres[row];
+                    return sphere(interpolate(s.center0, s.center1, ray_.time), s.radius, number);
+                }
+                break;
+            case PrimitiveKind::triangle:
+                if constexpr (has(PrimitiveKind::triangle)) {
+                    const flat::Triangle& t = scene_.triangles[row];
+                    return triangle(t.a, t.b, t.c, number);
+                }
+                break;
+            case PrimitiveKind::mesh:
+                if constexpr (has(PrimitiveKind::mesh)) {
+                    const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, reference.element);
+                    return triangle(v.a, v.b, v.c, number);
+                }
+                break;
+            case PrimitiveKind::quad:
+                if constexpr (has(PrimitiveKind::quad)) {
+                    const flat::Quad& q = scene_.quads[row];
+                    PlanarHit hit;
+                    return intersect_quad(q.corner, q.edge_u, q.edge_v, sheared_, ray_.t_min, query_.limit(), hit) &&
+                           query_.report(hit.t, number, inward(cross(q.edge_u, q.edge_v)));
+                }
+                break;
+            case PrimitiveKind::instance:
+                if constexpr (has(PrimitiveKind::instance)) {
+                    const flat::Instance& instance = scene_.instances[range.first_row];
+                    const Ray local = enter_instance(instance, ray_);
+                    return is_usable(local) &&
+                           Traversal(scene_, local, number, query_).run(flat::group_at(scene_, instance.group));
+                }
+                break;
+            case PrimitiveKind::foreign:
+                if constexpr (has(PrimitiveKind::foreign)) return foreign(scene_.foreign[row], number);
+                break;
+            case PrimitiveKind::medium: break;  // never in a tree
+        }
+        return false;
+    }
+
+    bool inward(const Vec3& outward) const { return Query::kEveryHit && dot(outward, ray_.direction) < 0; }
+
+    bool sphere(const Point3& center, double radius, std::uint64_t number) {
+        if constexpr (Query::kEveryHit) {
+            const SphereRoots roots = sphere_roots(center, std::abs(radius), ray_);
+            const auto report = [&](double t, bool enters) {
+                return t > ray_.t_min && t <= query_.limit() && query_.report(t, number, enters == (radius > 0));
+            };
+            return roots.any && (report(roots.near, true) || report(roots.far, false));
+        } else {
+            double t = 0;
+            return intersect_sphere(center, std::abs(radius), ray_, query_.limit(), t) && query_.report(t, number, false);
+        }
+    }
+
+    bool triangle(const Point3& a, const Point3& b, const Point3& c, std::uint64_t number) {
+        PlanarHit hit;
+        return intersect_triangle(a, b, c, sheared_, ray_.t_min, query_.limit(), hit) &&
+               query_.report(hit.t, number, Query::kEveryHit && inward(cross(b - a, c - a)));
+    }
+
+    bool foreign(const flat::Foreign& shape, std::uint64_t number) {
+        Ray rest = ray_;
+        rest.t_max = query_.limit();
+        ForeignHit hit;
+        while (shape.hit(*shape.object, rest, hit)) {
+            if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
+            if (query_.report(hit.t, number, inward(Vec3(hit.normal)))) return true;
+            if constexpr (!Query::kEveryHit) return false;
+            rest.t_min = hit.t;
+        }
+        return false;
+    }
+
+    const flat::Scene& scene_;
+    const Ray ray_;
+    const accel::SlabRay slab_;
+    const ShearedRay sheared_;
+    const std::uint64_t first_number_;
+    Query& query_;
+};
+
+template <class... Kinds>
+constexpr unsigned kinds(Kinds... kind) {
+    return (flat::bit(kind) | ...);
+}
+
+// The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
+constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
+constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
+constexpr unsigned kStill = kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
+constexpr unsigned kAll = ~0u;
+
+template <class Query>
+void search(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t first_number, Query& query) {
+    const flat::Group& group = flat::group_at(scene, id);
+    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) {
+        Traversal<kKinds, Query>(scene, ray, first_number, query).run(group);
+    };
+    const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
+    if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
+    if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
+    if (covers(kStill)) return run(std::integral_constant<unsigned, kStill>{});
+    run(std::integral_constant<unsigned, kAll>{});
+}
+
+flat::RawHit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t first_number) {
+    Closest query{{ray.t_max, flat::RawHit::kMiss}};
+    search(scene, id, ray, first_number, query);
+    return query.best.primitive == flat::RawHit::kMiss ? flat::RawHit{} : query.best;
+}
+
+// The ray as a medium's boundary sees it.
+Ray enter_medium(const flat::Scene& scene, const flat::Medium& medium, Ray ray) {
+    for (std::uint32_t i = 0; i < medium.instance_count; ++i)
+        ray = enter_instance(scene.instances[scene.medium_instances[medium.first_instance + i]], ray);
+    return ray;
+}
+
+GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
+    return scene.medium_shapes[medium.shape].boundary;
+}
+
+bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
+    const Box& b = medium.bounds;
+    const double lower[3] = {b.lower.x, b.lower.y, b.lower.z}, upper[3] = {b.upper.x, b.upper.y, b.upper.z};
+    double near = 0;
+    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+}
+
+}  // namespace
+
+Ray enter_instance(const flat::Instance& instance, const Ray& ray) {
+    if (!instance.moving) return to_object_ray(instance.world_from_object0, instance.object_from_world, ray);
+    const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, ray.time);
+    return to_object_ray(m, inverse(m), ray);
+}
+
+flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, ray, 0); }
+
+bool any_hit(const flat::Scene& scene, const Ray& ray) {
+    Any query{ray.t_max};
+    search(scene, GroupId::root, ray, 0, query);
+    return query.found;
+}
+
+flat::RawHit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray) {
+    if (!meets_bounds(medium, ray)) return {};
+    const Ray local = enter_medium(scene, medium, ray);
+    if (!is_usable(local)) return {};
+    return nearest(scene, boundary_of(scene, medium), local, medium.first_number);
+}
+
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+    out.clear();
+    if (!meets_bounds(medium, ray)) return;
+    const Ray local = enter_medium(scene, medium, ray);
+    if (!is_usable(local)) return;
+    Every query{ray.t_max, out};
+    search(scene, boundary_of(scene, medium), local, medium.first_number, query);
+}
+
+}  // namespace limn::kernels

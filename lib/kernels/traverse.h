@@ -1,0 +1,31 @@
+// Rays against the compiled scene. Scalar so far: each function has one definition of a hit, shared with the described
+// shapes through lib/core/intersect_*.h.
+#pragma once
+
+#include <vector>
+
+#include "flat/scene.h"
+#include "limn/core/ray.h"
+
+namespace limn::kernels {
+
+// The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre is_usable(ray)
+flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray);
+bool any_hit(const flat::Scene& scene, const Ray& ray);
+
+// The same for the boundary of a medium.
+flat::RawHit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
+
+// Where a ray passes through a medium's boundary.
+struct Crossing {
+    double t;
+    bool inward;  // against the outward normal
+};
+
+// Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
+
+// The ray as an instance's group sees it.
+Ray enter_instance(const flat::Instance& instance, const Ray& ray);
+
+}  // namespace limn::kernels

@@ -1,0 +1,92 @@
+#include "limn/render/compiled_scene.h"
+
+#include <algorithm>
+
+#include "compile/compile.h"
+#include "kernels/traverse.h"
+#include "limn/core/error.h"
+#include "render/surface_at.h"
+
+namespace limn {
+
+namespace {
+
+// Among surfaces and the boundaries of media.
+flat::RawHit closest_of_all(const flat::Scene& scene, const Ray& ray) {
+    flat::RawHit best = kernels::closest_hit(scene, ray);
+    for (const flat::Medium& medium : scene.media) {
+        Ray rest = ray;
+        rest.t_max = std::min(ray.t_max, best.t);
+        const flat::RawHit hit = kernels::closest_boundary(scene, medium, rest);
+        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
+    }
+    return best;
+}
+
+RayHit complete(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw) {
+    const tracing::SurfaceHit at = tracing::surface_at(scene, ray, raw);
+    const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), raw.primitive);
+    const auto object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
+    return {.t = raw.t,
+            .object = static_cast<std::uint32_t>(object),
+            .element = raw.primitive - scene.first_of_object[object],
+            .u = at.u,
+            .v = at.v,
+            .index_matched = at.index_matched,
+            .primitive = raw.primitive};
+}
+
+SceneStats stats_of(const flat::Scene& s) {
+    return {.memory_bytes = s.memory_bytes,
+            .primitives = s.primitives,
+            .stored_primitives = s.stored_primitives,
+            .degenerate = s.degenerate,
+            .lights = s.lights.size(),
+            .seconds = s.compile_seconds};
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene(std::unique_ptr<const flat::Scene> scene)
+    : scene_(std::move(scene)), stats_(stats_of(*scene_)) {}
+CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
+CompiledScene& CompiledScene::operator=(CompiledScene&&) noexcept = default;
+CompiledScene::~CompiledScene() = default;
+
+std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
+    if (!is_usable(ray)) return std::nullopt;
+    const flat::RawHit hit = closest_of_all(*scene_, ray);
+    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
+    return complete(*scene_, ray, hit);
+}
+
+bool CompiledScene::any_hit(const Ray& ray) const {
+    if (!is_usable(ray)) return false;
+    return kernels::any_hit(*scene_, ray) ||
+           std::any_of(scene_->media.begin(), scene_->media.end(), [&](const flat::Medium& medium) {
+               return kernels::closest_boundary(*scene_, medium, ray).primitive != flat::RawHit::kMiss;
+           });
+}
+
+void CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
+    if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i]).value_or(RayHit{});
+}
+
+void CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+    if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
+    for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = any_hit(rays[i]) ? 1 : 0;
+}
+
+Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
+    return tracing::surface_at(*scene_, ray, {hit.t, hit.primitive}).surface;
+}
+
+const std::string& CompiledScene::features() const { return scene_->feature_names; }
+const std::string& CompiledScene::name() const { return scene_->name; }
+
+CompiledScene compile(const Scene& scene) {
+    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
+}
+
+}  // namespace limn

@@ -1,0 +1,50 @@
+// The film: sums of samples, in four replicates from which the render learns its own error.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "limn/core/color.h"
+#include "limn/image/image.h"
+#include "limn/render/render.h"
+
+namespace limn::tracing {
+
+inline constexpr int kReplicates = 4;
+
+// Sample i of a pixel belongs to replicate i mod 4. Each pixel has one owner at a time and gets its samples in order,
+// so that the sums, in double, do not depend on threads.
+class Film {
+public:
+    // \throws Error if memory lacks
+    Film(int width, int height);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    // Samples so far of the pixel in row y, column x.
+    std::uint32_t samples(int x, int y) const { return pixels_[index(x, y)].samples; }
+    // A sample that is not finite counts as black; the result says whether it was finite.
+    bool add(int x, int y, const Color& sample);
+
+    Image image() const;
+    ErrorEstimate error() const;
+    double mean_samples() const;
+    std::size_t memory_bytes() const { return pixels_.size() * sizeof(Pixel); }
+
+private:
+    struct Pixel {
+        std::array<Color, kReplicates> sums;
+        double largest = 0;  // luminance of the brightest sample
+        std::uint32_t samples = 0;
+    };
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+    static Color mean(const Pixel& p);
+
+    int width_, height_;
+    std::vector<Pixel> pixels_;
+};
+
+}  // namespace limn::tracing

@@ -1,0 +1,49 @@
+// Media along a ray: where each begins and ends, the free flight through them, and how much light passes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "flat/scene.h"
+#include "kernels/traverse.h"
+#include "limn/core/ray.h"
+
+namespace limn::tracing {
+
+// The next interaction with a medium.
+struct FreeFlight {
+    double t;
+    MaterialId phase;
+};
+
+// Extinction along one ray, a step function of t. It is worked out anew for each ray from the crossings of all
+// boundaries up to infinity: a point is inside where their number ahead is odd. So nothing is carried along the path,
+// and the eye, lights and scattering points may be anywhere; boundaries may be hollow, non-convex and overlapping.
+// Reuse one object for many rays: it keeps its memory.
+class MediaAlongRay {
+public:
+    // \pre is_usable(ray). Up to ray.t_max.
+    void trace(const flat::Scene& scene, const Ray& ray);
+
+    // exp(-integral of the extinction) up to t_max.
+    double transmittance() const;
+
+    // The distance of free flight by inversion of its distribution, through all media at once; `choose` in [0, 1) picks
+    // the medium in proportion to its extinction there. Nothing if it is longer than t_max.
+    std::optional<FreeFlight> sample(double random, double choose) const;
+
+private:
+    struct Step {
+        double t;
+        double extinction;    // change, per unit of t
+        std::uint32_t medium;
+    };
+    void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);
+
+    const flat::Scene* scene_ = nullptr;
+    double t_max_ = 0;
+    std::vector<kernels::Crossing> crossings_;
+    std::vector<Step> steps_;  // sorted by t; every medium entered is left again at t_max_ at the latest
+};
+
+}  // namespace limn::tracing

@@ -1,0 +1,37 @@
+// The path tracer.
+#pragma once
+
+#include <cstdint>
+
+#include "flat/scene.h"
+#include "limn/core/ray.h"
+#include "limn/render/settings.h"
+#include "render/media.h"
+#include "render/sampler.h"
+
+namespace limn::tracing {
+
+// Estimates the radiance that arrives along camera rays. One for each thread: it counts rays and keeps scratch memory.
+class PathTracer {
+public:
+    PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
+        : scene_(scene), max_depth_(max_depth), sample_lights_(estimator == Estimator::path && !scene.lights.empty()) {}
+
+    // One sample of the radiance along `ray`, unbiased but for paths longer than max_depth segments.
+    Color radiance(Ray ray, Sampler& sampler);
+
+    std::uint64_t rays() const { return rays_; }
+
+private:
+    struct Vertex;
+    Color direct_light(const Vertex& vertex, double time, Sampler& sampler);
+    bool advance(Ray ray, Vertex& vertex, Sampler& sampler);
+
+    const flat::Scene& scene_;
+    const int max_depth_;
+    const bool sample_lights_;
+    std::uint64_t rays_ = 0;
+    MediaAlongRay media_;
+};
+
+}  // namespace limn::tracing

@@ -1,0 +1,154 @@
+#include "render/surface_at.h"
+
+#include "core/hit_error.h"
+#include "core/mesh_triangle.h"
+#include "core/sphere_uv.h"
+#include "kernels/traverse.h"
+
+namespace limn::tracing {
+
+namespace {
+
+MaterialRef table_material(MaterialId id) { return {static_cast<std::uint32_t>(id), nullptr, nullptr}; }
+
+// A hit in the primitive's own space. Normals are outward.
+struct LocalHit {
+    Point3 position;
+    Vec3 position_error;
+    Normal3 normal, shading_normal;
+    double u = 0, v = 0;
+    Uv uv;
+    MaterialRef material;
+    bool index_matched = false;
+};
+
+LocalHit on_sphere(const Point3& center, double radius, MaterialId material, const Ray& ray, double t) {
+    const Vec3 outward = sphere_normal(center, ray, t);
+    LocalHit hit;
+    hit.position = center + std::abs(radius) * outward;
+    hit.position_error = sphere_error(center, radius);
+    hit.normal = hit.shading_normal = Normal3(radius < 0 ? -outward : outward);
+    hit.uv = sphere_uv(Vec3(hit.normal));
+    hit.material = table_material(material);
+    return hit;
+}
+
+LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const PlanarHit& planar) {
+    LocalHit hit;
+    hit.position = corner + (planar.u * edge_u + planar.v * edge_v);
+    hit.position_error = planar_error(corner, edge_u, edge_v);
+    hit.normal = hit.shading_normal = Normal3(normalize(cross(edge_u, edge_v)));
+    hit.u = planar.u, hit.v = planar.v;
+    hit.uv = {planar.u, planar.v};
+    return hit;
+}
+
+LocalHit on_triangle(const TriangleVertices& v, const Ray& ray, PlanarHit& planar) {
+    planar = {};
+    intersect_triangle(v.a, v.b, v.c, ShearedRay(ray), -kInfinity, kInfinity, planar);
+    return on_plane(v.a, v.b - v.a, v.c - v.a, planar);
+}
+
+LocalHit on_mesh(const flat::Mesh& mesh, std::uint64_t element, const Ray& ray) {
+    PlanarHit planar;
+    LocalHit hit = on_triangle(triangle_vertices(mesh.arrays, element), ray, planar);
+    hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
+    hit.uv = texture_coordinates(mesh.arrays, element, planar);
+    const auto& slots = mesh.arrays.material_slots;
+    hit.material = table_material(mesh.materials[slots.empty() ? 0 : slots[element]]);
+    return hit;
+}
+
+LocalHit on_foreign(const flat::Foreign& shape, Ray ray, double t) {
+    // Called once more for what traversal did not keep; a pure shape answers as it did then.
+    ray.t_max = t;
+    ForeignHit foreign;
+    LocalHit hit;
+    if (!shape.hit(*shape.object, ray, foreign)) return hit;
+    hit.position = ray.at(foreign.t);
+    hit.position_error = ray_error(ray, foreign.t) + foreign.position_error;
+    hit.normal = foreign.normal;
+    hit.shading_normal = foreign.shading_normal == Normal3{} ? foreign.normal : foreign.shading_normal;
+    hit.u = foreign.u, hit.v = foreign.v;
+    hit.uv = foreign.uv;
+    hit.material = foreign.material;
+    hit.index_matched = foreign.index_matched;
+    return hit;
+}
+
+LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, double t) {
+    const PrimitiveRange& range = scene.ranges[place.range];
+    const std::size_t row = range.first_row + place.element;
+    switch (range.kind) {
+        case PrimitiveKind::sphere: {
+            const flat::Sphere& s = scene.spheres[row];
+            return on_sphere(s.center, s.radius, s.material, ray, t);
+        }
+        case PrimitiveKind::moving_sphere: {
+            const flat::MovingSphere& s = scene.moving_spheres[row];
+            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, s.material, ray, t);
+        }
+        case PrimitiveKind::triangle: {
+            const flat::Triangle& triangle = scene.triangles[row];
+            PlanarHit planar;
+            LocalHit hit = on_triangle({triangle.a, triangle.b, triangle.c}, ray, planar);
+            hit.material = table_material(triangle.material);
+            return hit;
+        }
+        case PrimitiveKind::quad: {
+            const flat::Quad& q = scene.quads[row];
+            PlanarHit planar{};
+            intersect_quad(q.corner, q.edge_u, q.edge_v, ShearedRay(ray), -kInfinity, kInfinity, planar);
+            LocalHit hit = on_plane(q.corner, q.edge_u, q.edge_v, planar);
+            hit.material = table_material(q.material);
+            return hit;
+        }
+        case PrimitiveKind::mesh: return on_mesh(scene.meshes[range.first_row], place.element, ray);
+        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], ray, t);
+        case PrimitiveKind::instance:
+        case PrimitiveKind::medium: break;  // locate() goes through them
+    }
+    return {};
+}
+
+// From the space of an instanced group to that around it.
+void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) {
+    const Transform m = instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
+                                        : instance.world_from_object0;
+    const Transform inv = instance.moving ? inverse(m) : instance.object_from_world;
+    const auto outward = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
+    hit.position = transform_point(m, hit.position);
+    hit.position_error = transformed_error(m, inv, hit.position, hit.position_error);
+    const bool flat_shaded = hit.shading_normal == hit.normal;
+    hit.normal = outward(hit.normal);
+    hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
+}
+
+}  // namespace
+
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw) {
+    const flat::Place place = flat::locate(scene, raw.primitive);
+    Ray local = ray;
+    for (std::uint32_t i = 0; i < place.depth; ++i)
+        local = kernels::enter_instance(scene.instances[place.instances[i]], local);
+    LocalHit hit = on_primitive(scene, place, local, raw.t);
+    // Decided in the primitive's own space, where no transform has rounded.
+    const bool front = dot(hit.normal, local.direction) < 0;
+    for (std::uint32_t i = place.depth; i-- > 0;) leave_instance(scene.instances[place.instances[i]], ray.time, hit);
+
+    SurfaceHit out;
+    out.u = hit.u, out.v = hit.v;
+    out.index_matched = place.index_matched || hit.index_matched;
+    Surface& s = out.surface;
+    s.position = hit.position;
+    s.position_error = hit.position_error;
+    s.front_face = front;
+    s.normal = front ? hit.normal : -hit.normal;
+    // A mesh may hold normals that disagree with its winding: they go to the same side.
+    s.shading_normal = dot(hit.shading_normal, s.normal) < 0 ? -hit.shading_normal : hit.shading_normal;
+    s.uv = hit.uv;
+    s.material = hit.material;
+    return out;
+}
+
+}  // namespace limn::tracing

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "flat/scene.h"
+#include "limn/core/ray.h"
+#include "limn/core/surface.h"
+
+namespace limn::tracing {
+
+// The second step of a hit, made once for the winner: it is intersected again in its own space, and the point taken
+// outward through the instances.
+struct SurfaceHit {
+    Surface surface;
+    double u = 0, v = 0;         // RayHit::u, v
+    bool index_matched = false;  // the boundary of a medium, or a foreign shape that says so
+};
+
+// \pre `hit` was found for `ray` in `scene`
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& hit);
+
+}  // namespace limn::tracing

@@ -1,0 +1,111 @@
+#include "limn/shape/mesh.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/hit_error.h"
+#include "core/mesh_triangle.h"
+#include "shape/arguments.h"
+
+namespace limn {
+
+namespace {
+
+void require_length(std::size_t length, std::size_t expected, const char* array) {
+    if (length != 0 && length != expected)
+        throw ArgumentError(std::string("Mesh: ") + array + " has " + std::to_string(length) + " entries instead of " +
+                            std::to_string(expected));
+}
+
+void check(const MeshData& data, std::size_t materials) {
+    require_length(data.normals.size(), data.vertices.size(), "normals");
+    require_length(data.uvs.size(), data.vertices.size(), "uvs");
+    require_length(data.material_slots.size(), data.triangles.size(), "material_slots");
+    require_length(data.faces.size(), data.triangles.size(), "faces");
+    for (std::size_t i = 0; i < data.vertices.size(); ++i)
+        require_finite(to_vec(data.vertices[i]), "Mesh", ("vertex " + std::to_string(i)).c_str());
+    for (std::size_t i = 0; i < data.normals.size(); ++i) {
+        const Vec3 n = to_vec(data.normals[i]);
+        if (!is_finite(n) || n == Vec3{})
+            throw ArgumentError("Mesh: normal " + std::to_string(i) + " must be finite and not zero");
+    }
+    for (std::size_t i = 0; i < data.uvs.size(); ++i)
+        if (!std::isfinite(data.uvs[i].u) || !std::isfinite(data.uvs[i].v))
+            throw ArgumentError("Mesh: texture coordinate " + std::to_string(i) + " must be finite");
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+        const Index3 t = data.triangles[i];
+        const std::uint32_t last = std::max({t.a, t.b, t.c});
+        if (last >= data.vertices.size())
+            throw ArgumentError("Mesh: triangle " + std::to_string(i) + " refers to vertex " + std::to_string(last) +
+                                " of " + std::to_string(data.vertices.size()));
+    }
+    for (std::size_t i = 0; i < data.material_slots.size(); ++i)
+        if (data.material_slots[i] >= materials)
+            throw ArgumentError("Mesh: triangle " + std::to_string(i) + " refers to material " +
+                                std::to_string(data.material_slots[i]) + " of " + std::to_string(materials));
+}
+
+MeshView view_of(const MeshData& data) {
+    return {data.vertices, data.triangles, data.normals, data.uvs, data.material_slots};
+}
+
+}  // namespace
+
+Mesh::Mesh(MeshData data, std::shared_ptr<const Material> material)
+    : Mesh(std::move(data), std::vector<std::shared_ptr<const Material>>{std::move(material)}) {}
+
+Mesh::Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials)
+    : data_(std::make_shared<const MeshData>(std::move(data))), materials_(std::move(materials)) {
+    if (materials_.empty()) materials_.emplace_back();
+    check(*data_, materials_.size());
+    const MeshView mesh = view_of(*data_);
+    for (std::size_t i = 0; i < data_->triangles.size(); ++i) {
+        const TriangleVertices v = triangle_vertices(mesh, i);
+        if (is_degenerate(v)) {
+            ++degenerate_;
+            continue;
+        }
+        bounds_.extend(triangle_bounds(v));
+    }
+    if (degenerate_ == data_->triangles.size()) throw Error("Mesh: there is no triangle with an area");
+}
+
+std::uint32_t Mesh::face(std::uint64_t element) const {
+    return data_->faces.empty() ? static_cast<std::uint32_t>(element) : data_->faces.at(element);
+}
+
+std::optional<Hit> Mesh::hit(const Ray& ray) const {
+    if (!is_usable(ray)) return std::nullopt;
+    const MeshView mesh = view_of(*data_);
+    const ShearedRay sheared(ray);
+    PlanarHit nearest{ray.t_max, 0, 0}, hit;
+    std::size_t element = data_->triangles.size();
+    for (std::size_t i = 0; i < data_->triangles.size(); ++i) {
+        const TriangleVertices v = triangle_vertices(mesh, i);
+        if (!intersect_triangle(v.a, v.b, v.c, sheared, ray.t_min, nearest.t, hit) || is_degenerate(v)) continue;
+        if (hit.t == nearest.t && element != data_->triangles.size()) continue;
+        nearest = hit;
+        element = i;
+    }
+    if (element == data_->triangles.size()) return std::nullopt;
+    const TriangleVertices v = triangle_vertices(mesh, element);
+    const Normal3 normal = triangle_normal(v.a, v.b, v.c);
+    const std::uint32_t slot = data_->material_slots.empty() ? 0 : data_->material_slots[element];
+    return Hit{.t = nearest.t,
+               .normal = normal,
+               .u = nearest.u,
+               .v = nearest.v,
+               .material = materials_[slot].get(),
+               .element = element,
+               .shading_normal = shading_normal(mesh, element, nearest, normal),
+               .uv = texture_coordinates(mesh, element, nearest),
+               .position_error = planar_error(v.a, v.b - v.a, v.c - v.a)};
+}
+
+void Mesh::lower(RecordSink& sink) const {
+    std::vector<MaterialId> ids;
+    for (const auto& material : materials_) ids.push_back(lower_material(sink, material));
+    sink.mesh({view_of(*data_), std::move(ids)}, data_);
+}
+
+}  // namespace limn

@@ -1,0 +1,58 @@
+#include "limn/shape/quad.h"
+
+#include "core/bounds.h"
+#include "core/intersect_triangle.h"
+#include "limn/shape/hittable_list.h"
+#include "shape/arguments.h"
+
+namespace limn {
+
+Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::shared_ptr<const Material> material)
+    : corner_(corner), edge_u_(edge_u), edge_v_(edge_v), material_(std::move(material)) {
+    require_finite(corner, "Quad", "the corner");
+    require_finite(edge_u, "Quad", "edge u");
+    require_finite(edge_v, "Quad", "edge v");
+    if (!is_finite(normalize(cross(edge_u, edge_v)))) throw ArgumentError("Quad: the edges must not be zero or parallel");
+}
+
+Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
+
+std::optional<Hit> Quad::hit(const Ray& ray) const {
+    PlanarHit hit;
+    if (!is_usable(ray) || !intersect_quad(corner_, edge_u_, edge_v_, ShearedRay(ray), ray.t_min, ray.t_max, hit))
+        return std::nullopt;
+    return Hit{.t = hit.t,
+               .normal = Normal3(normalize(cross(edge_u_, edge_v_))),
+               .u = hit.u,
+               .v = hit.v,
+               .material = material_.get(),
+               .position_error = planar_error(corner_, edge_u_, edge_v_)};
+}
+
+void Quad::lower(RecordSink& sink) const {
+    sink.quad({corner_, edge_u_, edge_v_, lower_material(sink, material_)});
+}
+
+std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& opposite,
+                                       const std::shared_ptr<const Material>& material) {
+    Box box;
+    box.extend(corner);
+    box.extend(opposite);
+    const Point3 lo = box.lower, hi = box.upper;
+    const Vec3 d = box.diagonal();
+    if (!is_finite(d) || !(d.x > 0 && d.y > 0 && d.z > 0)) throw ArgumentError("make_box: the box must not be flat");
+    const Vec3 dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
+    auto sides = std::make_shared<HittableList>();
+    const auto add = [&](const Point3& q, const Vec3& u, const Vec3& v) {
+        sides->add(std::make_shared<Quad>(q, u, v, material));
+    };
+    add({lo.x, lo.y, hi.z}, dx, dy);
+    add({hi.x, lo.y, hi.z}, -dz, dy);
+    add({hi.x, lo.y, lo.z}, -dx, dy);
+    add({lo.x, lo.y, lo.z}, dz, dy);
+    add({lo.x, hi.y, hi.z}, dx, -dz);
+    add({lo.x, lo.y, lo.z}, dx, dz);
+    return sides;
+}
+
+}  // namespace limn

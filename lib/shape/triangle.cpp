@@ -1,0 +1,35 @@
+#include "limn/shape/triangle.h"
+
+#include "core/hit_error.h"
+#include "core/intersect_triangle.h"
+#include "shape/arguments.h"
+
+namespace limn {
+
+Triangle::Triangle(const Point3& a, const Point3& b, const Point3& c, std::shared_ptr<const Material> material)
+    : a_(a), b_(b), c_(c), material_(std::move(material)) {
+    for (const Point3& p : {a, b, c}) require_finite(p, "Triangle", "a vertex");
+    if (!is_finite(triangle_normal(a, b, c))) throw ArgumentError("Triangle: the area must not be zero");
+}
+
+Box Triangle::bounds() const {
+    Box box;
+    for (const Point3& p : {a_, b_, c_}) box.extend(p);
+    return box;
+}
+
+std::optional<Hit> Triangle::hit(const Ray& ray) const {
+    PlanarHit hit;
+    if (!is_usable(ray) || !intersect_triangle(a_, b_, c_, ShearedRay(ray), ray.t_min, ray.t_max, hit))
+        return std::nullopt;
+    return Hit{.t = hit.t,
+               .normal = triangle_normal(a_, b_, c_),
+               .u = hit.u,
+               .v = hit.v,
+               .material = material_.get(),
+               .position_error = planar_error(a_, b_ - a_, c_ - a_)};
+}
+
+void Triangle::lower(RecordSink& sink) const { sink.triangle({a_, b_, c_, lower_material(sink, material_)}); }
+
+}  // namespace limn

@@ -1,0 +1,18 @@
+#include "limn/texture/solid.h"
+
+#include "core/require.h"
+
+namespace limn {
+
+SolidColor::SolidColor(const Color& color) : color_(color) {
+    require(is_radiance(color), "SolidColor: color must be finite and not negative");
+}
+
+TextureRecord SolidColor::lower(RecordSink&) const {
+    TextureRecord record;
+    record.kind = TextureKind::solid;
+    record.color = color_;
+    return record;
+}
+
+}  // namespace limn

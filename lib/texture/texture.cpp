@@ -1,0 +1,17 @@
+#include "limn/texture/texture.h"
+
+namespace limn {
+
+TextureRecord Texture::lower(RecordSink&) const {
+    TextureRecord record;
+    record.kind = TextureKind::foreign;
+    record.object = this;
+    record.value = [](const Texture& texture, const Surface& s) { return texture.value(s); };
+    return record;
+}
+
+TextureId lower_texture(RecordSink& sink, const std::shared_ptr<const Texture>& texture) {
+    return sink.texture(texture, [&] { return texture->lower(sink); });
+}
+
+}  // namespace limn

@@ -1,0 +1,117 @@
+// `limn compare` on images small enough to do by hand.
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "folder.h"
+#include "limn/io/image_io.h"
+#include "process.h"
+
+namespace limn::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string image_file(const Folder& folder, const std::string& name, const Image& image) {
+    save_image(image, folder.path(name));
+    return folder.path(name);
+}
+
+// The value that stands after `label` at the start of a line.
+std::string row(const std::string& table, const std::string& label) {
+    const std::size_t at = ("\n" + table).find("\n" + label + " ");
+    REQUIRE(at != std::string::npos);
+    const std::size_t value = table.find_first_not_of(' ', at + label.size());
+    return table.substr(value, table.find('\n', value) - value);
+}
+
+TEST_CASE("limn compare: prints the metrics of two images, and the same as JSON", "[cli]") {
+    const Folder folder;
+    Image test(2, 1, {0.5, 0.5, 0.5});
+    const Image reference(2, 1, {0.5, 0.5, 0.5});
+    test.set(1, 0, {0.75, 0.5, 0.5});  // one value of six is off by 1/4
+    const std::string a = image_file(folder, "a.exr", test), b = image_file(folder, "b.exr", reference);
+
+    const Outcome outcome = limn({"compare", a, b, "--json", folder.path("c.json")});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    const double relmse = 0.0625 / 0.26 / 6, largest = 0.25 / std::sqrt(0.26);
+    CHECK(std::stod(row(outcome.out, "relMSE")) == Approx(relmse).epsilon(1e-5));  // six digits are printed
+    CHECK(std::stod(row(outcome.out, "MSE")) == Approx(0.0625 / 6).epsilon(1e-5));
+    CHECK(std::stod(row(outcome.out, "SMAPE")) == Approx(2 * 0.25 / 1.25 / 6).epsilon(1e-5));
+    const double db = -10 * std::log10(std::pow(srgb_encode(0.75) - srgb_encode(0.5), 2) / 6);
+    CHECK(std::stod(row(outcome.out, "PSNR")) == Approx(db).epsilon(1e-5));
+    CHECK(std::stod(row(outcome.out, "largest relative error")) == Approx(largest).epsilon(1e-5));
+    CHECK(row(outcome.out, "largest relative error").find("(1, 0)") != std::string::npos);
+    CHECK(std::stod(row(outcome.out, "share of worst 0.1 %")) == 1);
+    CHECK(row(outcome.out, "non-finite values") == "0 in the test, 0 in the reference");
+
+    const Json json = Json::parse(folder.read("c.json"));
+    CHECK(json["valid"] == true);
+    CHECK(json["relmse"].get<double>() == Approx(relmse));
+    CHECK(json["largest_relative_error"]["x"] == 1);
+    CHECK(json["nonfinite"]["test"] == 0);
+    CHECK_FALSE(json.contains("corrected_relmse"));
+}
+
+TEST_CASE("limn compare: the JSON stands alone on stdout for -; equal images have no error", "[cli]") {
+    const Folder folder;
+    const std::string a = image_file(folder, "a.exr", Image(3, 2, {0.1, 0.2, 0.3}));
+    const Outcome outcome = limn({"compare", a, a, "--json", "-"});
+    REQUIRE(outcome.status == 0);
+    const Json json = Json::parse(outcome.out);
+    CHECK(json["relmse"] == 0);
+    CHECK(json["psnr"].is_null());  // infinite
+}
+
+TEST_CASE("limn compare: the error of a reference in two halves is subtracted and judged", "[cli]") {
+    const Folder folder;
+    const std::string test = image_file(folder, "t.exr", Image(1, 1, {1, 1, 1}));
+    const std::string low = image_file(folder, "l.exr", Image(1, 1, {0.25, 0.25, 0.25}));
+    const std::string high = image_file(folder, "h.exr", Image(1, 1, {0.75, 0.75, 0.75}));
+    const Outcome outcome = limn({"compare", test, low, high});
+    REQUIRE(outcome.status == 0);
+    // Mean of the halves 1/2, half their difference 1/4.
+    const double measured = 0.25 / 0.26, own = 0.0625 / 0.26;
+    CHECK(std::stod(row(outcome.out, "relMSE")) == Approx(measured).epsilon(1e-5));
+    CHECK(std::stod(row(outcome.out, "reference's own relMSE")) == Approx(own).epsilon(1e-5));
+    CHECK(std::stod(row(outcome.out, "corrected relMSE")) == Approx(measured - own).epsilon(1e-5));
+    CHECK(row(outcome.out, "reference good enough").starts_with("no"));
+}
+
+TEST_CASE("limn compare: one value that is not finite makes the error invalid, with status 1", "[cli]") {
+    const Folder folder;
+    Image bad(2, 2);
+    bad.set(1, 1, {std::numeric_limits<double>::quiet_NaN(), 0, 0});
+    const Outcome outcome =
+        limn({"compare", image_file(folder, "bad.exr", bad), image_file(folder, "good.exr", Image(2, 2))});
+    CHECK(outcome.status == 1);
+    CHECK(row(outcome.out, "relMSE") == "invalid");
+    CHECK(row(outcome.out, "non-finite values") == "1 in the test, 0 in the reference");
+    CHECK(outcome.err.find("not finite") != std::string::npos);
+}
+
+TEST_CASE("limn compare: images of different size and missing files are refused with status 1", "[cli]") {
+    const Folder folder;
+    const std::string a = image_file(folder, "a.exr", Image(2, 3)), b = image_file(folder, "b.exr", Image(3, 2));
+    const Outcome sizes = limn({"compare", a, b, "--json", folder.path("c.json")});
+    CHECK(sizes.status == 1);
+    CHECK(sizes.err.find("a.exr") != std::string::npos);
+    const Outcome missing = limn({"compare", a, folder.path("none.exr")});
+    CHECK(missing.status == 1);
+    CHECK(missing.err.find("none.exr") != std::string::npos);
+    CHECK((sizes.out + missing.out).empty());
+    CHECK(folder.names() == Names{"a.exr", "b.exr"});
+}
+
+TEST_CASE("limn compare: JSON that would replace one of the images is refused", "[cli]") {
+    const Folder folder;
+    const std::string a = image_file(folder, "a.exr", Image(2, 3));
+    const std::string before = folder.read("a.exr");
+    CHECK(limn({"compare", a, a, "--json", a}).status == 2);
+    CHECK(folder.read("a.exr") == before);
+}
+
+}  // namespace
+}  // namespace limn::test

@@ -1,0 +1,52 @@
+#include "folder.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace limn::test {
+
+Folder::Folder() : path_((std::filesystem::temp_directory_path() / "limn-cli-XXXXXX").string()) {
+    if (!mkdtemp(path_.data())) throw std::runtime_error("no temporary folder");
+}
+
+Folder::~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string Folder::write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+}
+
+std::string Folder::read(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    return content.str();
+}
+
+std::set<std::string> Folder::names() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.insert(entry.path().filename());
+    return names;
+}
+
+std::string house_obj(double scale) {
+    constexpr int kCorners[][3] = {{-3, 0, -2}, {3, 0, -2}, {3, 0, 2},  {-3, 0, 2}, {-3, 3, -2},
+                                   {3, 3, -2},  {3, 3, 2},  {-3, 3, 2}, {-3, 5, 0}, {3, 5, 0}};
+    std::string obj;
+    for (const auto& c : kCorners) {
+        const auto scaled = [&](int i) { return static_cast<float>(c[i] * scale); };
+        obj += fmt::format("v {} {} {}\n", scaled(0), scaled(1), scaled(2));
+    }
+    return obj +
+           "f 1 2 3 4\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 5 8 9\nf 2 6 7 3\nf 6 10 7\nf 5 9 10 6\nf 7 10 9 8\n";
+}
+
+}  // namespace limn::test

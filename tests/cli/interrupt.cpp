@@ -1,0 +1,88 @@
+// SIGINT and SIGTERM, and the progress bar that tells when a render is under way.
+#include "interrupt.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "folder.h"
+#include "limn/io/image_io.h"
+#include "process.h"
+
+namespace limn::test {
+namespace {
+
+constexpr const char* kEndless = "1000000000";
+
+void check_partial_picture(int signal, int status) {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj());
+    OnTerminal program(LIMN_PROGRAM, {"render", model, "-o", folder.path("a.exr"), "--size", "16x12", "--spp", kEndless,
+                                      "--report", folder.path("r.json")});
+    REQUIRE(program.wait_for(" %"));  // the bar: rendering has begun
+    program.send(signal);
+    CHECK(program.finish().status == status);
+    CHECK(folder.names() == Names{"a.exr", "house.obj", "r.json"});
+
+    const Image image = load_image(folder.path("a.exr"));
+    CHECK(image.width() == 16);
+    CHECK(image.height() == 12);
+    std::map<std::string, std::string> facts;
+    for (const auto& [name, value] : load_image_facts(folder.path("a.exr"))) facts[name] = value;
+    CHECK(facts["complete"] == "no");
+    CHECK(std::stod(facts["spp"]) > 0);
+    CHECK(std::stod(facts["spp"]) < 1e9);
+    CHECK(nlohmann::json::parse(folder.read("r.json"))["spp"] > 0);
+}
+
+TEST_CASE("Interruption: SIGINT saves the partial picture and ends with 130", "[cli]") {
+    check_partial_picture(SIGINT, 130);
+}
+
+TEST_CASE("Interruption: SIGTERM saves the partial picture and ends with 143", "[cli]") {
+    check_partial_picture(SIGTERM, 143);
+}
+
+TEST_CASE("Interruption: the first signal is remembered, the second one ends the program", "[cli]") {
+    for (const int second : {SIGINT, SIGTERM}) {
+        const pid_t child = fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            signal(SIGINT, SIG_IGN);  // as a shell starts its background jobs
+            app::catch_interrupts();
+            raise(SIGINT);
+            if (app::caught_signal() == SIGINT) raise(second);
+            _exit(1);
+        }
+        int status = 0;
+        REQUIRE(waitpid(child, &status, 0) == child);
+        REQUIRE(WIFSIGNALED(status));
+        CHECK(WTERMSIG(status) == second);
+    }
+}
+
+TEST_CASE("Progress: a bar is drawn on a terminal and taken away at the end, and not with --quiet", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj());
+    const auto terminal = [&](const Words& more) {
+        Words words = {"render", model, "-o", folder.path("a.exr"), "--size", "64x64", "--spp", "64"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = OnTerminal(LIMN_PROGRAM, words).finish();
+        CHECK(outcome.status == 0);
+        return outcome.err;
+    };
+    const std::string drawn = terminal({});
+    const std::size_t bar = drawn.find(" %"), erased = drawn.rfind("\r\033[K");
+    REQUIRE(bar != std::string::npos);
+    REQUIRE(erased != std::string::npos);
+    CHECK(bar < erased);
+    CHECK(drawn.find(" %", erased) == std::string::npos);
+    CHECK(terminal({"--quiet"}).empty());
+}
+
+}  // namespace
+}  // namespace limn::test

@@ -1,0 +1,150 @@
+// The options, without running a program.
+#include <CLI/CLI.hpp>
+
+#include "catch.h"
+#include "limn/core/error.h"
+#include "program.h"
+#include "render_options.h"
+
+namespace limn::app {
+namespace {
+
+RenderOptions parsed(std::vector<const char*> words) {
+    CLI::App cli("", "test");
+    RenderOptions options;
+    add_render_options(cli, options);
+    words.insert(words.begin(), "test");
+    parse_arguments(cli, static_cast<int>(words.size()), words.data());
+    return options;
+}
+
+std::string refusal(const std::vector<const char*>& words) {
+    try {
+        parsed(words);
+    } catch (const ArgumentError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST_CASE("Options: every value reaches the figure", "[cli]") {
+    const RenderOptions o = parsed({"-o", "a.exr", "--output=b.png", "--size", "30x20", "--spp", "7", "--seed",
+                                    "18446744073709551615", "--threads", "3", "--max-depth", "unlimited", "--report",
+                                    "-", "--quiet", "--estimator", "naive", "--no-antialias", "--half", "--look-from",
+                                    "-1,2e0,.5", "--look-at", "0,0,-3", "--vup", "0,0,1", "--vfov", "33",
+                                    "--aperture-angle", "0.25", "--focus-dist", "4"});
+    CHECK(o.outputs == std::vector<std::string>{"a.exr", "b.png"});
+    CHECK(o.report == "-");
+    CHECK((o.quiet && o.half));
+    Figure figure;
+    figure.camera.aspect_ratio = 9.0;
+    apply(o, figure);
+    CHECK(figure.settings.width == 30);
+    CHECK(figure.settings.height == 20);
+    CHECK(figure.settings.samples_per_pixel == 7);
+    CHECK(figure.settings.seed == 18446744073709551615u);
+    CHECK(figure.settings.threads == 3);
+    CHECK(figure.settings.max_depth == kUnlimitedDepth);
+    CHECK(figure.settings.estimator == Estimator::naive);
+    CHECK_FALSE(figure.settings.antialias);
+    CHECK(figure.camera.look_from == Point3{-1, 2, 0.5});
+    CHECK(figure.camera.look_at == Point3{0, 0, -3});
+    CHECK(figure.camera.up == Vec3{0, 0, 1});
+    CHECK(figure.camera.vertical_fov == 33);
+    CHECK(figure.camera.aperture_angle == 0.25);
+    CHECK(figure.camera.focus_distance == 4.0);
+    CHECK_FALSE(figure.camera.aspect_ratio.has_value());
+}
+
+TEST_CASE("Options: what the command line does not name stays as the figure has it", "[cli]") {
+    Figure figure;
+    figure.settings = {.width = 11, .height = 12, .samples_per_pixel = 13, .max_depth = 14, .seed = 15, .threads = 16};
+    figure.settings.antialias = false;
+    figure.settings.estimator = Estimator::naive;
+    figure.camera = {.look_from = {1, 2, 3}, .look_at = {4, 5, 6}, .up = {7, 8, 9}, .vertical_fov = 10,
+                     .aspect_ratio = 1.5, .aperture_angle = 11, .focus_distance = 12};
+    apply(parsed({}), figure);
+    CHECK(figure.settings.width == 11);
+    CHECK(figure.settings.height == 12);
+    CHECK(figure.settings.samples_per_pixel == 13);
+    CHECK(figure.settings.max_depth == 14);
+    CHECK(figure.settings.seed == 15);
+    CHECK(figure.settings.threads == 16);
+    CHECK(figure.settings.estimator == Estimator::naive);
+    CHECK_FALSE(figure.settings.antialias);
+    CHECK(figure.camera.look_from == Point3{1, 2, 3});
+    CHECK(figure.camera.look_at == Point3{4, 5, 6});
+    CHECK(figure.camera.up == Vec3{7, 8, 9});
+    CHECK(figure.camera.vertical_fov == 10);
+    CHECK(figure.camera.aspect_ratio == 1.5);
+    CHECK(figure.camera.aperture_angle == 11);
+    CHECK(figure.camera.focus_distance == 12.0);
+}
+
+TEST_CASE("Options: a value that cannot be right is refused by name", "[cli]") {
+    const std::vector<std::pair<const char*, std::vector<const char*>>> bad = {
+        {"--spp", {"0", "-3", "4.5", "4x", " 4", "+4", "nan", "2147483648", "99999999999999999999", "x"}},
+        {"--seed", {"-1", "18446744073709551616", "0x10", "1e3"}},
+        {"--threads", {"0", "-2", "1025", "all"}},
+        {"--max-depth", {"0", "-1", "forever", "2147483647", "1.0"}},
+        {"--size", {"0x10", "10x0", "10x-5", "10", "x", "10x", "10x10x10", "10X10", "65537x10", "4e2x400", "10 x10"}},
+        {"--estimator", {"magic", "Path", "path "}},
+        {"--look-from", {"1", "1,2", "1,2,", "1,2,3,4", "1,2,nan", "inf,0,0", "1,2,3 ", "1;2;3", "1,2,1e999", ",,"}},
+        {"--look-at", {"0,0,0x", "a,b,c"}},
+        {"--vup", {"0,0,0", "-0,0,0", "0,nan,0"}},
+        {"--vfov", {"0", "180", "-20", "nan", "inf", "20deg", "360"}},
+        {"--aperture-angle", {"-0.1", "180", "nan"}},
+        {"--focus-dist", {"0", "-1", "inf", "1e999", "ten"}},
+    };
+    for (const auto& [option, values] : bad)
+        for (const char* value : values) {
+            CAPTURE(option, value);
+            const std::string message = refusal({option, value});
+            CHECK(message.find(option) != std::string::npos);
+            CHECK(message.find(value) != std::string::npos);
+        }
+}
+
+TEST_CASE("Options: the ends of each range are allowed", "[cli]") {
+    CHECK(parsed({"--size", "1x65536"}).size->height == 65536);
+    CHECK(parsed({"--spp", "1"}).samples_per_pixel == 1);
+    CHECK(parsed({"--spp", "2147483647"}).samples_per_pixel == 2147483647);
+    CHECK(parsed({"--seed", "0"}).seed == 0u);
+    CHECK(parsed({"--max-depth", "1"}).max_depth == 1);
+    CHECK(parsed({"--max-depth", "2147483646"}).max_depth == 2147483646);
+    CHECK(parsed({"--aperture-angle", "0"}).camera.aperture_angle == 0.0);
+    CHECK(parsed({"--vfov", "179.9"}).camera.vertical_fov == 179.9);
+}
+
+TEST_CASE("Options: what is reserved for later versions is refused as such", "[cli]") {
+    for (const char* option : {"--error", "--time-limit", "--shard", "--checkpoint", "--resume"}) {
+        CAPTURE(option);
+        const std::string message = refusal({option, "1"});
+        CHECK(message.find(option) != std::string::npos);
+        CHECK(message.find("reserved") != std::string::npos);
+    }
+}
+
+TEST_CASE("Options: unknown, repeated and incomplete ones are refused by name", "[cli]") {
+    CHECK(refusal({"--bogus"}).find("--bogus") != std::string::npos);
+    CHECK(refusal({"stray"}).find("stray") != std::string::npos);
+    CHECK(refusal({"--spp"}).find("--spp") != std::string::npos);
+    CHECK(refusal({"--spp", "4", "--spp", "5"}).find("--spp") != std::string::npos);
+    CHECK(refusal({"-o"}).find("-o") != std::string::npos);
+}
+
+TEST_CASE("Options: a camera that no figure could have is refused", "[cli]") {
+    const auto check = [](const std::vector<const char*>& words) { check_camera_alone(parsed(words).camera); };
+    CHECK_THROWS_AS(check({"--look-from", "1,2,3", "--look-at", "1,2,3"}), ArgumentError);
+    CHECK_THROWS_AS(check({"--look-from", "0,5,0", "--look-at", "0,0,0", "--vup", "0,-1,0"}), ArgumentError);
+    CHECK_NOTHROW(check({"--look-from", "0,5,0", "--look-at", "0,0,0", "--vup", "0,0,1"}));
+    CHECK_NOTHROW(check({"--look-from", "0,0,0"}));
+}
+
+TEST_CASE("Options: the command line is kept as a shell would read it back", "[cli]") {
+    const char* const argv[] = {"limn", "render", "a b.obj", "it's", "-o", "x.exr", ""};
+    CHECK(command_line(7, argv) == R"(limn render 'a b.obj' 'it'\''s' -o x.exr '')");
+}
+
+}  // namespace
+}  // namespace limn::app

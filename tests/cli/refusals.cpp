@@ -1,0 +1,114 @@
+// Exit status, streams, and that nothing is written or harmed when limn refuses.
+#include "catch.h"
+#include "folder.h"
+#include "process.h"
+
+namespace limn::test {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
+    const Outcome version = limn({"--version"});
+    CHECK(version.status == 0);
+    CHECK(version.err.empty());
+    int major = -1, minor = -1, patch = -1, end = 0;
+    REQUIRE(std::sscanf(version.out.c_str(), "limn %d.%d.%d%n", &major, &minor, &patch, &end) == 3);
+    CHECK(version.out.substr(static_cast<std::size_t>(end)) == "\n");
+
+    for (const Words& words : {Words{"--help"}, Words{"render", "--help"}, Words{"compare", "--help"}}) {
+        const Outcome help = limn(words);
+        CHECK(help.status == 0);
+        CHECK(help.err.empty());
+        CHECK(contains(help.out, words.front() == "--help" ? "limn render" : words.front()));
+    }
+}
+
+TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and nothing on stdout", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj()), out = folder.path("out.exr");
+    const std::vector<std::pair<Words, std::string>> cases = {
+        {{}, "usage"},
+        {{"paint"}, "paint"},
+        {{"--bogus"}, "--bogus"},
+        {{"render"}, "MODEL"},
+        {{"render", model}, "-o"},
+        {{"render", model, "-o", out, "--spp", "0"}, "--spp 0"},
+        {{"render", model, "-o", out, "--bogus"}, "--bogus"},
+        {{"render", model, model, "-o", out}, "house.obj"},
+        {{"render", model, "-o", out, "--error", "0.01"}, "--error"},
+        {{"render", model, "-o", out, "-o", folder.path("./out.exr")}, "out.exr"},
+        {{"render", model, "-o", out, "--report", out}, "out.exr"},
+        {{"render", model, "-o", out, "--report", model}, "house.obj"},
+        {{"render", model, "-o", out, "--look-from", "1,1,1", "--look-at", "1,1,1"}, "look-from"},
+        {{"render", model, "-o", out, "--look-from", "0,9,0", "--look-at", "0,0,0"}, "up"},
+        {{"merge", "a.exr", "-o", out}, "merge"},
+        {{"bench"}, "not available"},
+        {{"compare", "one.exr"}, "REF"},
+        {{"compare", "a.exr", "b.exr", "c.exr", "d.exr"}, "d.exr"},
+    };
+    for (const auto& [words, named] : cases) {
+        CAPTURE(words);
+        const Outcome outcome = limn(words);
+        CHECK(outcome.status == 2);
+        CHECK(contains(outcome.err, named));
+        CHECK(outcome.err.starts_with("limn: "));
+        CHECK(outcome.out.empty());
+    }
+    CHECK(folder.names() == Names{"house.obj"});
+    CHECK(folder.read("house.obj") == house_obj());
+}
+
+TEST_CASE("limn render: files that cannot be read or written end with status 1 before rendering", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj()), out = folder.path("out.exr");
+    const std::string empty = folder.write("empty.obj", "# nothing\n");
+    const std::string broken = folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    const Names before = folder.names();
+    const std::vector<std::pair<Words, std::string>> cases = {
+        {{folder.path("none.obj"), "-o", out}, "none.obj"},
+        {{folder.path(), "-o", out}, folder.path()},
+        {{empty, "-o", out}, "empty.obj"},
+        {{broken, "-o", out}, "broken.obj"},
+        {{model, "-o", folder.path("no/out.exr")}, "no/out.exr"},
+        {{model, "-o", folder.path("house.obj/out.exr")}, "out.exr"},
+        {{model, "-o", folder.path("out.xyz")}, "out.xyz"},
+        {{model, "-o", folder.path("out")}, folder.path("out")},
+        {{model, "-o", out, "-o", folder.path("no/out.png")}, "no/out.png"},
+        {{model, "-o", out, "--report", folder.path("no/report.json")}, "report.json"},
+        {{model, "-o", out, "--report", folder.path()}, folder.path()},
+        {{model, "-o", out, "--report", "/dev/null"}, "/dev/null"},
+    };
+    for (const auto& [arguments, named] : cases) {
+        // So many samples that anything that is refused late does not end.
+        Words words = {"render", "--quiet", "--spp", "1000000000"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        CAPTURE(words);
+        const Outcome outcome = limn(words);
+        CHECK(outcome.status == 1);
+        CHECK(contains(outcome.err, named));
+        CHECK(outcome.out.empty());
+    }
+    CHECK(folder.names() == before);
+}
+
+TEST_CASE("limn render: a refusal leaves the picture and the report that were there as they were", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj());
+    const std::string picture = folder.write("old.exr", "an old picture");
+    const std::string report = folder.write("old.json", "an old report");
+    const Names before = folder.names();
+    const Words files = {"-o", picture, "--report", report};
+    for (Words words : {Words{"render", folder.path("none.obj")}, Words{"render", model, "--vfov", "0"},
+                        Words{"render", model, "-o", folder.path("no/x.png")}}) {
+        words.insert(words.end(), files.begin(), files.end());
+        CAPTURE(words);
+        CHECK(limn(words).status != 0);
+        CHECK(folder.read("old.exr") == "an old picture");
+        CHECK(folder.read("old.json") == "an old report");
+    }
+    CHECK(folder.names() == before);
+}
+
+}  // namespace
+}  // namespace limn::test

@@ -1,0 +1,88 @@
+#include "limn/core/vec.h"
+
+#include <limits>
+#include <type_traits>
+
+#include "catch.h"
+#include "limn/core/math.h"
+#include "support/random_geometry.h"
+
+using namespace limn;
+using limn::test::Random;
+
+TEST_CASE("Vec3: the cross product is perpendicular to both factors and as long as Lagrange's identity says", "[core][vec]") {
+    Random random(1);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 a = random.in_cube(), b = random.in_cube();
+        const Vec3 n = cross(a, b);
+        CHECK(std::abs(dot(n, a)) <= 1e-15);
+        CHECK(std::abs(dot(n, b)) <= 1e-15);
+        CHECK(length_squared(n) == Approx(length_squared(a) * length_squared(b) - dot(a, b) * dot(a, b)).margin(1e-14));
+    }
+    CHECK(cross(Vec3{1, 0, 0}, Vec3{0, 1, 0}) == Vec3{0, 0, 1});  // right-handed
+    CHECK(cross(Vec3{0, 1, 0}, Vec3{0, 0, 1}) == Vec3{1, 0, 0});
+}
+
+TEST_CASE("Vec3: the length neither overflows nor underflows", "[core][vec]") {
+    CHECK(length({3e200, 4e200, 0}) == Approx(5e200));
+    CHECK(length({3e-200, 0, -4e-200}) == Approx(5e-200));
+    CHECK(length({}) == 0);
+}
+
+TEST_CASE("Vec3: normalize gives unit length and the same direction for any finite length", "[core][vec]") {
+    Random random(2);
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 unit = random.unit();
+        const Vec3 n = normalize(random.log_uniform(1e-300, 1e300) * unit);
+        CHECK(std::abs(length(n) - 1) <= 4 * kRoundoff);
+        CHECK(length(n - unit) <= 8 * kRoundoff);
+    }
+    CHECK(length(normalize(Vec3{5e-324, 0, 0})) == 1);
+    const double huge = std::numeric_limits<double>::max();
+    CHECK(length(normalize(Vec3{huge, -huge, huge})) == Approx(1));
+    CHECK(std::isnan(normalize(Vec3{}).x));
+}
+
+TEST_CASE("Points, vectors and normals do not turn into each other by accident", "[core][vec]") {
+    STATIC_REQUIRE_FALSE(std::is_convertible_v<Vec3, Normal3>);
+    STATIC_REQUIRE_FALSE(std::is_convertible_v<Normal3, Vec3>);
+    STATIC_REQUIRE_FALSE(std::is_convertible_v<Point3, Vec3>);
+    STATIC_REQUIRE_FALSE(std::is_constructible_v<Vec3, Point3>);
+    STATIC_REQUIRE(std::is_same_v<decltype(Point3{} - Point3{}), Vec3>);
+    STATIC_REQUIRE(std::is_same_v<decltype(Point3{} + Vec3{}), Point3>);
+    CHECK(Vec3(Normal3(Vec3{1, -2, 3})) == Vec3{1, -2, 3});
+    CHECK(-Normal3{1, -2, 3} == Normal3{-1, 2, -3});
+}
+
+TEST_CASE("Vec3: an axis number reads and writes the component", "[core][vec]") {
+    Vec3 v{1, 2, 3};
+    v[1] = 7;
+    CHECK((v[0] == 1 && v[1] == 7 && v[2] == 3 && v.y == 7));
+    CHECK(limn::abs(Vec3{-1, 2, -3}) == Vec3{1, 2, 3});
+}
+
+TEST_CASE("is_finite: one NaN or infinity in any component is found", "[core][vec]") {
+    for (std::size_t a = 0; a < 3; ++a) {
+        for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
+            Vec3 v{1, 2, 3};
+            Point3 p{1, 2, 3};
+            v[a] = bad, p[a] = bad;
+            CHECK_FALSE(is_finite(v));
+            CHECK_FALSE(is_finite(p));
+            CHECK_FALSE(is_finite(Normal3(v)));
+        }
+    }
+    CHECK(is_finite(Vec3{1e308, -1e308, 0}));
+}
+
+TEST_CASE("is_usable: refuses a ray exactly when a field is NaN, infinite or contradictory", "[core][ray]") {
+    for (const Ray& ray : test::unusable_rays()) CHECK_FALSE(is_usable(ray));
+    Ray ray{.origin = {3e38, -3e38, 0}, .direction = {0, 0, 1e-320}};
+    CHECK(is_usable(ray));
+    ray.t_min = -kInfinity;
+    CHECK(is_usable(ray));
+    ray.t_min = ray.t_max = 5;  // empty, yet in order
+    CHECK(is_usable(ray));
+    ray.time = -3;
+    CHECK(is_usable(ray));
+}

@@ -1,0 +1,143 @@
+#include "limn/core/warp.h"
+
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "catch.h"
+#include "limn/core/math.h"
+#include "support/chi_square.h"
+
+using namespace limn;
+using test::chi_square_p;
+using test::DirectionHistogram;
+using test::uniform;
+
+namespace {
+
+constexpr int kSamples = 1'000'000;
+const double kLevel = test::sidak_level(10);  // chi-square tests in this file
+
+constexpr double kAlmostOne = 1 - 0x1p-53;
+constexpr double kCorners[] = {0, 0x1p-1074, 0x1p-53, 0.25, 0.5 - 0x1p-54, 0.5, 0.5 + 0x1p-53, 0.75, kAlmostOne};
+
+template <class Sample, class Pdf>
+double direction_p(const Sample& sample, const Pdf& pdf) {
+    std::mt19937_64 random(64);
+    DirectionHistogram histogram({0, 0, 1});
+    for (int i = 0; i < kSamples; ++i) {
+        const double u = uniform(random);
+        histogram.add(sample(u, uniform(random)));
+    }
+    return histogram.p_value(pdf);
+}
+
+}  // namespace
+
+TEST_CASE("Warp: the cosine hemisphere follows its density", "[core][warp]") {
+    CHECK(direction_p(sample_cosine_hemisphere, [](const Vec3& w) { return pdf_cosine_hemisphere(w.z); }) > kLevel);
+}
+
+TEST_CASE("Warp: the uniform sphere follows its density", "[core][warp]") {
+    CHECK(direction_p(sample_uniform_sphere, [](const Vec3&) { return pdf_uniform_sphere(); }) > kLevel);
+}
+
+TEST_CASE("Warp: uniform cones follow their density, wide and narrow", "[core][warp]") {
+    for (const double one_minus_cos : {1e-9, 0.25, 1.0, 2.0}) {
+        std::mt19937_64 random(65);
+        CAPTURE(one_minus_cos);
+        CHECK(test::uniform_square_p(kSamples, [&] {
+            const double u = uniform(random);
+            const Vec3 w = sample_uniform_cone(u, uniform(random), one_minus_cos);
+            const double from_axis = (w.x * w.x + w.y * w.y) / (1 + w.z);  // 1 - cos without cancellation
+            return std::pair(w.z > -1 + 1e-9 ? from_axis / one_minus_cos : 1.0, std::atan2(w.y, w.x) / (2 * kPi) + 0.5);
+        }) > kLevel);
+        CHECK(pdf_uniform_cone(one_minus_cos) * 2 * kPi * one_minus_cos == Approx(1).epsilon(1e-15));
+    }
+}
+
+TEST_CASE("Warp: the cone's density stays right for a light far away", "[core][warp]") {
+    // A unit sphere at 1.5e4: 1 - cos = s^2 / (1 + cos), s = 1 / 1.5e4.
+    const double s2 = 1 / (1.5e4 * 1.5e4);
+    CHECK(pdf_uniform_cone(s2 / (1 + std::sqrt(1 - s2))) == Approx(7.16197243118e7).epsilon(1e-11));
+}
+
+TEST_CASE("Warp: the disc is uniform per area", "[core][warp]") {
+    std::mt19937_64 random(66);
+    CHECK(test::uniform_square_p(kSamples, [&] {
+        const double u = uniform(random);
+        const Vec3 p = sample_uniform_disc(u, uniform(random));
+        return std::pair(length_squared(p), std::atan2(p.y, p.x) / (2 * kPi) + 0.5);
+    }) > kLevel);
+}
+
+TEST_CASE("Warp: the ball is uniform per volume", "[core][warp]") {
+    std::mt19937_64 random(67);
+    std::vector<double> observed(16 * 16 * 16);
+    const auto index = [](double x) { return static_cast<std::size_t>(std::clamp(x * 16, 0.0, 15.0)); };
+    for (int i = 0; i < kSamples; ++i) {
+        const double u = uniform(random), v = uniform(random);
+        const Vec3 p = sample_uniform_ball(u, v, uniform(random));
+        const double r = length(p);  // r^3, cos theta and phi are independent and uniform
+        observed[(index(r * r * r) * 16 + index((p.z / r + 1) / 2)) * 16 + index(std::atan2(p.y, p.x) / (2 * kPi) + 0.5)] += 1;
+    }
+    CHECK(chi_square_p(observed, std::vector<double>(observed.size(), kSamples / 4096.0)) > kLevel);
+}
+
+TEST_CASE("Warp: the triangle is uniform per area", "[core][warp]") {
+    std::mt19937_64 random(68);
+    CHECK(test::uniform_square_p(kSamples, [&] {
+        const double u = uniform(random);
+        const Uv b = sample_uniform_triangle(u, uniform(random));
+        const double far_side = b.u + b.v;  // distance from the first vertex; the area within it is its square
+        return std::pair(far_side * far_side, b.v / far_side);
+    }) > kLevel);
+}
+
+TEST_CASE("Warp: free flight follows its density", "[core][warp]") {
+    const double sigma = 2.5, width = 0.05;
+    std::mt19937_64 random(69);
+    std::vector<double> observed(200), expected(200);
+    for (int i = 0; i < kSamples; ++i)
+        observed[static_cast<std::size_t>(std::min(sample_exponential(uniform(random), sigma) / width, 199.0))] += 1;
+    double total = 0;
+    for (std::size_t i = 0; i + 1 < expected.size(); ++i) {
+        const double a = static_cast<double>(i) * width;
+        const double simpson = pdf_exponential(a, sigma) + 4 * pdf_exponential(a + width / 2, sigma) +
+                               pdf_exponential(a + width, sigma);
+        total += expected[i] = kSamples * simpson * width / 6;
+    }
+    expected.back() = kSamples - total;
+    CHECK(chi_square_p(observed, expected) > kLevel);
+}
+
+TEST_CASE("Warp: free flight has no end that 24-bit numbers would set", "[core][warp]") {
+    CHECK(sample_exponential(kAlmostOne, 1) == Approx(53 * std::log(2.0)));
+    CHECK(sample_exponential(0x1p-60, 2) == 0x1p-61);
+    CHECK(sample_exponential(0, 1) == 0);
+    CHECK(sample_exponential(0.5, 0) == kInfinity);
+    CHECK(pdf_exponential(-1, 2) == 0);
+}
+
+TEST_CASE("Warp: directions are unit and points inside, in every corner of the unit cube", "[core][warp]") {
+    const double unit = gamma(16), inside = 1 + gamma(16);
+    for (const double u : kCorners)
+        for (const double v : kCorners) {
+            CAPTURE(u, v);
+            CHECK(std::abs(length(sample_cosine_hemisphere(u, v)) - 1) <= unit);
+            CHECK(sample_cosine_hemisphere(u, v).z >= 0);
+            CHECK(std::abs(length(sample_uniform_sphere(u, v)) - 1) <= unit);
+            CHECK(length(sample_uniform_disc(u, v)) <= inside);
+            CHECK(sample_uniform_disc(u, v).z == 0);
+            for (const double w : kCorners) CHECK(length(sample_uniform_ball(u, v, w)) <= inside);
+            for (const double omc : {1e-300, 1e-15, 0.5, 2.0})
+                CHECK(std::abs(length(sample_uniform_cone(u, v, omc)) - 1) <= unit);
+            const Uv b = sample_uniform_triangle(u, v);
+            CHECK((b.u >= 0 && b.v >= 0 && b.u + b.v <= 1));
+        }
+}
+
+TEST_CASE("Warp: below the horizon the cosine density is zero", "[core][warp]") {
+    CHECK(pdf_cosine_hemisphere(-0.5) == 0);
+    CHECK(pdf_cosine_hemisphere(1) == Approx(1 / kPi));
+}
