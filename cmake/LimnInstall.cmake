@@ -21,7 +21,7 @@ install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/l
 
 # pkg-config finds the prefix from where limn.pc stands.
 file(RELATIVE_PATH prefix_from_pc "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
-set(requires_private "tbb tinyobjloader")
+set(requires_private "tbb")
 if(LIMN_WITH_OPENIMAGEIO)
     string(APPEND requires_private " OpenImageIO")
 endif()

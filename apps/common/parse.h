@@ -1,6 +1,6 @@
 /// \file
-/// Values of command-line options, read strictly: the whole text is one finite value within its range. Everything throws
-/// ArgumentError with a message that holds the option and the text. The locale plays no part.
+/// Values of command-line options, read strictly: the whole text is one finite value within its range. Everything
+/// throws ArgumentError with a message that holds the option and the text. The locale plays no part.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@ namespace limn::app {
 
 // Exit status.
 inline constexpr int kDone = 0;
-inline constexpr int kFailed = 1;       ///< something is wrong in files, memory or environment
+inline constexpr int kFailed = 1;        ///< something is wrong in files, memory or environment
 inline constexpr int kBadArguments = 2;  ///< something is wrong in the arguments alone
 
 /// Speaks on stderr, each line with the program's name before it.

@@ -15,7 +15,8 @@ namespace limn::app {
 struct RenderJob {
     /// Reads files and describes the scene; whatever it throws counts as a fault of those files.
     std::function<Figure()> make;
-    std::vector<std::string> inputs;  ///< files that `make` reads, which no output may replace; empty names do not count
+    /// Files that `make` reads, which no output may replace; empty names do not count.
+    std::vector<std::string> inputs;
 };
 
 /// Checks everything that can be known, makes the figure, renders it, saves every output, then the report. Nothing is

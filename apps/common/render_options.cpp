@@ -24,9 +24,10 @@ void add_numbers(CLI::App& app, RenderOptions& o) {
     add(app, "--size", "WxH", "Size in pixels", [&o](const std::string& s) { o.size = parse_size("--size", s); });
     add(app, "--spp", "N", "Samples per pixel",
         [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
-    add(app, "--seed", "N", "Another seed gives other noise, the same seed the same picture", [&o](const std::string& s) {
-        o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
-    });
+    add(app, "--seed", "N", "Another seed gives other noise, the same seed the same picture",
+        [&o](const std::string& s) {
+            o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
+        });
     add(app, "--threads", "N", "Threads; by default one a processor. The picture does not depend on it",
         [&o](const std::string& s) { o.threads = parse_integer("--threads", s, 1, kMostThreads); });
     add(app, "--max-depth", "N|unlimited", "Ray segments a path", [&o](const std::string& s) {
@@ -57,7 +58,8 @@ void add_camera(CLI::App& app, CameraOptions& o) {
     });
     option("--vfov", "DEG", "Full angle between the top and the bottom of the picture", [&o](const std::string& s) {
         o.vertical_fov = parse_number("--vfov", s);
-        if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180)) refuse("--vfov", s, "must be over 0 and under 180 degrees");
+        if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180))
+            refuse("--vfov", s, "must be over 0 and under 180 degrees");
     });
     option("--aperture-angle", "DEG", "Full angle of the lens seen from the plane in focus; 0: all is sharp",
            [&o](const std::string& s) {

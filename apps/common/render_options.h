@@ -37,8 +37,8 @@ struct RenderOptions {
     std::string command_line;  ///< for the picture's header
 };
 
-/// Adds the options to `app`, bound to `options`, which must outlive the parsing. A value that cannot be right is refused
-/// while parsing, with an ArgumentError that names it; so are the options that later versions will bring.
+/// Adds the options to `app`, bound to `options`, which must outlive the parsing. A value that cannot be right is
+/// refused while parsing, with an ArgumentError that names it; so are the options that later versions will bring.
 void add_render_options(CLI::App& app, RenderOptions& options);
 
 /// Replaces what the command line names.

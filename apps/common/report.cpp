@@ -21,7 +21,7 @@ Json error_json(const ErrorEstimate& error) {
             {"estimate", number(error.estimate)},
             {"ci95_low", number(error.ci95_low)},
             {"ci95_high", number(error.ci95_high)},
-            {"target", nullptr},   // nobody can ask for one yet
+            {"target", nullptr},  // nobody can ask for one yet
             {"reached", nullptr},
             {"max_sample_share", number(error.max_sample_share)},
             {"reason", error.reason.empty() ? Json(nullptr) : Json(error.reason)}};

@@ -17,9 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& path) {
-    throw FileError(path, std::generic_category().message(errno));
-}
+[[noreturn]] void fail(const std::string& path) { throw FileError(path, std::generic_category().message(errno)); }
 
 // The file itself, behind any links.
 fs::path resolved(const std::string& path) {
@@ -33,7 +31,7 @@ bool write_and_close(int file, std::string_view text) {
     while (good && !text.empty()) {
         const ssize_t written = ::write(file, text.data(), text.size());
         if (written >= 0) text.remove_prefix(static_cast<std::size_t>(written));
-        else good = errno == EINTR;
+        good = written >= 0 || errno == EINTR;
     }
     good = good && ::fsync(file) == 0;
     const int problem = errno;

@@ -43,7 +43,8 @@ std::string table(const ImageMetrics& m) {
     row("largest relative error",
         fmt::format("{} at pixel ({}, {})", number(m.largest_relative), m.largest_x, m.largest_y));
     row("share of worst 0.1 %", number(m.worst_share));
-    row("non-finite values", fmt::format("{} in the test, {} in the reference", m.nonfinite_test, m.nonfinite_reference));
+    row("non-finite values",
+        fmt::format("{} in the test, {} in the reference", m.nonfinite_test, m.nonfinite_reference));
     if (m.has_reference_error) {
         row("reference's own relMSE", number(m.reference_relative_mse));
         row("corrected relMSE", number(m.corrected_relative_mse));
@@ -81,9 +82,10 @@ std::string json(const ImageMetrics& m, const Arguments& a) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-    CLI::App cli("Prints the error of an image against a reference, or against two independent halves of one, whose own "
-                 "error is then subtracted.",
-                 "limn compare");
+    CLI::App cli(
+        "Prints the error of an image against a reference, or against two independent halves of one, whose own "
+        "error is then subtracted.",
+        "limn compare");
     Arguments a;
     cli.add_option("TEST", a.test, "The image in question")->required();
     cli.add_option("REF", a.reference, "The reference, or one half of it")->required();

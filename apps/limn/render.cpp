@@ -25,9 +25,10 @@ Figure view_of(const std::string& path, const RenderOptions& options, const Cons
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
-    CLI::App cli("Renders a Wavefront OBJ under a default light, from the front right unless the camera options say "
-                 "otherwise.",
-                 "limn render");
+    CLI::App cli(
+        "Renders a Wavefront OBJ under a default light, from the front right unless the camera options say "
+        "otherwise.",
+        "limn render");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);

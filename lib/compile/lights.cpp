@@ -45,6 +45,11 @@ std::optional<double> uniform_scale(const Transform& m) {
     return off <= 1e-12 * s ? std::optional(std::sqrt(s)) : std::nullopt;
 }
 
+// Right angles but for rounding.
+bool is_rectangle(const flat::Light& light) {
+    return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
+}
+
 class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
@@ -136,7 +141,8 @@ private:
             usable = sphere(s.center0, s.center1 - s.center0, s.radius);
         } else if (range.kind == PrimitiveKind::quad) {
             const flat::Quad& q = scene_.quads[row];
-            usable = planar(flat::LightKind::quad, q.corner, q.edge_u, q.edge_v);
+            usable = planar(flat::LightKind::parallelogram, q.corner, q.edge_u, q.edge_v);
+            if (is_rectangle(light)) light.kind = flat::LightKind::rectangle;
         } else if (range.kind == PrimitiveKind::triangle) {
             const flat::Triangle& t = scene_.triangles[row];
             usable = planar(flat::LightKind::triangle, t.a, t.b - t.a, t.c - t.a);
@@ -153,7 +159,7 @@ private:
     static double area(const flat::Light& light) {
         if (light.kind == flat::LightKind::sphere) return 4 * kPi * light.radius * light.radius;
         const double parallelogram = length(cross(light.edge_u, light.edge_v));
-        return light.kind == flat::LightKind::quad ? parallelogram : parallelogram / 2;
+        return light.kind == flat::LightKind::triangle ? parallelogram / 2 : parallelogram;
     }
 
     // Half by power, half alike: power alone starves a weak light in the places that it is closest to.

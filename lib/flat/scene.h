@@ -75,7 +75,7 @@ struct Medium {
     Box bounds;                        // in world space
 };
 
-enum class LightKind : std::uint8_t { triangle, quad, sphere };
+enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
 
 // An emitter that can be sampled, in world space.
 struct Light {

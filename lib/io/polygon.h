@@ -22,8 +22,8 @@ public:
     // kMaxTests. \pre at least three corners
     bool cut(std::span<const Float3> polygon, std::vector<Index3>& triangles);
 
-    // Point-in-triangle tests for one polygon: seconds of work. Polygons of 300,000 corners around a circle, rounded to
-    // float32 and thus full of tiny dents, need a thirtieth of it.
+    // Point-in-triangle tests for one polygon: some seconds of work. 300,000 corners around a circle, which rounding to
+    // float32 fills with tiny dents, take a twentieth of it.
     static constexpr std::uint64_t kMaxTests = 1'000'000'000;
 
 private:

@@ -20,11 +20,6 @@ using flat::LightKind;
 // or far, and uniform per area is nearly uniform per solid angle.
 constexpr double kSmallSolidAngle = 1e-7;
 
-// A quad with right angles but for rounding.
-bool is_rectangle(const Light& light) {
-    return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
-}
-
 // Density per solid angle of a point drawn uniformly on a planar light; 0 if it is seen edge-on.
 double pdf_by_area(const Light& light, const Vec3& to_point) {
     const Vec3 scaled_normal = cross(light.edge_u, light.edge_v);  // its length is the quad's area
@@ -34,7 +29,7 @@ double pdf_by_area(const Light& light, const Vec3& to_point) {
 }
 
 double pdf_planar(const Light& light, const Point3& from, const Vec3& to_point) {
-    if (light.kind == LightKind::quad && is_rectangle(light)) {
+    if (light.kind == LightKind::rectangle) {
         const double angle = SphericalRectangle(light.origin, light.edge_u, light.edge_v, from).solid_angle();
         if (angle >= kSmallSolidAngle) return 1 / angle;
     }
@@ -89,7 +84,7 @@ std::optional<LightSample> sample_planar(const flat::Scene& scene, const Light& 
     Uv weights = light.kind == LightKind::triangle ? sample_uniform_triangle(u, v) : Uv{u, v};
     LightSample s;
     double solid_angle = 0;
-    if (light.kind == LightKind::quad && is_rectangle(light)) {
+    if (light.kind == LightKind::rectangle) {
         const SphericalRectangle rectangle(light.origin, light.edge_u, light.edge_v, from);
         solid_angle = rectangle.solid_angle();
         if (solid_angle >= kSmallSolidAngle) weights = rectangle.sample(u, v);

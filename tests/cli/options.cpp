@@ -1,5 +1,7 @@
 // The options, without running a program.
 #include <CLI/CLI.hpp>
+#include <iterator>
+#include <sstream>
 
 #include "catch.h"
 #include "limn/core/error.h"
@@ -28,11 +30,15 @@ std::string refusal(const std::vector<const char*>& words) {
 }
 
 TEST_CASE("Options: every value reaches the figure", "[cli]") {
-    const RenderOptions o = parsed({"-o", "a.exr", "--output=b.png", "--size", "30x20", "--spp", "7", "--seed",
-                                    "18446744073709551615", "--threads", "3", "--max-depth", "unlimited", "--report",
-                                    "-", "--quiet", "--estimator", "naive", "--no-antialias", "--half", "--look-from",
-                                    "-1,2e0,.5", "--look-at", "0,0,-3", "--vup", "0,0,1", "--vfov", "33",
-                                    "--aperture-angle", "0.25", "--focus-dist", "4"});
+    const char* const line =
+        "-o a.exr --output=b.png --size 30x20 --spp 7 --seed 18446744073709551615 --threads 3 --max-depth unlimited "
+        "--report - --quiet --estimator naive --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
+        "--vup 0,0,1 --vfov 33 --aperture-angle 0.25 --focus-dist 4";
+    std::istringstream stream(line);
+    const std::vector<std::string> words(std::istream_iterator<std::string>{stream}, {});
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    const RenderOptions o = parsed(arguments);
     CHECK(o.outputs == std::vector<std::string>{"a.exr", "b.png"});
     CHECK(o.report == "-");
     CHECK((o.quiet && o.half));
@@ -61,8 +67,13 @@ TEST_CASE("Options: what the command line does not name stays as the figure has 
     figure.settings = {.width = 11, .height = 12, .samples_per_pixel = 13, .max_depth = 14, .seed = 15, .threads = 16};
     figure.settings.antialias = false;
     figure.settings.estimator = Estimator::naive;
-    figure.camera = {.look_from = {1, 2, 3}, .look_at = {4, 5, 6}, .up = {7, 8, 9}, .vertical_fov = 10,
-                     .aspect_ratio = 1.5, .aperture_angle = 11, .focus_distance = 12};
+    figure.camera = {.look_from = {1, 2, 3},
+                     .look_at = {4, 5, 6},
+                     .up = {7, 8, 9},
+                     .vertical_fov = 10,
+                     .aspect_ratio = 1.5,
+                     .aperture_angle = 11,
+                     .focus_distance = 12};
     apply(parsed({}), figure);
     CHECK(figure.settings.width == 11);
     CHECK(figure.settings.height == 12);

@@ -90,8 +90,7 @@ bool OnTerminal::wait_for(const std::string& text) {
 void OnTerminal::send(int signal) const { kill(process_, signal); }
 
 Outcome OnTerminal::finish() {
-    while (read_some()) {
-    }
+    while (read_some()) {}
     Outcome outcome;
     outcome.status = wait_for_end(process_);
     process_ = -1;

@@ -1,4 +1,6 @@
 // What `limn render` writes.
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -21,9 +23,9 @@ std::set<std::string> keys(const Json& object) {
 TEST_CASE("limn render: writes every output and the report, and only those", "[cli]") {
     const Folder folder;
     const std::string model = folder.write("house.obj", house_obj());
-    const Outcome outcome = limn({"render", model, "-o", folder.path("a.exr"), "-o", folder.path("a.png"), "--size",
-                                  "20x14", "--spp", "8", "--seed", "5", "--threads", "2", "--report",
-                                  folder.path("r.json")});
+    const Outcome outcome =
+        limn({"render", model, "-o", folder.path("a.exr"), "-o", folder.path("a.png"), "--size", "20x14", "--spp", "8",
+              "--seed", "5", "--threads", "2", "--report", folder.path("r.json")});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(outcome.out.empty());
@@ -81,9 +83,8 @@ TEST_CASE("limn render: the report goes to stdout alone for -", "[cli]") {
 TEST_CASE("limn render: --quiet says nothing, and the picture's header says how it was made", "[cli]") {
     const Folder folder;
     const std::string model = folder.write("house.obj", house_obj());
-    const Words words = {"render", model,        "-o",          folder.path("a.exr"), "--size", "5x4", "--spp", "4",
-                         "--seed", "4294967296", "--max-depth", "unlimited",          "--quiet"};
-    const Outcome outcome = limn(words);
+    const Outcome outcome = limn({"render", model, "-o", folder.path("a.exr"), "--size", "5x4", "--spp", "4", "--seed",
+                                  "4294967296", "--max-depth", "unlimited", "--quiet"});
     REQUIRE(outcome.status == 0);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.empty());
@@ -105,8 +106,8 @@ TEST_CASE("limn render: the same seed gives the same bits on any number of threa
     const std::string model = folder.write("house.obj", house_obj());
     const auto picture = [&](const std::string& seed, const std::string& threads) {
         const std::string path = folder.path(seed + "-" + threads + ".exr");
-        const Outcome outcome = limn({"render", model, "-o", path, "--size", "16x16", "--spp", "4", "--seed", seed,
-                                      "--threads", threads});
+        const Outcome outcome =
+            limn({"render", model, "-o", path, "--size", "16x16", "--spp", "4", "--seed", seed, "--threads", threads});
         REQUIRE(outcome.status == 0);
         return load_image(path);
     };

@@ -71,6 +71,19 @@ TEST_CASE("Warp: the disc is uniform per area", "[core][warp]") {
     }) > kLevel);
 }
 
+TEST_CASE("Warp: neighbours in the square are neighbours in the disc", "[core][warp]") {
+    std::mt19937_64 random(70);
+    constexpr double kStep = 1e-6;
+    double farthest = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const double u = uniform(random), v = uniform(random);
+        const double du = kStep * (2 * uniform(random) - 1), dv = kStep * (2 * uniform(random) - 1);
+        farthest = std::max(farthest, length(sample_uniform_disc(u + du, v + dv) - sample_uniform_disc(u, v)));
+    }
+    // Twice the square's stretch: radius and angle grow by 2 and pi / 2 a unit at most.
+    CHECK(farthest <= kStep * std::sqrt(2.0) * (2 + kPi / 2));
+}
+
 TEST_CASE("Warp: the ball is uniform per volume", "[core][warp]") {
     std::mt19937_64 random(67);
     std::vector<double> observed(16 * 16 * 16);

@@ -103,6 +103,7 @@ TEST_CASE("Dielectric: reflectances stay in [0, 1] at the edges of their domain"
 }
 
 TEST_CASE("Dielectric: an index of 1 is not there", "[material][dielectric]") {
+    for (const double c : {0.0, 1e-300, 1e-9, .5, 1.0}) CHECK(reflectance_exact(c, 1) == 0);
     const Dielectric air(1);
     std::mt19937_64 random(3);
     for (const bool front : {true, false})

@@ -21,7 +21,7 @@ Tally judge_rays(const Sphere& sphere, const std::vector<Ray>& rays) {
         judge(tally, ray, test::true_sphere_hit(sphere.center(ray.time), sphere.radius(), ray), hit);
         if (!hit) continue;
         const Vec3 n(hit->normal);
-        if (!(std::abs(length(n) - 1) <= 4e-16) || !(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1))
+        if (!(std::abs(length(n) - 1) <= gamma(8)) || !(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1))
             tally.fault(ray, "normal, u or v");
     }
     return tally;
@@ -234,7 +234,8 @@ TEST_CASE("Sphere: a moving centre is bit-exact at both ends and clamped outside
         const Sphere sphere(a, b, 1, nullptr);
         CHECK((sphere.center(0) == a && sphere.center(1) == b));
         CHECK((sphere.center(-5) == a && sphere.center(5) == b));
-        CHECK(Sphere(a, 1, nullptr).center(random.uniform()) == a);
+        const double time = random.uniform();
+        CHECK(Sphere(a, 1, nullptr).center(time) == a);  // a still one does not tremble
         const Ray ray{.origin = a + Vec3{0, 0, 5}, .direction = {0, 0, -1}, .time = 0};
         CHECK(sphere.hit(ray)->t == Sphere(a, 1, nullptr).hit(ray)->t);
     }

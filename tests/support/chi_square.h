@@ -86,7 +86,8 @@ public:
         return sum;
     }
 
-    /// Relative, of integral(), for functions that jump at a horizon and fall as a square root at the rim of a lobe.
+    /// Bound on the relative error of integral() for the densities tested here, continuous within the largest angle:
+    /// a fifth of the 1e-3 by which a million counts scatter.
     static constexpr double kQuadratureError = 2e-4;
 
 private:

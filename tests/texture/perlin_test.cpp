@@ -98,6 +98,19 @@ TEST_CASE("PerlinLattice: the seed decides every bit", "[core][perlin]") {
     CHECK(PerlinLattice::from_seed(1234567).gradients[0] == normalize(first));
 }
 
+TEST_CASE("PerlinLattice: a permutation keeps one entry in place on average, as random ones do", "[core][perlin]") {
+    Measured fixed;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const PerlinLattice lattice = PerlinLattice::from_seed(seed);
+        for (const auto& p : {lattice.perm_x, lattice.perm_y, lattice.perm_z}) {
+            int in_place = 0;
+            for (std::size_t i = 0; i < 256; ++i) in_place += p[i] == i;
+            fixed.add(in_place);
+        }
+    }
+    CHECK(std::abs(fixed.mean() - 1) < 4 / std::sqrt(3000.0));  // a Poisson number, so its variance is 1 too
+}
+
 TEST_CASE("Perlin noise: exactly zero at lattice points", "[texture][perlin]") {
     const PerlinLattice lattice = PerlinLattice::from_seed(1);
     for (const double x : {0.0, -0.0, 1.0, -1.0, 255.0, 256.0, -257.0, 1e6, 0x1p53, 1e20, -1e38, 1e308})
@@ -130,6 +143,18 @@ TEST_CASE("Perlin noise: with equal gradients along x it is t - (3 t^2 - 2 t^3)"
         const double t = p.x - std::floor(p.x);
         CHECK(noise(lattice, p) == Approx(t - t * t * (3 - 2 * t)).margin(1e-14));
     }
+}
+
+TEST_CASE("Perlin noise: continuous across the walls of cells, where the lattice begins again too", "[texture][perlin]") {
+    const PerlinLattice lattice = PerlinLattice::from_seed(10);
+    constexpr double kStep = 0x1p-30;
+    for (const double wall : {-512.0, -256.0, -255.0, -1.0, 0.0, 1.0, 255.0, 256.0, 512.0})
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Point3 before{.3, .6, .45}, after = before;
+            before[axis] = wall - kStep, after[axis] = wall + kStep;
+            CAPTURE(wall, axis);
+            CHECK(std::abs(noise(lattice, before) - noise(lattice, after)) <= 8 * kStep);
+        }
 }
 
 TEST_CASE("Perlin noise: repeats every 256 cells", "[texture][perlin]") {

@@ -1,0 +1,115 @@
+#include "accel/slab.h"
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <random>
+
+#include "catch.h"
+#include "limn/core/box.h"
+
+using namespace limn;
+
+namespace {
+
+bool meets(const Box& box, const Ray& ray) {
+    const double lower[3] = {box.lower.x, box.lower.y, box.lower.z}, upper[3] = {box.upper.x, box.upper.y, box.upper.z};
+    double near = 0;
+    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+}
+
+bool meets_as_float(const Box& box, const Ray& ray) {
+    const auto f = [](double x) { return static_cast<float>(x); };
+    const float lower[3] = {f(box.lower.x), f(box.lower.y), f(box.lower.z)};
+    const float upper[3] = {f(box.upper.x), f(box.upper.y), f(box.upper.z)};
+    double near = 0;
+    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+}
+
+const Box kUnit{{0, 0, 0}, {1, 1, 1}};
+
+}  // namespace
+
+TEST_CASE("Slab: a ray in a face, an edge or through a corner meets the closed box", "[accel]") {
+    for (const double zero : {0.0, -0.0}) {
+        CHECK(meets(kUnit, {{-1, 0.5, 0}, {1, zero, zero}}));    // in the low z face
+        CHECK(meets(kUnit, {{-1, 0.5, 1}, {1, zero, zero}}));    // in the high z face
+        CHECK(meets(kUnit, {{-1, 0, 0}, {1, zero, zero}}));      // along an edge
+        CHECK(meets(kUnit, {{-1, 1, 1}, {1, zero, zero}}));
+        CHECK(meets(kUnit, {{0, 0.5, 0.5}, {zero, 1, zero}}));   // from a face, within it
+        CHECK(meets(kUnit, {{1, 0.5, 0.5}, {1, zero, zero}}));   // from a face, leaving
+        CHECK_FALSE(meets(kUnit, {{-1, 1.0000000001, 0}, {1, zero, zero}}));
+        CHECK_FALSE(meets(kUnit, {{-1, -1e-300, 0}, {1, zero, zero}}));
+    }
+    CHECK(meets(kUnit, {{-1, -1, -1}, {1, 1, 1}}));
+    CHECK(meets(kUnit, {{-1, 0, 1}, {1, 0.5, -0.5}}));
+}
+
+TEST_CASE("Slab: flat boxes and points are met", "[accel]") {
+    const Box flat{{0, 0, 1e5}, {1, 1, 1e5}}, point{{1, 2, 3}, {1, 2, 3}};
+    CHECK(meets(flat, {{0.5, 0.5, 0}, {0, 0, 1}}));
+    CHECK(meets(flat, {{0.5, 0.5, 1e5}, {0, 0, 1}}));
+    CHECK(meets(flat, {{-1, 0.5, 1e5}, {1, 0, 0}}));
+    CHECK(meets(point, {{0, 2, 3}, {1, 0, 0}}));
+    CHECK(meets(point, {{0, 0, 0}, {1, 2, 3}}));
+    CHECK_FALSE(meets(point, {{0, 0, 0}, {1, 2, 3.0000001}}));
+}
+
+TEST_CASE("Slab: the interval of the ray counts, closed at t_max", "[accel]") {
+    CHECK(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 0, 1}));
+    CHECK_FALSE(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 0, 0.999}));
+    CHECK_FALSE(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 2.001, 10}));
+    CHECK(meets(kUnit, {{3, 0.5, 0.5}, {1, 0, 0}, -kInfinity, 0}));  // behind the origin, and the interval reaches there
+}
+
+TEST_CASE("Slab: an empty box is never met", "[accel]") {
+    const Box empty;
+    for (const double x : {1.0, -1.0, 0.0, -0.0})
+        for (const double y : {1.0, -1.0}) {
+            CHECK_FALSE(meets(empty, {{0.1, 0.2, 0.3}, {x, y, 0.5}}));
+            CHECK_FALSE(meets_as_float(empty, {{0.1, 0.2, 0.3}, {x, y, 0.5}}));
+        }
+}
+
+// Truth in __float128 on the same numbers.
+TEST_CASE("Slab: no ray that meets a box in exact arithmetic is lost, at corners and edges, near and far", "[accel]") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const int rays = std::getenv("LIMN_FULL") ? 10'000'000 : 100'000;
+    int lost = 0, judged = 0;
+    for (int i = 0; i < rays; ++i) {
+        const std::array<double, 3> places{0, 1e3, 1e5};
+        const std::array<double, 2> sizes{1, 1e-3};
+        const double place = places[random() % 3], size = sizes[random() % 2];
+        Box box;
+        for (std::size_t a = 0; a < 3; ++a) {
+            box.lower[a] = static_cast<float>(place + size * unit(random));
+            box.upper[a] = static_cast<float>(box.lower[a] + size * unit(random));
+        }
+        Point3 target;
+        for (std::size_t a = 0; a < 3; ++a)
+            target[a] = random() % 4 == 0 ? box.lower[a] + unit(random) * (box.upper[a] - box.lower[a])
+                        : random() % 2 == 0 ? box.lower[a] : box.upper[a];
+        Ray ray;
+        for (std::size_t a = 0; a < 3; ++a) ray.origin[a] = place + 10 * size * (unit(random) - 0.5);
+        ray.direction = target - ray.origin;
+        __float128 enter = 0, leave = std::numeric_limits<double>::max();
+        bool meets_exactly = true;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const __float128 o = ray.origin[a], d = ray.direction[a];
+            if (d == 0) {
+                meets_exactly = meets_exactly && o >= box.lower[a] && o <= box.upper[a];
+                continue;
+            }
+            const __float128 t0 = (box.lower[a] - o) / d, t1 = (box.upper[a] - o) / d;
+            const __float128 lo = t0 < t1 ? t0 : t1, hi = t0 < t1 ? t1 : t0;
+            enter = lo > enter ? lo : enter;
+            leave = hi < leave ? hi : leave;
+        }
+        if (!meets_exactly || enter > leave) continue;
+        ++judged;
+        lost += meets_as_float(box, ray) ? 0 : 1;
+    }
+    CHECK(judged > rays / 10);
+    CHECK(lost == 0);
+}
