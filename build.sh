@@ -94,7 +94,7 @@ case $command in
     convergence)
         build
         install_missing python3 python3-matplotlib python3-numpy
-        python3 apps/bench/convergence.py "${full[@]}"
+        /usr/bin/python3 apps/bench/convergence.py "${full[@]}"
         ;;
     accuracy | bench | mutants | docs) not_yet "$command" ;;
     *) usage ;;

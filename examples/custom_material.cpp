@@ -6,8 +6,8 @@
 
 using namespace limn;
 
-// f = (body + rim (1 - cos_in)(1 - cos_out)) / pi: symmetric in both directions, and it cannot return more light than it
-// gets while body + rim <= 1. Directions are drawn by the cosine alone, which the weight makes up for.
+// f = (body + rim (1 - cos_in)(1 - cos_out)) / pi: symmetric in both directions, and it cannot return more light than
+// it gets while body + rim <= 1. Directions are drawn by the cosine alone, which the weight makes up for.
 class Velvet final : public Material {
 public:
     Velvet(const Color& body, const Color& rim) : body_(body), rim_(rim) {}
@@ -35,16 +35,16 @@ int main() {
     const auto crimson = std::make_shared<Velvet>(Color{.25, .01, .03}, Color{.75, .5, .55});
     const auto midnight = std::make_shared<Velvet>(Color{.01, .02, .12}, Color{.4, .6, .88});
     const auto stage = std::make_shared<Lambertian>(Color{.45, .42, .4});
-    const auto lamp = std::make_shared<DiffuseLight>(Color{9, 8.5, 8});
+    const auto lamp = std::make_shared<DiffuseLight>(Color{30, 28, 26});
 
     Scene scene;
-    scene.background = Background::gradient(Color{.1, .1, .12}, Color{.25, .3, .4});
+    scene.background = Background::gradient(Color{.2, .2, .22}, Color{.4, .45, .55});
     scene.add(std::make_shared<Quad>(Point3{-20, 0, -20}, Vec3{0, 0, 40}, Vec3{40, 0, 0}, stage));
     scene.add(std::make_shared<Sphere>(Point3{-1.1, 1, 0}, 1.0, crimson));
     scene.add(std::make_shared<Sphere>(Point3{1.1, 1, 0}, 1.0, midnight));
     scene.add(std::make_shared<Quad>(Point3{-2, 4, -4}, Vec3{4, 0, 0}, Vec3{0, 2, 1}, lamp));
 
-    const Camera camera{.look_from = {0, 2.2, 8}, .look_at = {0, 1, 0}, .vertical_fov = 30};
+    const Camera camera{.look_from = {0, 2.2, 8}, .look_at = {0, 1, 0}, .vertical_fov = 34};
     const RenderSettings settings{.width = 200, .height = 200, .samples_per_pixel = 64};
     save_image(render(compile(scene), camera, settings).image, "custom_material.png");
 }

@@ -8,10 +8,10 @@ namespace limn::app {
 
 namespace {
 
-// The sky lights a white surface to about 0.4, the key light adds 0.56 where it falls straight on: together just under
-// the white of a display.
-constexpr Background kSky = Background::gradient({0.2, 0.2, 0.2}, {0.5, 0.6, 0.75});
-constexpr Color kKeyRadiance{7.5, 7.5, 7.5};
+// The sky lights a white surface to about 0.25 and the key light adds 0.7 where it falls straight on: together just
+// under the white of a display, and shadows are a quarter as bright as light, which shows shape without hiding any.
+constexpr Background kSky = Background::gradient({0.12, 0.12, 0.12}, {0.34, 0.4, 0.5});
+constexpr Color kKeyRadiance{9.3, 9.3, 9.3};
 
 // From the model to the key light. frame_box looks from (0.5, 0.35, 1): this is 62 degrees from there, enough for
 // shadows that show the shape, and far enough for the light to stay out of the picture.

@@ -30,6 +30,7 @@ public:
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
             if (boxes[i].is_empty()) continue;
             centers_[i] = finite_center(boxes[i]);
+            bvh_.extent = std::max(bvh_.extent, finite_extent(boxes[i]));
             bvh_.ids.push_back(i);
         }
     }

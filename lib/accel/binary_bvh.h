@@ -21,6 +21,7 @@ static_assert(sizeof(BinaryNode) == 56);
 struct BinaryBvh {
     std::vector<BinaryNode> nodes;   // [0] is the root; empty if nothing can be hit
     std::vector<std::uint32_t> ids;  // of the boxes, permuted; empty boxes are left out
+    double extent = 0;               // the largest finite coordinate of a box
 
     Box bounds() const { return nodes.empty() ? Box{} : nodes.front().bounds; }
 };
@@ -37,7 +38,7 @@ BinaryBvh build_binary_bvh(std::span<const Box> boxes);
 template <class Visit>
 void for_each_met(const BinaryBvh& bvh, const Ray& ray, const Visit& visit) {
     if (bvh.nodes.empty()) return;
-    const SlabRay slab(ray);
+    const SlabRay slab(ray, bvh.extent);
     double t_max = ray.t_max;
     struct Entry {
         std::uint32_t node;
@@ -45,15 +46,13 @@ void for_each_met(const BinaryBvh& bvh, const Ray& ray, const Visit& visit) {
     } stack[kMaxDepth + 1];
     int size = 0;
     const auto push = [&](std::uint32_t node) {
-        const Box& b = bvh.nodes[node].bounds;
-        const double lower[3] = {b.lower.x, b.lower.y, b.lower.z}, upper[3] = {b.upper.x, b.upper.y, b.upper.z};
         double near = 0;
-        if (slab.meets(lower, upper, t_max, near)) stack[size++] = {node, near};
+        if (slab.meets(bvh.nodes[node].bounds, t_max, near)) stack[size++] = {node, near};
     };
     push(0);
     while (size > 0) {
         const Entry entry = stack[--size];
-        if (entry.near > t_max) continue;
+        if (slab.is_beyond(entry.near, t_max)) continue;
         const BinaryNode& node = bvh.nodes[entry.node];
         if (node.count > 0) {
             for (std::uint32_t i = 0; i < node.count; ++i) t_max = visit(bvh.ids[node.first + i]);

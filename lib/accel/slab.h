@@ -3,19 +3,29 @@
 // face (0 * infinity), leaves the interval as it is. It never uses lo * inv - o * inv, whose rounding is not bounded.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "limn/core/box.h"
 #include "limn/core/ray.h"
 
 namespace limn::accel {
+
+// Traversal compares where a ray enters a box with the t of hits found elsewhere, and a hit's t carries a rounding of its
+// own: relative to the coordinates that it was computed from, not to t. So t_min and t_max count as wider by this much
+// of the largest coordinate, in units of t. It only costs a visit now and then.
+inline constexpr double kSlack = 0x1p-44;
 
 struct SlabRay {
     double origin[3];
     double inverse[3];
     bool negative[3];
+    double slack;
     double t_min;
 
-    explicit SlabRay(const Ray& ray) : t_min(ray.t_min) {
+    // `extent`: the largest finite coordinate of the boxes to come.
+    SlabRay(const Ray& ray, double extent)
+        : slack(kSlack * (max_abs(ray.origin) + extent) / max_abs(ray.direction)), t_min(ray.t_min - slack) {
         for (std::size_t a = 0; a < 3; ++a) {
             origin[a] = ray.origin[a];
             inverse[a] = 1 / ray.direction[a];
@@ -23,11 +33,14 @@ struct SlabRay {
         }
     }
 
+    // Whether a box entered at `near` cannot hold a hit up to t_max.
+    bool is_beyond(double near, double t_max) const { return near > t_max + slack; }
+
     // The box from lower to upper, in float or double; `near` gets where the ray enters it, or t_min. A double ulp is
     // 2^-52 relative at most; two of them for the two roundings that t carries beyond that of the inverse.
     template <class Real>
     bool meets(const Real* lower, const Real* upper, double t_max, double& near) const {
-        double enter = t_min, leave = t_max;
+        double enter = t_min, leave = t_max + slack;
         for (std::size_t a = 0; a < 3; ++a) {
             const double to_near = (static_cast<double>(negative[a] ? upper[a] : lower[a]) - origin[a]) * inverse[a];
             double to_far = (static_cast<double>(negative[a] ? lower[a] : upper[a]) - origin[a]) * inverse[a];
@@ -38,6 +51,20 @@ struct SlabRay {
         near = enter;
         return enter <= leave;
     }
+
+    bool meets(const Box& b, double t_max, double& near) const {
+        const double lower[3] = {b.lower.x, b.lower.y, b.lower.z}, upper[3] = {b.upper.x, b.upper.y, b.upper.z};
+        return meets(lower, upper, t_max, near);
+    }
 };
+
+// The largest finite magnitude of a coordinate of the box.
+inline double finite_extent(const Box& b) {
+    double extent = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+        for (const double x : {b.lower[a], b.upper[a]})
+            if (std::isfinite(x)) extent = std::max(extent, std::abs(x));
+    return extent;
+}
 
 }  // namespace limn::accel

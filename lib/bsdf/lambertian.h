@@ -1,6 +1,6 @@
-// The ideal diffuse lobe, f = albedo / pi, around the shading normal. What lies below the geometric surface is absorbed,
-// so that an interpolated normal cannot send light through the wall (Veach, Robust Monte Carlo Methods for Light
-// Transport Simulation, 1997, section 5.3).
+// The ideal diffuse lobe, f = albedo / pi, around the shading normal. What lies below the geometric surface is
+// absorbed, so that an interpolated normal cannot send light through the wall (Veach, Robust Monte Carlo Methods for
+// Light Transport Simulation, 1997, section 5.3).
 #pragma once
 
 #include <optional>

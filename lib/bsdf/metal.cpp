@@ -14,8 +14,8 @@ namespace {
 bool is_mirror(double fuzz) { return fuzz < kRoundoff; }
 
 // Density per solid angle of w = unit(m + fuzz x), x uniform in the unit ball, m the unit mirror direction. The points
-// m + fuzz x fill a ball around m with density 3 / (4 pi fuzz^3). Those that end up as w lie on the half-line s w, inside
-// the ball for s1 < s < s2, where |s w - m| = fuzz, and a solid angle dw cuts the volume s^2 ds dw out there:
+// m + fuzz x fill a ball around m with density 3 / (4 pi fuzz^3). Those that end up as w lie on the half-line s w,
+// inside the ball for s1 < s < s2, where |s w - m| = fuzz, and a solid angle dw cuts the volume s^2 ds dw out there:
 //     pdf(w) = 3 / (4 pi fuzz^3) integral of s^2 ds = (s2^3 - s1^3) / (4 pi fuzz^3).
 // With c = dot(w, m) the roots are c -+ h, h^2 = fuzz^2 - (1 - c^2), both >= 0 for c > 0 as fuzz <= 1, and
 // s2^3 - s1^3 = 2 h (3 c^2 + h^2). For c <= 0 the half-line misses the ball. 1 - c^2 = |w x m|^2 does not cancel.
@@ -36,16 +36,10 @@ ScatterValue value_metal(const Color& albedo, double fuzz, const Surface& s, con
 
 std::optional<ScatterSample> sample_metal(const Color& albedo, double fuzz, const Surface& s, const Vec3& out,
                                           const Random3& random) {
-    const Vec3 m = mirror(out, s.shading_normal);
-    Vec3 in = m;
-    if (!is_mirror(fuzz)) {
-        const Vec3 displaced = m + fuzz * sample_uniform_ball(random.x, random.y, random.z);
-        if (displaced == Vec3{}) return std::nullopt;  // the ball of fuzz 1 touches the origin
-        in = normalize(displaced);
-    }
-    if (!(dot(in, s.normal) > 0)) return std::nullopt;
-    return ScatterSample{
-        .direction = in, .weight = albedo, .pdf = value_metal(albedo, fuzz, s, out, in).pdf};
+    Vec3 in = mirror(out, s.shading_normal);
+    if (!is_mirror(fuzz)) in = normalize(in + fuzz * sample_uniform_ball(random.x, random.y, random.z));
+    if (!(dot(in, s.normal) > 0)) return std::nullopt;  // also NaN: fuzz 1 can reach the zero vector
+    return ScatterSample{.direction = in, .weight = albedo, .pdf = value_metal(albedo, fuzz, s, out, in).pdf};
 }
 
 }  // namespace limn::bsdf

@@ -50,6 +50,7 @@ public:
         built_[index] = true;
         const accel::BinaryBvh bvh = accel::build_binary_bvh(boxes);
         scene_.groups[index].bounds = bvh.bounds();
+        scene_.groups[index].extent = bvh.extent;
         scene_.groups[index].root = pack(bvh, references);
     }
 

@@ -16,7 +16,7 @@ inline Box sphere_bounds(const Point3& center0, const Point3& center1, double ra
     Box box;
     for (const Point3& c : {center0, center1}) box.extend(Box{c - Vec3{r, r, r}, c + Vec3{r, r, r}});
     // A moving centre is rounded on its way; a still one is where it is.
-    const double rounding = center0 == center1 ? 0 : gamma(4) * std::max(largest(center0), largest(center1));
+    const double rounding = center0 == center1 ? 0 : gamma(4) * std::max(max_abs(center0), max_abs(center1));
     return grow(box, along_every_axis(rounding));
 }
 
@@ -42,7 +42,7 @@ inline Box instance_bounds(const Transform& at_time0, const Transform& at_time1,
     const Box box = transform_box(at_time0, object);
     if (at_time0 == at_time1 || box.is_empty()) return box;
     const Box both = merge(box, transform_box(at_time1, object));
-    return grow(both, along_every_axis(gamma(8) * std::max(largest(both.lower), largest(both.upper))));
+    return grow(both, along_every_axis(gamma(8) * std::max(max_abs(both.lower), max_abs(both.upper))));
 }
 
 }  // namespace limn

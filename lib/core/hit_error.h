@@ -12,23 +12,21 @@
 
 namespace limn {
 
-inline double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-inline double largest(const Point3& p) { return largest(p - Point3{}); }
 inline Vec3 along_every_axis(double bound) { return {bound, bound, bound}; }
 
 // corner + u edge_u + v edge_v: five roundings, and the sheared test's own, of the same magnitudes.
 inline Vec3 planar_error(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v) {
-    return along_every_axis(gamma(16) * (largest(corner) + largest(edge_u) + largest(edge_v)));
+    return along_every_axis(gamma(16) * (max_abs(corner) + max_abs(edge_u) + max_abs(edge_v)));
 }
 
 // A point projected back onto the sphere.
 inline Vec3 sphere_error(const Point3& center, double radius) {
-    return along_every_axis(gamma(16) * (largest(center) + std::abs(radius)));
+    return along_every_axis(gamma(16) * (max_abs(center) + std::abs(radius)));
 }
 
 // origin + t direction, where nothing better is known.
 inline Vec3 ray_error(const Ray& ray, double t) {
-    return along_every_axis(gamma(16) * (largest(ray.origin) + std::abs(t) * largest(ray.direction)));
+    return along_every_axis(gamma(16) * (max_abs(ray.origin) + std::abs(t) * max_abs(ray.direction)));
 }
 
 inline double norm(const Transform& m) {
@@ -40,9 +38,9 @@ inline double norm(const Transform& m) {
 // An object-space bound seen in world space, plus the rounding of the way out and of the next ray's way in.
 inline Vec3 transformed_error(const Transform& world_from_object, const Transform& object_from_world,
                               const Point3& world_position, const Vec3& object_error) {
-    const double magnitude = largest(world_position) + largest(world_from_object.translation());
+    const double magnitude = max_abs(world_position) + max_abs(world_from_object.translation());
     const double way_in = gamma(16) * norm(object_from_world) * magnitude;
-    return along_every_axis(norm(world_from_object) * (largest(object_error) + way_in) + gamma(16) * magnitude);
+    return along_every_axis(norm(world_from_object) * (max_abs(object_error) + way_in) + gamma(16) * magnitude);
 }
 
 }  // namespace limn

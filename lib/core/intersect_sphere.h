@@ -38,7 +38,7 @@ inline SphereRoots sphere_roots(const Point3& center, double radius, const Ray& 
     // Squares would overflow or underflow: scale lengths and the direction by powers of two, which is exact.
     const auto exponent = [](const Vec3& v) {
         int e = 0;
-        std::frexp(std::fmax(std::abs(v.x), std::fmax(std::abs(v.y), std::abs(v.z))), &e);
+        std::frexp(max_abs(v), &e);
         return e;
     };
     const auto scaled = [](const Vec3& v, int e) {

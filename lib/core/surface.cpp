@@ -5,13 +5,6 @@
 
 namespace limn {
 
-namespace {
-
-double max_abs(const Point3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-double max_abs(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-}  // namespace
-
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
     const double distance = dot(abs(Vec3(normal)), error);
     const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);

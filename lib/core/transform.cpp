@@ -139,6 +139,7 @@ Box transform_box(const Transform& m, const Box& b) {
     for (std::size_t i = 0; i < 3; ++i) {
         double lower = m.rows[i][3], upper = lower, magnitude = std::abs(lower);
         for (std::size_t j = 0; j < 3; ++j) {
+            if (m.rows[i][j] == 0) continue;  // 0 times an unbounded side
             const double at_lower = m.rows[i][j] * b.lower[j], at_upper = m.rows[i][j] * b.upper[j];
             lower += std::min(at_lower, at_upper);
             upper += std::max(at_lower, at_upper);

@@ -22,9 +22,7 @@ Vec3 sample_cosine_hemisphere(double u, double v) {
 double pdf_cosine_hemisphere(double cos_theta) { return std::max(0.0, cos_theta) / kPi; }
 
 // Archimedes: the height on the sphere is uniform in [-1, 1]. 1 - (1 - 2u)^2 = 4 u (1 - u), without the cancellation.
-Vec3 sample_uniform_sphere(double u, double v) {
-    return around_z(2 * std::sqrt(u * (1 - u)), 1 - 2 * u, 2 * kPi * v);
-}
+Vec3 sample_uniform_sphere(double u, double v) { return around_z(2 * std::sqrt(u * (1 - u)), 1 - 2 * u, 2 * kPi * v); }
 
 double pdf_uniform_sphere() { return 1 / (4 * kPi); }
 
@@ -48,12 +46,12 @@ Vec3 sample_uniform_cone(double u, double v, double one_minus_cos_max) {
 double pdf_uniform_cone(double one_minus_cos_max) { return 1 / (2 * kPi * one_minus_cos_max); }
 
 // Heitz, A Low-Distortion Map Between Triangle and Square, 2019.
-Uv sample_uniform_triangle(double u, double v) {
-    return v > u ? Uv{u / 2, v - u / 2} : Uv{u - v / 2, v / 2};
-}
+Uv sample_uniform_triangle(double u, double v) { return v > u ? Uv{u / 2, v - u / 2} : Uv{u - v / 2, v / 2}; }
 
 double sample_exponential(double u, double sigma) { return sigma > 0 ? -std::log1p(-u) / sigma : kInfinity; }
 
-double pdf_exponential(double distance, double sigma) { return distance >= 0 ? sigma * std::exp(-sigma * distance) : 0; }
+double pdf_exponential(double distance, double sigma) {
+    return distance >= 0 ? sigma * std::exp(-sigma * distance) : 0;
+}
 
 }  // namespace limn

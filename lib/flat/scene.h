@@ -64,6 +64,7 @@ struct Group {
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
     Box bounds;
+    double extent = 0;              // the largest finite coordinate in the tree
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <type_traits>
 
 #include "io/decode_stb.h"
@@ -55,9 +56,19 @@ void read_values(std::span<const std::byte> bytes, StoredImage& image, const std
 
 }  // namespace
 
+void require_whole_jpeg(std::span<const std::byte> bytes, const std::string& name) {
+    const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!file.starts_with("\xff\xd8")) return;
+    // ITU-T T.81, table B.1: within the data of a scan, neither marker occurs.
+    const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
+    if (end == std::string_view::npos || (scan != std::string_view::npos && end < scan))
+        throw FileError(name, "is a JPEG that breaks off before its end");
+}
+
 StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw FileError(name, "is larger than 2 GiB");
+    require_whole_jpeg(bytes, name);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     StoredImage image;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 
+#include "io/decode_stb.h"
 #include "io/image_codec.h"
 #include "io/read_file.h"
 #include "limn/core/error.h"
@@ -45,10 +46,18 @@ std::string message(std::string detail) {
     return detail.empty() ? "unknown reason" : detail;
 }
 
-std::unique_ptr<ImageInput> open(const std::string& path, OIIO::Filesystem::IOProxy* memory) {
-    ImageSpec raw;  // colours as stored, not multiplied by alpha
-    raw.attribute("oiio:UnassociatedAlpha", 1);
-    std::unique_ptr<ImageInput> input = ImageInput::open(path, &raw, memory);
+// Picks the format of a file in memory. OpenImageIO looks for it on disk all the same, so it is one that cannot exist.
+std::string name_in_memory(FileFormat format) {
+    return format == FileFormat::png ? "/dev/null/memory.png" : "/dev/null/memory.exr";
+}
+
+// Opens the file `name`, or its bytes in `memory`.
+std::unique_ptr<ImageInput> open(const std::string& name, const std::string& path,
+                                 OIIO::Filesystem::IOProxy* memory = nullptr) {
+    ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+    if (memory) wishes.attribute("oiio:ioproxy", TypeDesc::PTR, &memory);
+    std::unique_ptr<ImageInput> input = ImageInput::open(name, &wishes);
     if (!input) throw FileError(path, "is not a readable image: " + message(OIIO::geterror()));
     return input;
 }
@@ -126,8 +135,7 @@ StoredImage read(ImageInput& input, std::uintmax_t file_bytes, const std::string
 bool can_encode(FileFormat format) { return format == FileFormat::exr || format == FileFormat::png; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
-    const std::string name = job.format == FileFormat::png ? "memory.png" : "memory.exr";
-    const std::unique_ptr<ImageOutput> output = ImageOutput::create(name);
+    const std::unique_ptr<ImageOutput> output = ImageOutput::create(name_in_memory(job.format));
     if (!output) throw FileError(path, "cannot be written: " + message(OIIO::geterror()));
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -135,7 +143,7 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     for (const auto& [fact, value] : job.facts) spec.attribute(kFactPrefix + fact, value);
     const TypeDesc type = job.format == FileFormat::png ? TypeDesc::UINT8 : TypeDesc::FLOAT;
     const auto data = [](const auto& values) { return static_cast<const void*>(values.data()); };
-    bool done = output->set_ioproxy(&memory) && output->open(name, spec);
+    bool done = output->set_ioproxy(&memory) && output->open(name_in_memory(job.format), spec);
     done = done && output->write_image(type, std::visit(data, job.values));
     done = output->close() && done;
     if (!done || output->has_error()) throw FileError(path, "cannot be written: " + message(output->geterror()));
@@ -144,20 +152,24 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    const std::unique_ptr<ImageInput> input = open(format == FileFormat::png ? "memory.png" : "memory.exr", &memory);
-    return read(*input, bytes.size(), path);
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    return read(*open(name_in_memory(format), path, &memory), bytes.size(), path);
 }
 
 StoredImage decode_file(const std::string& path) {
     require_readable(path);
+    const std::unique_ptr<ImageInput> input = open(path, path);
+    if (std::strcmp(input->format_name(), "jpeg") == 0) {
+        const std::string file = read_file(path);
+        require_whole_jpeg(std::as_bytes(std::span(file)), path);
+    }
     std::error_code unknown;
-    return read(*open(path, nullptr), std::filesystem::file_size(path, unknown), path);
+    return read(*input, std::filesystem::file_size(path, unknown), path);
 }
 
 Facts decode_facts(const std::string& path) {
     require_readable(path);
-    return read_facts(open(path, nullptr)->spec());
+    return read_facts(open(path, path)->spec());
 }
 
 }  // namespace limn

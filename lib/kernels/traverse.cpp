@@ -50,17 +50,23 @@ struct Every {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    Traversal(const flat::Scene& scene, const Ray& ray, std::uint64_t first_number, Query& query)
-        : scene_(scene), ray_(ray), slab_(ray), sheared_(ray), first_number_(first_number), query_(query) {}
+    Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, std::uint64_t first_number, Query& query)
+        : scene_(scene),
+          group_(group),
+          ray_(ray),
+          slab_(ray, group.extent),
+          sheared_(ray),
+          first_number_(first_number),
+          query_(query) {}
 
     // True if the query ended the search.
-    bool run(const flat::Group& group) {
+    bool run() {
         struct Entry {
             double near;
             std::uint32_t child, count;
         } stack[accel::kMaxDepth + 2];
         int size = 0;
-        std::uint32_t node_row = group.root;
+        std::uint32_t node_row = group_.root;
         for (;;) {
             const flat::Node& node = scene_.nodes[node_row];
             double near[2];
@@ -72,7 +78,7 @@ public:
             for (;;) {
                 if (size == 0) return false;
                 const Entry entry = stack[--size];
-                if (entry.near > query_.limit()) continue;
+                if (slab_.is_beyond(entry.near, query_.limit())) continue;
                 if (entry.count == 0) {
                     node_row = entry.child;
                     break;
@@ -127,8 +133,8 @@ private:
                 if constexpr (has(PrimitiveKind::instance)) {
                     const flat::Instance& instance = scene_.instances[range.first_row];
                     const Ray local = enter_instance(instance, ray_);
-                    return is_usable(local) &&
-                           Traversal(scene_, local, number, query_).run(flat::group_at(scene_, instance.group));
+                    const flat::Group& group = flat::group_at(scene_, instance.group);
+                    return is_usable(local) && Traversal(scene_, group, local, number, query_).run();
                 }
                 break;
             case PrimitiveKind::foreign:
@@ -174,6 +180,7 @@ private:
     }
 
     const flat::Scene& scene_;
+    const flat::Group& group_;
     const Ray ray_;
     const accel::SlabRay slab_;
     const ShearedRay sheared_;
@@ -196,7 +203,7 @@ template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t first_number, Query& query) {
     const flat::Group& group = flat::group_at(scene, id);
     const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) {
-        Traversal<kKinds, Query>(scene, ray, first_number, query).run(group);
+        Traversal<kKinds, Query>(scene, group, ray, first_number, query).run();
     };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
@@ -223,10 +230,8 @@ GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
 }
 
 bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
-    const Box& b = medium.bounds;
-    const double lower[3] = {b.lower.x, b.lower.y, b.lower.z}, upper[3] = {b.upper.x, b.upper.y, b.upper.z};
     double near = 0;
-    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+    return accel::SlabRay(ray, accel::finite_extent(medium.bounds)).meets(medium.bounds, ray.t_max, near);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ inline std::shared_ptr<const Texture> checked_albedo(const Color& albedo, const 
     return std::make_shared<SolidColor>(albedo);
 }
 
-inline std::shared_ptr<const Texture> checked_albedo(std::shared_ptr<const Texture> albedo, const std::string& material) {
+inline std::shared_ptr<const Texture> checked_albedo(std::shared_ptr<const Texture> albedo,
+                                                     const std::string& material) {
     require(albedo != nullptr, material + ": albedo texture must not be null");
     return albedo;
 }

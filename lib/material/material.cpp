@@ -6,12 +6,10 @@ namespace {
 
 constexpr MaterialThunks kVirtualCalls{
     .emitted = [](const Material& material, const Surface& s) { return material.emitted(s); },
-    .sample = [](const Material& material, const Surface& s, const Vec3& out, const Random3& random) {
-        return material.sample(s, out, random);
-    },
-    .value = [](const Material& material, const Surface& s, const Vec3& out, const Vec3& in) {
-        return material.value(s, out, in);
-    }};
+    .sample = [](const Material& material, const Surface& s, const Vec3& out,
+                 const Random3& random) { return material.sample(s, out, random); },
+    .value = [](const Material& material, const Surface& s, const Vec3& out,
+                const Vec3& in) { return material.value(s, out, in); }};
 
 }  // namespace
 

@@ -7,8 +7,9 @@
 
 namespace limn::pattern {
 
-/// The image spread over the closed unit square, u to the right, v upward: nearest reads texel (int(u W), int((1-v) H)),
-/// the last column at u = 1 and the last row at v = 0. Beyond the square `wrap` counts. NaN reads as 0.
+/// The image spread over the closed unit square, u to the right, v upward. Nearest reads texel
+/// (int(u W), int((1 - v) H)), the last column at u = 1 and the last row at v = 0. Beyond the square `wrap` counts. NaN
+/// reads as 0.
 /// \pre the image is not empty
 Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap);
 

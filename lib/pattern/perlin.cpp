@@ -35,7 +35,8 @@ double noise(const PerlinLattice& lattice, const Point3& p) {
     for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)
             for (std::size_t k = 0; k < 2; ++k) {
-                const auto hash = lattice.perm_x[x.corner[i]] ^ lattice.perm_y[y.corner[j]] ^ lattice.perm_z[z.corner[k]];
+                const auto hash =
+                    lattice.perm_x[x.corner[i]] ^ lattice.perm_y[y.corner[j]] ^ lattice.perm_z[z.corner[k]];
                 const Vec3 offset{x.offset[i], y.offset[j], z.offset[k]};
                 sum += x.weight[i] * y.weight[j] * z.weight[k] *
                        dot(lattice.gradients[static_cast<std::size_t>(hash)], offset);

@@ -1,8 +1,6 @@
 #include "limn/render/render.h"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +10,7 @@
 #include "flat/scene.h"
 #include "limn/core/error.h"
 #include "render/film.h"
+#include "render/parallel.h"
 #include "render/path.h"
 #include "render/sampler.h"
 
@@ -20,6 +19,7 @@ namespace limn {
 namespace {
 
 constexpr int kTile = 16;      // pixels a side: some thousand paths, enough work to hide the cost of a task
+constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
 constexpr int kMaxSide = 1 << 20;
 
 void check(const CompiledScene& scene, const RenderSettings& s) {
@@ -32,8 +32,8 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
     require(s.max_depth > 0, "the depth limit must be at least 1");
     require(s.threads >= 0, "threads must not be negative");
     if (scene.flat().unassigned > 0)
-        throw ArgumentError("render: " + std::to_string(scene.flat().unassigned) +
-                            " shapes of the scene have no material");
+        throw Error("render: " + std::to_string(scene.flat().unassigned) +
+                    " shapes of the scene have no material");
 }
 
 // One picture being rendered: passes over all tiles, each of more samples than the one before, so that a render that is
@@ -49,19 +49,17 @@ public:
     void run() {
         report(true);
         int done = 0;
-        for (int pass = tracing::kReplicates; done < settings_.samples_per_pixel && !stop_; pass *= 2) {
-            const int target = std::min(settings_.samples_per_pixel, done + std::min(pass, 64));
+        int pass = tracing::kReplicates;
+        for (; done < settings_.samples_per_pixel && !stop_; pass = std::min(2 * pass, kLargestPass)) {
+            const int target = done + std::min(pass, settings_.samples_per_pixel - done);
             const int columns = (settings_.width + kTile - 1) / kTile, rows = (settings_.height + kTile - 1) / kTile;
             const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-            tbb::parallel_for(
-                std::size_t{0}, tiles,
-                [&](std::size_t tile) {
-                    if (stop_) return;
-                    const auto across = static_cast<std::size_t>(columns);
-                    render_tile(static_cast<int>(tile % across) * kTile, static_cast<int>(tile / across) * kTile, target);
-                    report(false);
-                },
-                tbb::simple_partitioner{}, context_);
+            tracing::for_each_index(tiles, context_, [&](std::size_t tile) {
+                if (stop_) return;
+                const auto across = static_cast<std::size_t>(columns);
+                render_tile(static_cast<int>(tile % across) * kTile, static_cast<int>(tile / across) * kTile, target);
+                report(false);
+            });
             done = target;
         }
         if (!stop_) report(true);
@@ -152,6 +150,11 @@ RenderResult render(const CompiledScene& scene, const Camera& camera, const Rend
         job.run();
         return job.result(scene, tbb::this_task_arena::max_concurrency());
     }
+    // More threads than processors are allowed, for whoever asks for them.
+    const auto threads = static_cast<std::size_t>(settings.threads);
+    const tbb::global_control allow(
+        tbb::global_control::max_allowed_parallelism,
+        std::max(threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(settings.threads);
     arena.execute([&] { job.run(); });
     return job.result(scene, settings.threads);

@@ -12,14 +12,14 @@ namespace limn::tracing {
 
 Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
-    const auto scaled = [&] { return Point3{t.scale * s.position.x, t.scale * s.position.y, t.scale * s.position.z}; };
     switch (t.kind) {
         case TextureKind::solid: return t.color;
         case TextureKind::checker:
             return texture_value(scene, pattern::checker_is_even(s.position, t.scale) ? t.even : t.odd, s);
         case TextureKind::image: return pattern::lookup_image(*scene.images[t.data], s.uv, t.filter, t.wrap);
-        case TextureKind::noise: return t.color * ((1 + pattern::noise(*scene.lattices[t.data], scaled())) / 2);
-        case TextureKind::turbulence: return t.color * pattern::turbulence(*scene.lattices[t.data], scaled());
+        case TextureKind::noise: return t.color * pattern::noise_factor(*scene.lattices[t.data], t.scale, s.position);
+        case TextureKind::turbulence:
+            return t.color * pattern::turbulence_factor(*scene.lattices[t.data], t.scale, s.position);
         case TextureKind::marble: return t.color * pattern::marble(*scene.lattices[t.data], t.scale, s.position);
         case TextureKind::foreign: return t.value(*t.object, s);
     }

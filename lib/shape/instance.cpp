@@ -1,6 +1,8 @@
 #include "limn/shape/instance.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/bounds.h"
 #include "core/object_ray.h"
@@ -12,21 +14,28 @@ namespace {
 
 using Cubic = std::array<double, 4>;
 
-// The determinant of (1-t) A + t B is a cubic in t; its Bernstein coefficients from its values at 0, 1/3, 2/3, 1.
+// The determinant of (1-t) A + t B is a cubic in t. It is linear in each row, so that its Bernstein coefficients are
+// means of determinants with some rows from A and some from B.
 Cubic determinant_over_time(const Transform& a, const Transform& b) {
-    const double f0 = determinant(a), f1 = determinant(interpolate(a, b, 1.0 / 3));
-    const double f2 = determinant(interpolate(a, b, 2.0 / 3)), f3 = determinant(b);
-    return {f0, (-5 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 6, (2 * f0 - 9 * f1 + 18 * f2 - 5 * f3) / 6, f3};
+    const auto mixed = [&](bool row0, bool row1, bool row2) {
+        return determinant({{row0 ? b.rows[0] : a.rows[0], row1 ? b.rows[1] : a.rows[1], row2 ? b.rows[2] : a.rows[2]}});
+    };
+    return {mixed(0, 0, 0), (mixed(1, 0, 0) + mixed(0, 1, 0) + mixed(0, 0, 1)) / 3,
+            (mixed(0, 1, 1) + mixed(1, 0, 1) + mixed(1, 1, 0)) / 3, mixed(1, 1, 1)};
 }
 
-// A polynomial lies in the hull of its Bernstein coefficients: of one sign, they exclude a root. Else halve by de
-// Casteljau's rule; what is still undecided after 40 halvings touches zero for all that doubles can tell.
-bool has_root(const Cubic& c, int halvings = 40) {
-    if ((c[0] > 0 && c[1] > 0 && c[2] > 0 && c[3] > 0) || (c[0] < 0 && c[1] < 0 && c[2] < 0 && c[3] < 0)) return false;
+// A polynomial lies in the hull of its Bernstein coefficients: all above `rounding` or all below minus it, they exclude a
+// root. Else halve by de Casteljau's rule, whose results are rounded; what is still undecided after 20 halvings touches
+// zero or comes within 1e-12 of it.
+bool has_root(const Cubic& c, double rounding = 0, int halvings = 20) {
+    const auto [least, most] = std::minmax_element(c.begin(), c.end());
+    if (*least > rounding || *most < -rounding) return false;
     if (c[0] * c[3] <= 0 || halvings == 0) return true;
     const double ab = (c[0] + c[1]) / 2, bc = (c[1] + c[2]) / 2, cd = (c[2] + c[3]) / 2;
     const double abc = (ab + bc) / 2, bcd = (bc + cd) / 2, middle = (abc + bcd) / 2;
-    return has_root({c[0], ab, abc, middle}, halvings - 1) || has_root({middle, bcd, cd, c[3]}, halvings - 1);
+    const double rounded = std::max(rounding, 1e-14 * std::max(std::abs(*least), std::abs(*most)));
+    return has_root({c[0], ab, abc, middle}, rounded, halvings - 1) ||
+           has_root({middle, bcd, cd, c[3]}, rounded, halvings - 1);
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ Sphere::Sphere(const Point3& center0, const Point3& center1, double radius, std:
     if (!std::isfinite(radius) || radius == 0) throw ArgumentError("Sphere: the radius must be finite and not zero");
 }
 
-Point3 Sphere::center(double time) const { return interpolate(center0_, center1_, time); }
+Point3 Sphere::center(double time) const {
+    return center0_ == center1_ ? center0_ : interpolate(center0_, center1_, time);  // a still one does not tremble
+}
 
 Box Sphere::bounds() const { return sphere_bounds(center0_, center1_, radius_); }
 

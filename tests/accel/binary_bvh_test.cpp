@@ -95,12 +95,10 @@ TEST_CASE("BinaryBvh: a ray visits every box that it meets, and far fewer than a
             return ray.t_max;
         });
         visits += visited.size();
-        const accel::SlabRay slab(ray);
+        const accel::SlabRay slab(ray, bvh.extent);
         for (std::uint32_t id = 0; id < boxes.size(); ++id) {
-            const Box& b = boxes[id];
-            const double lower[3] = {b.lower.x, b.lower.y, b.lower.z}, upper[3] = {b.upper.x, b.upper.y, b.upper.z};
             double near = 0;
-            if (slab.meets(lower, upper, ray.t_max, near)) REQUIRE(visited.count(id) == 1);
+            if (slab.meets(boxes[id], ray.t_max, near)) REQUIRE(visited.count(id) == 1);
         }
     }
     CHECK(visits < boxes.size() / 20 * rays);

@@ -13,9 +13,8 @@ using namespace limn;
 namespace {
 
 bool meets(const Box& box, const Ray& ray) {
-    const double lower[3] = {box.lower.x, box.lower.y, box.lower.z}, upper[3] = {box.upper.x, box.upper.y, box.upper.z};
     double near = 0;
-    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+    return accel::SlabRay(ray, accel::finite_extent(box)).meets(box, ray.t_max, near);
 }
 
 bool meets_as_float(const Box& box, const Ray& ray) {
@@ -23,7 +22,7 @@ bool meets_as_float(const Box& box, const Ray& ray) {
     const float lower[3] = {f(box.lower.x), f(box.lower.y), f(box.lower.z)};
     const float upper[3] = {f(box.upper.x), f(box.upper.y), f(box.upper.z)};
     double near = 0;
-    return accel::SlabRay(ray).meets(lower, upper, ray.t_max, near);
+    return accel::SlabRay(ray, accel::finite_extent(box)).meets(lower, upper, ray.t_max, near);
 }
 
 const Box kUnit{{0, 0, 0}, {1, 1, 1}};

@@ -55,7 +55,7 @@ TEST_CASE("limn compare: prints the metrics of two images, and the same as JSON"
     CHECK_FALSE(json.contains("corrected_relmse"));
 }
 
-TEST_CASE("limn compare: the JSON stands alone on stdout for -; equal images have no error", "[cli]") {
+TEST_CASE("limn compare: the JSON stands alone on stdout for -, and equal images have no error", "[cli]") {
     const Folder folder;
     const std::string a = image_file(folder, "a.exr", Image(3, 2, {0.1, 0.2, 0.3}));
     const Outcome outcome = limn({"compare", a, a, "--json", "-"});

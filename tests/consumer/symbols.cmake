@@ -1,5 +1,5 @@
-# Every strong symbol that the installed libraries define is limn's: two libraries with a stb_image inside can be linked
-# into one program. Inline functions and templates of others are weak and thus shared.
+# Every strong symbol that the installed libraries define carries limn's name, so that a program may link another copy
+# of stb or tinyobjloader. Inline functions and templates of others are weak, and shared.
 
 foreach(library core io)
     execute_process(COMMAND "${NM}" --defined-only --extern-only --demangle "${PREFIX}/lib/liblimn_${library}.a"
@@ -10,7 +10,7 @@ foreach(library core io)
         message(SEND_ERROR "liblimn_${library}.a defines nothing")
     endif()
     foreach(symbol IN LISTS symbols)
-        if(NOT symbol MATCHES "^[0-9a-f]+ . (non-virtual thunk to )?limn::")
+        if(NOT symbol MATCHES "^[0-9a-f]+ . (non-virtual thunk to )?limn(::|_)")
             message(SEND_ERROR "liblimn_${library}.a defines ${symbol}")
         endif()
     endforeach()

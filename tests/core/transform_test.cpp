@@ -102,7 +102,7 @@ TEST_CASE("inverse: a singular or non-finite matrix is refused", "[core][transfo
     for (int kind = 0; kind < 5; ++kind) CHECK_THROWS_AS(inverse(singular(kind)), ArgumentError);
 }
 
-TEST_CASE("determinant: that of a product is the product; a mirror turns its sign", "[core][transform]") {
+TEST_CASE("determinant: that of a product is the product, a mirror turns its sign", "[core][transform]") {
     Random random(9);
     for (int i = 0; i < 500; ++i) {
         const Transform a = random_transform(random), b = random_transform(random);

@@ -47,11 +47,12 @@ TEST_CASE("Warp: uniform cones follow their density, wide and narrow", "[core][w
         std::mt19937_64 random(65);
         CAPTURE(one_minus_cos);
         CHECK(test::uniform_square_p(kSamples, [&] {
-            const double u = uniform(random);
-            const Vec3 w = sample_uniform_cone(u, uniform(random), one_minus_cos);
-            const double from_axis = (w.x * w.x + w.y * w.y) / (1 + w.z);  // 1 - cos without cancellation
-            return std::pair(w.z > -1 + 1e-9 ? from_axis / one_minus_cos : 1.0, std::atan2(w.y, w.x) / (2 * kPi) + 0.5);
-        }) > kLevel);
+                  const double u = uniform(random);
+                  const Vec3 w = sample_uniform_cone(u, uniform(random), one_minus_cos);
+                  const double from_axis = (w.x * w.x + w.y * w.y) / (1 + w.z);  // 1 - cos without cancellation
+                  return std::pair(w.z > -1 + 1e-9 ? from_axis / one_minus_cos : 1.0,
+                                   std::atan2(w.y, w.x) / (2 * kPi) + 0.5);
+              }) > kLevel);
         CHECK(pdf_uniform_cone(one_minus_cos) * 2 * kPi * one_minus_cos == Approx(1).epsilon(1e-15));
     }
 }
@@ -65,10 +66,10 @@ TEST_CASE("Warp: the cone's density stays right for a light far away", "[core][w
 TEST_CASE("Warp: the disc is uniform per area", "[core][warp]") {
     std::mt19937_64 random(66);
     CHECK(test::uniform_square_p(kSamples, [&] {
-        const double u = uniform(random);
-        const Vec3 p = sample_uniform_disc(u, uniform(random));
-        return std::pair(length_squared(p), std::atan2(p.y, p.x) / (2 * kPi) + 0.5);
-    }) > kLevel);
+              const double u = uniform(random);
+              const Vec3 p = sample_uniform_disc(u, uniform(random));
+              return std::pair(length_squared(p), std::atan2(p.y, p.x) / (2 * kPi) + 0.5);
+          }) > kLevel);
 }
 
 TEST_CASE("Warp: neighbours in the square are neighbours in the disc", "[core][warp]") {
@@ -76,7 +77,7 @@ TEST_CASE("Warp: neighbours in the square are neighbours in the disc", "[core][w
     constexpr double kStep = 1e-6;
     double farthest = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const double u = uniform(random), v = uniform(random);
+        const double u = uniform(random), v = i % 3 == 0 ? u : i % 3 == 1 ? 1 - u : uniform(random);  // diagonals too
         const double du = kStep * (2 * uniform(random) - 1), dv = kStep * (2 * uniform(random) - 1);
         farthest = std::max(farthest, length(sample_uniform_disc(u + du, v + dv) - sample_uniform_disc(u, v)));
     }
@@ -92,7 +93,8 @@ TEST_CASE("Warp: the ball is uniform per volume", "[core][warp]") {
         const double u = uniform(random), v = uniform(random);
         const Vec3 p = sample_uniform_ball(u, v, uniform(random));
         const double r = length(p);  // r^3, cos theta and phi are independent and uniform
-        observed[(index(r * r * r) * 16 + index((p.z / r + 1) / 2)) * 16 + index(std::atan2(p.y, p.x) / (2 * kPi) + 0.5)] += 1;
+        observed[(index(r * r * r) * 16 + index((p.z / r + 1) / 2)) * 16 +
+                 index(std::atan2(p.y, p.x) / (2 * kPi) + 0.5)] += 1;
     }
     CHECK(chi_square_p(observed, std::vector<double>(observed.size(), kSamples / 4096.0)) > kLevel);
 }
@@ -100,11 +102,11 @@ TEST_CASE("Warp: the ball is uniform per volume", "[core][warp]") {
 TEST_CASE("Warp: the triangle is uniform per area", "[core][warp]") {
     std::mt19937_64 random(68);
     CHECK(test::uniform_square_p(kSamples, [&] {
-        const double u = uniform(random);
-        const Uv b = sample_uniform_triangle(u, uniform(random));
-        const double far_side = b.u + b.v;  // distance from the first vertex; the area within it is its square
-        return std::pair(far_side * far_side, b.v / far_side);
-    }) > kLevel);
+              const double u = uniform(random);
+              const Uv b = sample_uniform_triangle(u, uniform(random));
+              const double far_side = b.u + b.v;  // distance from the first vertex; the area within it is its square
+              return std::pair(far_side * far_side, b.v / far_side);
+          }) > kLevel);
 }
 
 TEST_CASE("Warp: free flight follows its density", "[core][warp]") {
@@ -116,8 +118,8 @@ TEST_CASE("Warp: free flight follows its density", "[core][warp]") {
     double total = 0;
     for (std::size_t i = 0; i + 1 < expected.size(); ++i) {
         const double a = static_cast<double>(i) * width;
-        const double simpson = pdf_exponential(a, sigma) + 4 * pdf_exponential(a + width / 2, sigma) +
-                               pdf_exponential(a + width, sigma);
+        const double simpson =
+            pdf_exponential(a, sigma) + 4 * pdf_exponential(a + width / 2, sigma) + pdf_exponential(a + width, sigma);
         total += expected[i] = kSamples * simpson * width / 6;
     }
     expected.back() = kSamples - total;

@@ -50,7 +50,7 @@ bool appears_at(const Camera& camera, const Point3& p, double x, double y) {
     // The projection and the ray each take some 30 rounded operations.
     const bool ray_meets_it =
         length(cross(p - ray.origin, normalize(ray.direction))) <= gamma(60) * length(p - ray.origin);
-    return close(at.x, x, .05) && close(at.y, y, .05) && ray_meets_it;
+    return close(at.x, x, .051) && close(at.y, y, .051) && ray_meets_it;
 }
 
 double horizon(const Figure& figure, double x) {

@@ -42,8 +42,8 @@ Ray picture_ray(const Camera& camera, int size, double x, double y, double time 
 /// Whether a number known to +-rounding is met.
 bool close(double a, double b, double rounding);
 
-/// Whether a point appears at (x, y), known to +-.05, in the figure's own 400 x 400 pixels, both by `project` and by
-/// the ray that the camera sends there.
+/// Whether a point appears at (x, y), known to one decimal (itself rounded from two), in the figure's own 400 x 400
+/// pixels, both by `project` and by the ray that the camera sends there.
 bool appears_at(const Camera& camera, const Point3& p, double x, double y);
 
 /// The row at which the ground (object 0) begins in the column x.

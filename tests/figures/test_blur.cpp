@@ -28,13 +28,13 @@ double circle_of_confusion(const Camera& camera, const Point3& p) {
 
 }  // namespace
 
-TEST_CASE("Figure 13: yellow ground has no blue; gold that mirrors the sky has its own", "[figures]") {
+TEST_CASE("Figure 13: yellow ground has no blue, gold that mirrors the sky has its own", "[figures]") {
     const Figure figure = figures::fig13_dielectric();
     CHECK(appears_at(figure.camera, kGlass, 44.6, 289.7));
     CHECK(appears_at(figure.camera, kBlue, 200, 200));
     CHECK(appears_at(figure.camera, kGold, 311.0, 135.9));
 
-    const auto images = replicates(compile(figure.scene), figure.camera, {.samples_per_pixel = 1});
+    const auto images = replicates(compile(figure.scene), figure.camera, {.samples_per_pixel = 1}, 16);
     int ground = 0, wrong = 0;
     for_each_pixel(figure, [&](int x, int y, const Footprint& footprint) {
         if (!all_see(footprint, 0)) return;

@@ -38,9 +38,11 @@ TEST_CASE("Sampling lights agrees with scattering alone, block by block", "[figu
     struct Row {
         Figure (*figure)(const FigureInputs&);
         int path_spp, naive_spp;
+        double light;  // of the brightest lamp or sky, summed over the channels
     };
-    const Row row = GENERATE(Row{figures::fig12_emissive, 16, 64}, Row{figures::fig13_dielectric, 16, 16},
-                             Row{figures::fig15_cornell_box, 16, 128}, Row{figures::fig16_volume_cornell_box, 16, 64});
+    const Row row =
+        GENERATE(Row{figures::fig12_emissive, 8, 64, 12}, Row{figures::fig13_dielectric, 8, 8, 3},
+                 Row{figures::fig15_cornell_box, 8, 48, 45}, Row{figures::fig16_volume_cornell_box, 8, 32, 21});
     const Figure figure = row.figure({});
     const CompiledScene scene = compile(figure.scene);
     const auto path = blocks(scene, figure.camera, Estimator::path, row.path_spp);
@@ -48,6 +50,9 @@ TEST_CASE("Sampling lights agrees with scattering alone, block by block", "[figu
     double sum = 0, squares = 0, largest = 0;
     int count = 0, unequal = 0;
     for (std::size_t i = 0; i < path.size(); ++i) {
+        // Scattering alone finds a lamp at most this often in a dim block; a few finds are not normally distributed.
+        const double finds = path[i].mean / row.light * kBlock * kBlock * kCount * row.naive_spp;
+        if (finds > 0 && finds < 50) continue;
         const double error = std::hypot(path[i].error, naive[i].error), difference = path[i].mean - naive[i].mean;
         if (error == 0) {
             unequal += !same_float(path[i].mean, naive[i].mean);

@@ -27,7 +27,7 @@ constexpr Random3 kReflect{0, 0, 0}, kRefract{kAlmostOne, 0, 0};
 
 }  // namespace
 
-TEST_CASE("Dielectric: the reflectances of figures.md", "[material][dielectric]") {
+TEST_CASE("Dielectric: reflectances are those of the reference table, exact and by Schlick", "[material][dielectric]") {
     struct Row {
         double eta, degrees, exact, schlick;
     };
@@ -42,7 +42,8 @@ TEST_CASE("Dielectric: the reflectances of figures.md", "[material][dielectric]"
     CHECK(std::abs(reflectance_schlick(cosine(41), 1 / 1.5) - .0409) <= .5e-4);
 }
 
-TEST_CASE("Dielectric: the cosine-weighted mean reflectances of figures.md", "[material][dielectric]") {
+TEST_CASE("Dielectric: the mean reflectance of diffuse light is that of the reference table",
+          "[material][dielectric]") {
     constexpr int kSteps = 100'000;
     double exact = 0, schlick = 0;
     for (int i = 0; i < kSteps; ++i) {
@@ -59,7 +60,7 @@ TEST_CASE("Dielectric: reflected and transmitted flux are the incident flux", "[
     for (int i = 0; i < 100'000; ++i) {
         const double eta = std::exp(std::uniform_real_distribution<double>(-3, 3)(random));
         const double ci = uniform(random), ct = bsdf::cos_transmitted(ci, eta);
-        // Fresnel's amplitudes of the transmitted wave; its beam is narrower by cos_t / cos_i, its medium denser by eta.
+        // Fresnel's amplitudes of the transmitted wave, whose beam is cos_t / cos_i as wide in a medium of index eta.
         const double ts = 2 * ci / (ci + eta * ct), tp = 2 * ci / (eta * ci + ct);
         const double transmitted = eta * ct / ci * (ts * ts + tp * tp) / 2;
         const double sum = reflectance_exact(ci, eta) + transmitted;
@@ -67,7 +68,8 @@ TEST_CASE("Dielectric: reflected and transmitted flux are the incident flux", "[
     }
 }
 
-TEST_CASE("Dielectric: the cosine of the refracted direction is Snell's, in higher precision too", "[material][dielectric]") {
+TEST_CASE("Dielectric: the cosine of the refracted direction is Snell's, in higher precision too",
+          "[material][dielectric]") {
     std::mt19937_64 random(68);
     for (int i = 0; i < 100'000; ++i) {
         const double eta = std::exp(std::uniform_real_distribution<double>(-3, 3)(random));
@@ -115,7 +117,8 @@ TEST_CASE("Dielectric: an index of 1 is not there", "[material][dielectric]") {
         }
 }
 
-TEST_CASE("Dielectric: refraction obeys Snell's law on both sides and in the plane of incidence", "[material][dielectric]") {
+TEST_CASE("Dielectric: refraction obeys Snell's law on both sides and in the plane of incidence",
+          "[material][dielectric]") {
     std::mt19937_64 random(4);
     const double index = 1.7;
     const Dielectric glass(index);
@@ -156,7 +159,8 @@ TEST_CASE("Dielectric: reflects as often as the reflectance says", "[material][d
                 const auto below = glass.sample(interface(front), from_z(degrees), {r * (1 - 1e-12), .5, .5});
                 REQUIRE(below);
                 CHECK(length(below->direction - from_z(-degrees)) <= gamma(8));
-                const auto above = glass.sample(interface(front), from_z(degrees), {std::min(r * (1 + 1e-12), kAlmostOne), .5, .5});
+                const auto above =
+                    glass.sample(interface(front), from_z(degrees), {std::min(r * (1 + 1e-12), kAlmostOne), .5, .5});
                 REQUIRE(above);
                 CHECK((above->direction.z > 0) == (r == 1));
             }

@@ -98,7 +98,8 @@ TEST_CASE("Material: directions are unit and finite in every corner of the rando
                             Surface s = surface({0, 0, 1});
                             s.front_face = front;
                             const auto sample = material->sample(s, out, {x, y, z});
-                            if (sample && !(is_unit(sample->direction) && std::isfinite(sample->pdf) && sample->pdf >= 0))
+                            if (sample &&
+                                !(is_unit(sample->direction) && std::isfinite(sample->pdf) && sample->pdf >= 0))
                                 ++violations;
                         }
     CHECK(violations == 0);
@@ -133,7 +134,8 @@ TEST_CASE("DiffuseLight: emits its texture on both sides and scatters nothing", 
 }
 
 TEST_CASE("DiffuseLight: impossible radiances are refused", "[material][light]") {
-    for (const double bad : {-1.0, std::nan(""), kInfinity}) CHECK_THROWS_AS(DiffuseLight(Color{0, bad, 0}), ArgumentError);
+    for (const double bad : {-1.0, std::nan(""), kInfinity})
+        CHECK_THROWS_AS(DiffuseLight(Color{0, bad, 0}), ArgumentError);
     CHECK_THROWS_AS(DiffuseLight(std::shared_ptr<const Texture>()), ArgumentError);
 }
 
@@ -158,7 +160,9 @@ TEST_CASE("Material: a reference calls the described object, a null one nothing"
 TEST_CASE("Material: records state what the built-in ones were made with", "[material][record]") {
     RecordSink sink;
     const auto texture = std::make_shared<SolidColor>(Color{.1, .2, .3});
-    const auto pack = [&](std::shared_ptr<const Material> material) { return record(sink, lower_material(sink, material)); };
+    const auto pack = [&](std::shared_ptr<const Material> material) {
+        return record(sink, lower_material(sink, material));
+    };
 
     const MaterialRecord matte = pack(std::make_shared<Lambertian>(texture));
     CHECK(matte.kind == MaterialKind::lambertian);

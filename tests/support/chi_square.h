@@ -43,8 +43,8 @@ inline double chi_square_p(const std::vector<double>& observed, const std::vecto
     return boost::math::gamma_q((cells - 1) / 2.0, statistic / 2);
 }
 
-/// A histogram of directions up to an angle from an axis: rows uniform in x = sin(theta / 2), columns uniform in phi, and
-/// one more cell for what was absorbed.
+/// A histogram of directions up to an angle from an axis: rows uniform in x = sin(theta / 2), columns uniform in phi,
+/// and one more cell for what was absorbed.
 class DirectionHistogram {
 public:
     /// \param max_angle beyond which there must be no sample

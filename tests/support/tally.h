@@ -1,6 +1,8 @@
 // Counts over many rays with one assertion at the end, and the first fault in hexadecimal so that it can be repeated.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -24,5 +26,12 @@ struct Tally {
         if (wrong++ == 0) first = what + ": " + describe(ray);
     }
 };
+
+/// Whether a hit lies at the ray's very origin, so near that its t is nothing but the rounding of the coordinates: which
+/// of several such surfaces comes first is then open.
+inline bool is_at_origin(const Ray& ray, double t) {
+    const double largest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
+    return std::abs(t) * length(ray.direction) <= 1e-13 * largest;
+}
 
 }  // namespace limn::test

@@ -31,8 +31,8 @@ struct Measured {
     void add(double x) { sum += x, squares += x * x, ++count; }
     double mean() const { return sum / count; }
     double error() const { return std::sqrt((squares / count - mean() * mean()) / (count - 1)); }
-    // Whether the mean is the number that stands in figures.md, which is rounded to `digits` decimals and was itself
-    // measured on 200 lattices.
+    // Whether the mean is the reference number, which is rounded to `digits` decimals and was itself measured on 200
+    // lattices, of another program.
     bool agrees(double published, int digits) const {
         CAPTURE(mean(), error(), published);
         return std::abs(mean() - published) <= 0.5 * std::pow(10, -digits) + 4 * std::sqrt(2.0) * error();
@@ -118,7 +118,8 @@ TEST_CASE("Perlin noise: exactly zero at lattice points", "[texture][perlin]") {
             for (const double z : {0.0, -7.0, 1e12}) CHECK(noise(lattice, {x, y, z}) == 0);
 }
 
-TEST_CASE("Perlin noise: its slope at a lattice point is the gradient that the permutations name", "[texture][perlin]") {
+TEST_CASE("Perlin noise: its slope at a lattice point is the gradient that the permutations name",
+          "[texture][perlin]") {
     const PerlinLattice lattice = PerlinLattice::from_seed(2);
     constexpr double kStep = 0x1p-20;  // the next term of the series is 3 kStep
     for (int x = -300; x <= 300; x += 37)
@@ -129,7 +130,8 @@ TEST_CASE("Perlin noise: its slope at a lattice point is the gradient that the p
                 const Vec3 gradient = lattice.gradients[static_cast<std::size_t>(index)];
                 const double px = x, py = y, pz = z;
                 const Vec3 slope = Vec3{noise(lattice, {px + kStep, py, pz}), noise(lattice, {px, py + kStep, pz}),
-                                        noise(lattice, {px, py, pz + kStep})} / kStep;
+                                        noise(lattice, {px, py, pz + kStep})} /
+                                   kStep;
                 if (!(length(slope - gradient) <= 8 * kStep)) FAIL("at " << x << ' ' << y << ' ' << z);
             }
 }
@@ -145,7 +147,8 @@ TEST_CASE("Perlin noise: with equal gradients along x it is t - (3 t^2 - 2 t^3)"
     }
 }
 
-TEST_CASE("Perlin noise: continuous across the walls of cells, where the lattice begins again too", "[texture][perlin]") {
+TEST_CASE("Perlin noise: continuous across the walls of cells, where the lattice begins again too",
+          "[texture][perlin]") {
     const PerlinLattice lattice = PerlinLattice::from_seed(10);
     constexpr double kStep = 0x1p-30;
     for (const double wall : {-512.0, -256.0, -255.0, -1.0, 0.0, 1.0, 255.0, 256.0, 512.0})
@@ -190,14 +193,14 @@ TEST_CASE("Perlin textures: finite wherever they are asked", "[texture][perlin]"
         }
 }
 
-TEST_CASE("Perlin noise: the statistics of figures.md", "[texture][perlin]") {
+TEST_CASE("Perlin noise: the reference statistics", "[texture][perlin]") {
     const Moments m(noise);
     CHECK(m.mean.agrees(0, 3));
     CHECK(m.deviation.agrees(.182, 3));
     CHECK(m.kurtosis.agrees(2.63, 2));
 }
 
-TEST_CASE("Perlin turbulence: the statistics of figures.md", "[texture][perlin]") {
+TEST_CASE("Perlin turbulence: the reference statistics", "[texture][perlin]") {
     const Moments m(turbulence);
     CHECK(m.mean.agrees(.170, 3));
     CHECK(m.deviation.agrees(.125, 3));
@@ -205,7 +208,8 @@ TEST_CASE("Perlin turbulence: the statistics of figures.md", "[texture][perlin]"
     CHECK(m.largest < 1);
 }
 
-TEST_CASE("Perlin marble: the statistics of figures.md, the arcsine law of a sine with uniform phase", "[texture][perlin]") {
+TEST_CASE("Perlin marble: the reference statistics, the arcsine law of a sine with uniform phase",
+          "[texture][perlin]") {
     const Moments m([](const PerlinLattice& lattice, const Point3& p) { return marble(lattice, 4, p); });
     CHECK(m.mean.agrees(.499, 3));
     CHECK(m.deviation.agrees(.354, 3));
@@ -241,7 +245,8 @@ TEST_CASE("Perlin textures: scaled, coloured values of their patterns", "[textur
     CHECK_FALSE(Marble(4, 8, color).value(s) == Marble(4, lattice, color).value(s));
 }
 
-TEMPLATE_TEST_CASE("Perlin textures: impossible arguments are refused", "[texture][perlin]", Noise, Turbulence, Marble) {
+TEMPLATE_TEST_CASE("Perlin textures: impossible arguments are refused", "[texture][perlin]", Noise, Turbulence,
+                   Marble) {
     for (const double scale : {kNaN, kInfinity, -kInfinity}) CHECK_THROWS_AS(TestType(scale, 1), ArgumentError);
     CHECK_THROWS_AS(TestType(1, std::shared_ptr<const PerlinLattice>()), ArgumentError);
     CHECK_THROWS_AS(TestType(1, 1, Color{-1, 0, 0}), ArgumentError);

@@ -98,9 +98,8 @@ inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 inline Vec3 normalize(const Vec3& a) {
     const double squared = dot(a, a);
     if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
-    const double largest = std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z)));
     int exponent = 0;
-    std::frexp(largest, &exponent);
+    std::frexp(std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))), &exponent);
     const Vec3 scaled{std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
     return scaled / std::sqrt(dot(scaled, scaled));
 }
@@ -108,6 +107,10 @@ inline Vec3 normalize(const Vec3& a) {
 constexpr Vec3 abs(const Vec3& a) {
     return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z};
 }
+
+/// The largest magnitude of a coordinate.
+inline double max_abs(const Vec3& a) { return std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))); }
+inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 inline bool is_finite(const Normal3& a) { return is_finite(Vec3(a)); }

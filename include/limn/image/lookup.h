@@ -8,7 +8,7 @@ namespace limn {
 
 enum class Filter : std::uint8_t { nearest, bilinear };
 
-/// What lies outside [0, 1): the image again, its edge, or its mirror image.
+/// What lies outside [0, 1]: the image again, its edge, or its mirror image.
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
 }  // namespace limn

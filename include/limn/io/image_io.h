@@ -20,7 +20,7 @@ enum class Encoding { automatic, srgb, raw };
 struct SaveOptions {
     bool half = false;  ///< EXR: half instead of float; \throws FileError if a value is too large for it
     /// Facts about the picture, written as text: EXR attributes, PNG text. Names as in the `--report`.
-    std::vector<std::pair<std::string, std::string>> facts;
+    std::vector<std::pair<std::string, std::string>> facts{};
 };
 
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]. The file appears whole or not at all: a

@@ -1,0 +1,37 @@
+// The one loop that limn runs in parallel.
+#pragma once
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <atomic>
+#include <cstddef>
+
+namespace limn::tracing {
+
+/// Calls function(0) ... function(count - 1), each once, on the threads of the caller's arena, until the context is
+/// cancelled. What a call throws cancels the others and comes out here.
+///
+/// The threads draw their numbers from one atomic counter, whose acquire and release also order what happens before, in
+/// and after the loop. oneTBB does so as well, but ThreadSanitizer cannot see it (tests/support/tsan.supp).
+template <class Function>
+void for_each_index(std::size_t count, tbb::task_group_context& context, const Function& function) {
+    std::atomic<std::size_t> next;
+    struct Leave {
+        std::atomic<std::size_t>& counter;
+        ~Leave() { counter.fetch_add(1, std::memory_order_acq_rel); }
+    };
+    const Leave caller{next};
+    next.store(0, std::memory_order_release);
+    const auto work = [&next, &function, &context, count](int) {
+        const Leave worker{next};
+        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_acq_rel)) < count;) {
+            if (context.is_group_execution_cancelled()) return;
+            function(i);
+        }
+    };
+    tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner{}, context);
+}
+
+}  // namespace limn::tracing

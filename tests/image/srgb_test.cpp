@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include "catch.h"
+#include "limn/core/color.h"
+
+using namespace limn;
+
+TEST_CASE("sRGB: decoding and encoding all 256 stored values is the identity", "[image][color]") {
+    for (int i = 0; i < 256; ++i) {
+        const float linear = static_cast<float>(srgb_decode(i / 255.0));
+        CHECK(std::floor(255 * srgb_encode(linear) + 0.5) == i);
+    }
+}
+
+TEST_CASE("sRGB: known values of IEC 61966-2-1", "[image][color]") {
+    CHECK(srgb_encode(0) == 0);
+    CHECK(srgb_encode(1) == Approx(1).epsilon(1e-15));
+    CHECK(srgb_decode(1) == Approx(1).epsilon(1e-15));
+    CHECK(srgb_encode(0.001) == Approx(0.01292).epsilon(1e-15));               // the straight part
+    CHECK(srgb_decode(0.5) == Approx(0.21404114048223255).epsilon(1e-14));     // 0.5555 / 1.055 to the 2.4
+    CHECK(srgb_encode(0.21404114048223255) == Approx(0.5).epsilon(1e-14));
+}
+
+TEST_CASE("sRGB: both functions are odd", "[image][color]") {
+    const double x = GENERATE(0.0, 0.002, 0.3, 1.0, 7.0);
+    CHECK(srgb_encode(-x) == -srgb_encode(x));
+    CHECK(srgb_decode(-x) == -srgb_decode(x));
+    CHECK(std::signbit(srgb_encode(-0.0)));
+}
+
+TEST_CASE("sRGB: encoding never decreases", "[image][color]") {
+    double last = -1;
+    for (int i = 0; i <= 100000; ++i) {
+        const double encoded = srgb_encode(i / 100000.0);
+        REQUIRE(encoded >= last);
+        last = encoded;
+    }
+}

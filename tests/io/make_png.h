@@ -1,0 +1,43 @@
+// PNG files of any colour type, made without any library.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace limn::test {
+
+inline std::string big_endian(std::uint32_t v) {
+    return {static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8), static_cast<char>(v)};
+}
+
+inline std::string png_chunk(const std::string& type, const std::string& data) {
+    std::uint32_t crc = 0xffffffff;
+    for (const char c : type + data) {
+        crc ^= static_cast<std::uint8_t>(c);
+        for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320 : 0);
+    }
+    return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
+}
+
+enum class PngColor : char { grey = 0, rgb = 2, palette = 3, grey_alpha = 4, rgb_alpha = 6 };
+
+// One row of pixels, whose bytes are `row`; `chunks` come before them.
+inline std::string make_png(int width, char bit_depth, PngColor color, const std::string& row,
+                            const std::string& chunks = "") {
+    const std::string filtered = std::string(1, '\0') + row;  // filter type none
+    std::uint32_t a = 1, b = 0;                               // Adler-32
+    for (const char c : filtered) {
+        a = (a + static_cast<std::uint8_t>(c)) % 65521;
+        b = (b + a) % 65521;
+    }
+    const auto size = static_cast<std::uint16_t>(filtered.size());
+    const auto complement = static_cast<std::uint16_t>(~size);
+    const std::string stored{1, static_cast<char>(size), static_cast<char>(size >> 8), static_cast<char>(complement),
+                             static_cast<char>(complement >> 8)};
+    const std::string header = big_endian(static_cast<std::uint32_t>(width)) + big_endian(1) +
+                               std::string{bit_depth, static_cast<char>(color), 0, 0, 0};
+    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + chunks +
+           png_chunk("IDAT", "\x78\x01" + stored + filtered + big_endian(b << 16 | a)) + png_chunk("IEND", "");
+}
+
+}  // namespace limn::test
