@@ -48,10 +48,12 @@ void compare(const Scene& scene, const CompiledScene& compiled, const Ray& ray, 
     const Surface s = compiled.surface_at(ray, *found);
     const Uv uv = e.uv.value_or(Uv{e.u, e.v});
     const bool front = dot(e.normal, ray.direction) < 0;
-    if (s.front_face != front && std::abs(dot(e.normal, normalize(ray.direction))) > 1e-12) return tally.fault(ray, "front_face");
+    if (s.front_face != front && std::abs(dot(e.normal, normalize(ray.direction))) > 1e-12)
+        return tally.fault(ray, "front_face");
     if (length(Vec3(s.front_face ? s.normal : -s.normal) - Vec3(e.normal)) > 1e-12) return tally.fault(ray, "normal");
     // A sphere's u jumps at its seam and means nothing at its poles.
-    const double around = std::abs(s.uv.u - uv.u), du = std::min(around, std::abs(1 - around)) * std::sin(kPi * std::clamp(uv.v, 0.0, 1.0));
+    const double around = std::abs(s.uv.u - uv.u),
+                 du = std::min(around, std::abs(1 - around)) * std::sin(kPi * std::clamp(uv.v, 0.0, 1.0));
     if (std::min(du, around) > 1e-6 || std::abs(s.uv.v - uv.v) > 1e-6) return tally.fault(ray, "uv");
     // t is right to a float ulp, and a ray that grazes the surface fixes the point along itself only so well.
     const double magnitude = length(s.position - Point3{}) + std::abs(found->t) * length(ray.direction);
@@ -72,15 +74,31 @@ void compare(const ZooScene& zoo, int rays, std::uint64_t seed, double least_hit
 
 }  // namespace
 
-TEST_CASE("compile: spheres are hit as the described ones", "[compile]") { compare(zoo_of_kind("spheres", 0, 40, 200), 100000, 300); }
-TEST_CASE("compile: moving spheres are hit as the described ones", "[compile]") { compare(zoo_of_kind("moving", 1, 40, 201), 100000, 301); }
-TEST_CASE("compile: triangles are hit as the described ones", "[compile]") { compare(zoo_of_kind("triangles", 2, 40, 202), 100000, 302); }
-TEST_CASE("compile: quads are hit as the described ones", "[compile]") { compare(zoo_of_kind("quads", 3, 40, 203), 100000, 303); }
+TEST_CASE("compile: spheres are hit as the described ones", "[compile]") {
+    compare(zoo_of_kind("spheres", 0, 40, 200), 100000, 300);
+}
+TEST_CASE("compile: moving spheres are hit as the described ones", "[compile]") {
+    compare(zoo_of_kind("moving", 1, 40, 201), 100000, 301);
+}
+TEST_CASE("compile: triangles are hit as the described ones", "[compile]") {
+    compare(zoo_of_kind("triangles", 2, 40, 202), 100000, 302);
+}
+TEST_CASE("compile: quads are hit as the described ones", "[compile]") {
+    compare(zoo_of_kind("quads", 3, 40, 203), 100000, 303);
+}
 TEST_CASE("compile: mesh triangles are hit as the described ones", "[compile]") { compare(zoo_mesh(), 100000, 304); }
-TEST_CASE("compile: instances, nested, moving and mirrored, are hit as the described ones", "[compile]") { compare(zoo_instances(), 100000, 305); }
-TEST_CASE("compile: boundaries of media are hit as the described ones", "[compile]") { compare(zoo_media(), 100000, 306); }
-TEST_CASE("compile: a user's own shapes are hit as the described ones", "[compile]") { compare(zoo_strangers(), 100000, 307); }
-TEST_CASE("compile: sizes from 1e-4 to 1e6 at 1e5 are hit as the described ones", "[compile]") { compare(zoo_scales(), 20000, 308); }
+TEST_CASE("compile: instances, nested, moving and mirrored, are hit as the described ones", "[compile]") {
+    compare(zoo_instances(), 100000, 305);
+}
+TEST_CASE("compile: boundaries of media are hit as the described ones", "[compile]") {
+    compare(zoo_media(), 100000, 306);
+}
+TEST_CASE("compile: a user's own shapes are hit as the described ones", "[compile]") {
+    compare(zoo_strangers(), 100000, 307);
+}
+TEST_CASE("compile: sizes from 1e-4 to 1e6 at 1e5 are hit as the described ones", "[compile]") {
+    compare(zoo_scales(), 20000, 308);
+}
 
 TEST_CASE("compile: mixed scenes of nested everything are hit as the described ones", "[compile]") {
     for (std::uint64_t i = 0; i < 40; ++i) compare(zoo_mixed(400 + i), 3000, 500 + i, 0.005);
@@ -106,16 +124,24 @@ TEST_CASE("compile: empty and unbounded objects are hit as the described ones", 
             return Hit{.t = t, .normal = {0, 1, 0}, .u = 0.5, .v = 0.25};
         }
     };
-    compare(zoo_of("nothing", {std::make_shared<Nothing>(), std::make_shared<HittableList>(), std::make_shared<Bvh>(std::vector<Object>{}),
-                               std::make_shared<Instance>(std::make_shared<HittableList>(), Transform{})}), 1000, 309, 0);
-    compare(zoo_of("floor", {std::make_shared<Floor>(), ball({0, 1, 0}, 1), ball({3, 1, 0}, 1), std::make_shared<Nothing>()}), 10000, 310);
-    compare(zoo_of("instanced floor", {std::make_shared<Instance>(std::make_shared<Floor>(), Transform::translate({0, -1, 0})),
-                                       ball({0, 1, 0}, 1)}), 10000, 311);
+    compare(zoo_of("nothing", {std::make_shared<Nothing>(), std::make_shared<HittableList>(),
+                               std::make_shared<Bvh>(std::vector<Object>{}),
+                               std::make_shared<Instance>(std::make_shared<HittableList>(), Transform{})}),
+            1000, 309, 0);
+    compare(zoo_of("floor",
+                   {std::make_shared<Floor>(), ball({0, 1, 0}, 1), ball({3, 1, 0}, 1), std::make_shared<Nothing>()}),
+            10000, 310);
+    compare(zoo_of("instanced floor",
+                   {std::make_shared<Instance>(std::make_shared<Floor>(), Transform::translate({0, -1, 0})),
+                    ball({0, 1, 0}, 1)}),
+            10000, 311);
 }
 
 TEST_CASE("compile: ten thousand small balls and a mesh are hit as the described ones", "[compile]") {
     Random random(312);
-    std::vector<Object> objects{ball({0, -1000, 0}, 1000), std::make_shared<Mesh>(icosphere(2, 0.5, {1, 1, 0}), nullptr)};
-    for (int i = 0; i < 10000; ++i) objects.push_back(ball(Point3{} + random.in_cube(20), random.log_uniform(1e-3, 0.5)));
+    std::vector<Object> objects{ball({0, -1000, 0}, 1000),
+                                std::make_shared<Mesh>(icosphere(2, 0.5, {1, 1, 0}), nullptr)};
+    for (int i = 0; i < 10000; ++i)
+        objects.push_back(ball(Point3{} + random.in_cube(20), random.log_uniform(1e-3, 0.5)));
     compare(zoo_of("many", objects), 1500, 313);
 }

@@ -10,12 +10,16 @@ using namespace limn::test;
 TEST_CASE("CompiledScene: flat boxes far from the origin lose no ray", "[compile][boxes]") {
     Random random(353);
     std::vector<Object> walls;
-    for (int i = 0; i < 64; ++i) walls.push_back(std::make_shared<Quad>(Point3{1e5, static_cast<double>(i), 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, nullptr));
+    for (int i = 0; i < 64; ++i)
+        walls.push_back(
+            std::make_shared<Quad>(Point3{1e5, static_cast<double>(i), 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, nullptr));
     const CompiledScene compiled = compile(zoo_of("walls", walls).scene);
     int misses = 0;
     for (int i = 0; i < 100000; ++i) {
         const Point3 aim{1e5, random.uniform(0.01, 63.99), random.uniform(0.01, 0.99)};
-        const Point3 origin = i % 2 ? Point3{1e5 - 10, aim.y, aim.z} : aim + random.uniform(0.1, 100) * normalize(Vec3{-1, random.uniform(-1, 1), random.uniform(-1, 1)});
+        const Point3 origin =
+            i % 2 ? Point3{1e5 - 10, aim.y, aim.z}
+                  : aim + random.uniform(0.1, 100) * normalize(Vec3{-1, random.uniform(-1, 1), random.uniform(-1, 1)});
         const Ray ray{.origin = origin, .direction = i % 2 ? Vec3{1, -0.0, 0} : aim - origin};
         misses += !compiled.closest_hit(ray) || !compiled.any_hit(ray);
     }
@@ -24,7 +28,8 @@ TEST_CASE("CompiledScene: flat boxes far from the origin lose no ray", "[compile
 
 TEST_CASE("CompiledScene: a hit exactly at t_max is found, and none at t_min", "[compile][boxes]") {
     // The rounding of a box's near side may not put it behind what is in it.
-    for (const ZooScene& zoo : {zoo_mesh(), zoo_of_kind("spheres", 0, 40, 200), zoo_of_kind("quads", 3, 40, 203), zoo_instances(), zoo_media()}) {
+    for (const ZooScene& zoo : {zoo_mesh(), zoo_of_kind("spheres", 0, 40, 200), zoo_of_kind("quads", 3, 40, 203),
+                                zoo_instances(), zoo_media()}) {
         const CompiledScene compiled = compile(zoo.scene);
         Random random(354);
         Tally tally;

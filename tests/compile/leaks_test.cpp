@@ -20,7 +20,8 @@ Aim random_aim(Random& random, const MeshData& mesh, const Point3& center, bool 
     return {center + 0.5 * random.unit(), a + (at_vertex ? 0 : random.uniform()) * (b - a)};
 }
 
-Tally leaks(const CompiledScene& compiled, const MeshData& mesh, const Point3& center, const Transform& world, int rays, std::uint64_t seed) {
+Tally leaks(const CompiledScene& compiled, const MeshData& mesh, const Point3& center, const Transform& world, int rays,
+            std::uint64_t seed) {
     Random random(seed);
     Tally tally;
     for (int i = 0; i < rays; ++i) {
@@ -36,7 +37,8 @@ Tally leaks(const CompiledScene& compiled, const MeshData& mesh, const Point3& c
 
 }  // namespace
 
-TEST_CASE("Closed meshes: no ray in 1e5 escapes through a vertex or an edge, near or far from the origin", "[compile][leaks]") {
+TEST_CASE("Closed meshes: no ray in 1e5 escapes through a vertex or an edge, near or far from the origin",
+          "[compile][leaks]") {
     for (const double shift : {0.0, 1e3, 1e5}) {
         const MeshData mesh = icosphere(4, 1, {shift, shift, -shift});
         const CompiledScene compiled = compile(zoo_of("sphere", {std::make_shared<Mesh>(mesh, nullptr)}).scene);
@@ -63,18 +65,22 @@ TEST_CASE("Closed meshes: vertices snapped to a grid do not leak", "[compile][le
 TEST_CASE("Closed meshes: seen through instances they do not leak either", "[compile][leaks]") {
     const MeshData mesh = icosphere(3);
     const Object object = std::make_shared<Mesh>(mesh, nullptr);
-    const Transform m = Transform::translate({1e3, -5, 7}) * Transform::rotate({1, 2, 3}, 40) * Transform::scale(0.01, 0.02, 0.03);
+    const Transform m =
+        Transform::translate({1e3, -5, 7}) * Transform::rotate({1, 2, 3}, 40) * Transform::scale(0.01, 0.02, 0.03);
     const CompiledScene still = compile(zoo_of("still", {std::make_shared<Instance>(object, m)}).scene);
     const Tally a = leaks(still, mesh, {0, 0, 0}, m, 100000, 342);
     INFO(a.first);
     CHECK(a.wrong == 0);
 }
 
-TEST_CASE("A cube: rays along edges, in face planes and through corners hit it in all symmetric copies", "[compile][leaks]") {
+TEST_CASE("A cube: rays along edges, in face planes and through corners hit it in all symmetric copies",
+          "[compile][leaks]") {
     const CompiledScene cube = compile(zoo_of("cube", {std::make_shared<Mesh>(cube_mesh(), nullptr)}).scene);
     const CompiledScene sides = compile(zoo_of("sides", {make_box({0, 0, 0}, {1, 1, 1}, nullptr)}).scene);
-    const Ray rays[] = {{.origin = {-1, 0, 0}, .direction = {1, 0, 0}}, {.origin = {-1, -1, -1}, .direction = {1, 1, 1}},
-                        {.origin = {-1, 0.5, 0}, .direction = {1, 0, 0}}, {.origin = {-1, -1, 0}, .direction = {1, 1, 0}}};
+    const Ray rays[] = {{.origin = {-1, 0, 0}, .direction = {1, 0, 0}},
+                        {.origin = {-1, -1, -1}, .direction = {1, 1, 1}},
+                        {.origin = {-1, 0.5, 0}, .direction = {1, 0, 0}},
+                        {.origin = {-1, -1, 0}, .direction = {1, 1, 0}}};
     const std::size_t permutations[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     int wrong = 0;
     for (const Ray& ray : rays) {

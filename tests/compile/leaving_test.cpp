@@ -45,9 +45,16 @@ TEST_CASE("Leaving: a ray outward never hits the same sphere, triangle, quad or 
                 const Point3 c = Point3{} + offset * scale * random.unit();
                 Object object;
                 if (shape == 0) object = ball(c, scale);
-                if (shape == 1) object = std::make_shared<Triangle>(c, c + random.in_cube(scale), c + random.in_cube(scale), nullptr);
-                if (shape == 2) object = std::make_shared<Quad>(c, random.in_cube(scale), random.in_cube(scale), nullptr);
-                if (shape == 3) object = std::make_shared<Instance>(make_box({0, 0, 0}, {1, 1, 1}, nullptr), Transform::translate(c - Point3{}) * Transform::rotate({1, 2, 3}, 33) * Transform::scale(scale, scale, scale));
+                if (shape == 1)
+                    object =
+                        std::make_shared<Triangle>(c, c + random.in_cube(scale), c + random.in_cube(scale), nullptr);
+                if (shape == 2)
+                    object = std::make_shared<Quad>(c, random.in_cube(scale), random.in_cube(scale), nullptr);
+                if (shape == 3)
+                    object = std::make_shared<Instance>(make_box({0, 0, 0}, {1, 1, 1}, nullptr),
+                                                        Transform::translate(c - Point3{}) *
+                                                            Transform::rotate({1, 2, 3}, 33) *
+                                                            Transform::scale(scale, scale, scale));
                 const CompiledScene compiled = compile(zoo_of("one", {object}).scene);
                 Tally tally;
                 for (int i = 0; i < 2000; ++i) {
@@ -84,7 +91,8 @@ TEST_CASE("Leaving: a ray into a sphere finds its exit, and does not hit where i
                 // The chord, unless it is so flat that the offset from the surface lengthens it.
                 else if (cosine * cosine > 1e-11 * (1 + offset) && std::abs(exit->t / (2 * cosine * scale) - 1) > 0.01)
                     tally.fault(in, "exit too near or too far");
-                else if (compiled.surface_at(in, *exit).front_face) tally.fault(in, "exit seen from outside");
+                else if (compiled.surface_at(in, *exit).front_face)
+                    tally.fault(in, "exit seen from outside");
             }
             INFO("scale " << scale << ", offset " << offset << ": " << tally.first);
             CHECK(tally.wrong == 0);
@@ -100,8 +108,9 @@ TEST_CASE("Leaving: a ray into a closed box or mesh finds its exit", "[compile][
             const Vec3 shift = offset * scale * random.unit();
             for (int shape = 0; shape < 2; ++shape) {
                 const MeshData data = icosphere(2, scale, shift);
-                const Object object = shape ? Object(std::make_shared<Mesh>(data, nullptr))
-                                            : Object(make_box(Point3{} + shift, Point3{} + shift + Vec3{scale, scale, scale}, nullptr));
+                const Object object =
+                    shape ? Object(std::make_shared<Mesh>(data, nullptr))
+                          : Object(make_box(Point3{} + shift, Point3{} + shift + Vec3{scale, scale, scale}, nullptr));
                 const CompiledScene compiled = compile(zoo_of("closed", {object}).scene);
                 Tally tally;
                 for (int i = 0; i < 500; ++i) {
@@ -114,7 +123,8 @@ TEST_CASE("Leaving: a ray into a closed box or mesh finds its exit", "[compile][
                     // Not from a crease: there the offset may lie beyond the neighbouring face.
                     const Surface& s = start->surface;
                     if (shape == 1 && (s.uv.u < 1e-6 || s.uv.v < 1e-6 || s.uv.u + s.uv.v > 1 - 1e-6)) continue;
-                    if (shape == 0 && (s.uv.u < 1e-6 || s.uv.v < 1e-6 || s.uv.u > 1 - 1e-6 || s.uv.v > 1 - 1e-6)) continue;
+                    if (shape == 0 && (s.uv.u < 1e-6 || s.uv.v < 1e-6 || s.uv.u > 1 - 1e-6 || s.uv.v > 1 - 1e-6))
+                        continue;
                     ++tally.hits;
                     const Ray in = s.spawn_ray(d, 0);
                     const auto exit = compiled.closest_hit(in);
@@ -134,12 +144,15 @@ TEST_CASE("Leaving: rays off surfaces in nested instances do not hit them again"
     for (const double scale : {1e-3, 1.0, 1e3}) {
         for (const double shift : {0.0, 1e3, 1e5}) {
             for (const Object& object : {ball({0, 0, 0}, 1), mesh}) {
-                const Object inner = std::make_shared<Instance>(object, Transform::rotate({3, 1, 2}, 50) * Transform::scale(1, 0.5, 2));
-                const Object outer = std::make_shared<Instance>(inner, Transform::translate(shift * random.unit()) * Transform::scale(scale, scale, scale));
+                const Object inner =
+                    std::make_shared<Instance>(object, Transform::rotate({3, 1, 2}, 50) * Transform::scale(1, 0.5, 2));
+                const Object outer = std::make_shared<Instance>(
+                    inner, Transform::translate(shift * random.unit()) * Transform::scale(scale, scale, scale));
                 const CompiledScene compiled = compile(zoo_of("nested", {outer}).scene);
                 Tally tally;
                 for (int i = 0; i < 1000; ++i) {
-                    const auto start = reach(compiled, outer->bounds().center() + random.in_cube(0.4 * scale), 4 * scale, random);
+                    const auto start =
+                        reach(compiled, outer->bounds().center() + random.in_cube(0.4 * scale), 4 * scale, random);
                     if (!start || !start->surface.front_face) continue;
                     ++tally.hits;
                     const Ray out = start->surface.spawn_ray(leaving_direction(random, start->surface.normal, 1), 0);
@@ -158,7 +171,8 @@ TEST_CASE("Leaving: a core under a shell, a gap of 4e-5 of the radius away, is a
     for (const double scale : kScales) {
         for (const double offset : {0.0, 10.0}) {
             const Point3 c = Point3{} + offset * scale * random.unit();
-            const CompiledScene compiled = compile(zoo_of("shell", {ball(c, scale), ball(c, scale * (1 + 4e-5))}).scene);
+            const CompiledScene compiled =
+                compile(zoo_of("shell", {ball(c, scale), ball(c, scale * (1 + 4e-5))}).scene);
             Tally tally;
             for (int i = 0; i < 2000; ++i) {
                 const auto start = reach(compiled, c + 0.5 * scale * random.unit(), scale, random);
@@ -189,7 +203,8 @@ TEST_CASE("Leaving: a shadow ray between two surfaces with nothing between is un
             const Point3 c = Point3{} + random.uniform(0, 10) * size * random.unit();
             const Object below = std::make_shared<Quad>(c - size * e - size * f, 2 * size * e, 2 * size * f, nullptr);
             const Object above = set % 2 ? Object(ball(c + (distance + 5 * size) * n, 5 * size))
-                                         : Object(std::make_shared<Quad>(c + distance * n - size * e - size * f, 2 * size * e, 2 * size * f, nullptr));
+                                         : Object(std::make_shared<Quad>(c + distance * n - size * e - size * f,
+                                                                         2 * size * e, 2 * size * f, nullptr));
             const CompiledScene compiled = compile(zoo_of("plates", {below, above}).scene);
             for (int i = 0; i < 100; ++i) {
                 const auto surface_towards = [&](const Vec3& d) -> std::optional<Surface> {
@@ -200,10 +215,13 @@ TEST_CASE("Leaving: a shadow ray between two surfaces with nothing between is un
                     return compiled.surface_at(ray, *hit);
                 };
                 const auto a = surface_towards(-n), b = surface_towards(n);
-                if (!a || !b || dot(a->normal, b->position - a->position) <= 0 || dot(b->normal, a->position - b->position) <= 0) continue;
+                if (!a || !b || dot(a->normal, b->position - a->position) <= 0 ||
+                    dot(b->normal, a->position - b->position) <= 0)
+                    continue;
                 if (set % 2 && dot(b->normal, normalize(a->position - b->position)) < 0.1) continue;
                 ++tally.hits;
-                for (const Ray& ray : {a->spawn_ray_to(*b, 0), b->spawn_ray_to(*a, 0), a->spawn_ray_to(b->position, 0), b->spawn_ray_to(a->position, 0)})
+                for (const Ray& ray : {a->spawn_ray_to(*b, 0), b->spawn_ray_to(*a, 0), a->spawn_ray_to(b->position, 0),
+                                       b->spawn_ray_to(a->position, 0)})
                     if (compiled.any_hit(ray)) tally.fault(ray, "false shadow");
             }
         }
@@ -213,13 +231,17 @@ TEST_CASE("Leaving: a shadow ray between two surfaces with nothing between is un
     }
 }
 
-TEST_CASE("Leaving: a light that lies exactly in a wall is not shadowed by the wall, and what stands between shadows", "[compile][leaving]") {
+TEST_CASE("Leaving: a light that lies exactly in a wall is not shadowed by the wall, and what stands between shadows",
+          "[compile][leaving]") {
     Random random(366);
     const Object wall = std::make_shared<Quad>(Point3{-10, 5, -10}, Vec3{20, 0, 0}, Vec3{0, 0, 20}, nullptr);
     const Object light = std::make_shared<Quad>(Point3{-1, 5, -1}, Vec3{2, 0, 0}, Vec3{0, 0, 2}, nullptr);
     const Object floor = std::make_shared<Quad>(Point3{-10, 0, -10}, Vec3{0, 0, 20}, Vec3{20, 0, 0}, nullptr);
     const CompiledScene open = compile(zoo_of("open", {wall, light, floor}).scene);
-    const CompiledScene closed = compile(zoo_of("closed", {wall, light, floor, std::make_shared<Quad>(Point3{-10, 4.9999, -10}, Vec3{20, 0, 0}, Vec3{0, 0, 20}, nullptr)}).scene);
+    const CompiledScene closed = compile(
+        zoo_of("closed", {wall, light, floor,
+                          std::make_shared<Quad>(Point3{-10, 4.9999, -10}, Vec3{20, 0, 0}, Vec3{0, 0, 20}, nullptr)})
+            .scene);
     Tally tally;
     for (int i = 0; i < 20000; ++i) {
         const Ray down{.origin = {random.uniform(-9, 9), 1, random.uniform(-9, 9)}, .direction = {0.1, -1, 0.2}};

@@ -29,7 +29,9 @@ TEST_CASE("CompiledScene: a batch answers as single rays do", "[compile]") {
         Random random(320);
         std::vector<Ray> rays = unusable_rays();
         while (rays.size() < 3001) rays.push_back(random_ray(random, zoo.targets));
-        std::vector<RayHit> hits(rays.size(), RayHit{.t = 1, .object = 7, .element = 7, .u = 7, .v = 7, .index_matched = true, .primitive = 7});
+        std::vector<RayHit> hits(
+            rays.size(),
+            RayHit{.t = 1, .object = 7, .element = 7, .u = 7, .v = 7, .index_matched = true, .primitive = 7});
         std::vector<std::uint8_t> occluded(rays.size(), 77);
         compiled.closest_hit(rays, hits);
         compiled.any_hit(rays, occluded);
@@ -53,7 +55,8 @@ TEST_CASE("CompiledScene: of exact duplicates the lowest number is reported", "[
     const Object mesh = std::make_shared<Mesh>(cube_mesh(1, {-0.5, -0.5, -1}), nullptr);  // its top lies in the quad
     const Object fog = std::make_shared<ConstantMedium>(quad, 1, Color{});
     const auto first_of = [](const std::vector<Object>& objects) {
-        const auto hit = compile(zoo_of("duplicates", objects).scene).closest_hit({.origin = {0.1, 0.3, 9}, .direction = {0, 0, -1}});
+        const auto hit = compile(zoo_of("duplicates", objects).scene)
+                             .closest_hit({.origin = {0.1, 0.3, 9}, .direction = {0, 0, -1}});
         REQUIRE(hit);
         CHECK(hit->t == 9);
         return hit->primitive;
@@ -74,9 +77,12 @@ TEST_CASE("CompiledScene: of exact duplicates the lowest number is reported", "[
 
 TEST_CASE("CompiledScene: object, element and primitive number the scene through", "[compile]") {
     const Object mesh = std::make_shared<Mesh>(cube_mesh(), nullptr);
-    const Object list = std::make_shared<HittableList>(std::vector<Object>{ball({20, 0, 0}, 1), mesh, ball({30, 0, 0}, 1)});
-    const CompiledScene compiled = compile(zoo_of("numbers", {ball({10, 0, 0}, 1), list, std::make_shared<Instance>(list, Transform::translate({0, 50, 0})),
-                                                              ball({40, 0, 0}, 1)}).scene);
+    const Object list =
+        std::make_shared<HittableList>(std::vector<Object>{ball({20, 0, 0}, 1), mesh, ball({30, 0, 0}, 1)});
+    const CompiledScene compiled = compile(
+        zoo_of("numbers", {ball({10, 0, 0}, 1), list,
+                           std::make_shared<Instance>(list, Transform::translate({0, 50, 0})), ball({40, 0, 0}, 1)})
+            .scene);
     const auto at = [&](double x, double y) { return *compiled.closest_hit(down(x, y)); };
     CHECK((at(10, 0).object == 0 && at(10, 0).element == 0 && at(10, 0).primitive == 0));
     CHECK((at(20, 0).object == 1 && at(20, 0).element == 0 && at(20, 0).primitive == 1));
@@ -88,16 +94,30 @@ TEST_CASE("CompiledScene: object, element and primitive number the scene through
     CHECK(compiled.stats().primitives == 30);
     CHECK(compiled.stats().stored_primitives == 30);  // nothing is shared
     const Object twin = std::make_shared<Instance>(list, Transform::translate({0, 9, 0}));
-    const SceneStats shared = compile(zoo_of("shared", {twin, std::make_shared<Instance>(list, Transform{}), ball({}, 1)}).scene).stats();
+    const SceneStats shared =
+        compile(zoo_of("shared", {twin, std::make_shared<Instance>(list, Transform{}), ball({}, 1)}).scene).stats();
     CHECK((shared.primitives == 29 && shared.stored_primitives == 15));
 }
 
-TEST_CASE("CompiledScene: the range is open at t_min, closed at t_max, for closest_hit and any_hit alike", "[compile]") {
-    const CompiledScene compiled = compile(zoo_of("range", {ball({0, 0, -10}, 2), std::make_shared<Quad>(Point3{-9, -9, -20}, Vec3{18, 0, 0}, Vec3{0, 18, 0}, nullptr)}).scene);
+TEST_CASE("CompiledScene: the range is open at t_min, closed at t_max, for closest_hit and any_hit alike",
+          "[compile]") {
+    const CompiledScene compiled =
+        compile(zoo_of("range", {ball({0, 0, -10}, 2),
+                                 std::make_shared<Quad>(Point3{-9, -9, -20}, Vec3{18, 0, 0}, Vec3{0, 18, 0}, nullptr)})
+                    .scene);
     const struct {
         double t_min, t_max, expected;
-    } cases[] = {{0, kInfinity, 8}, {8, kInfinity, 12}, {12, kInfinity, 20}, {20, kInfinity, kInfinity}, {12, 20, 20}, {12, std::nextafter(20, 0), kInfinity},
-                 {0, 8, 8}, {0, std::nextafter(8, 0), kInfinity}, {8, 8, kInfinity}, {-kInfinity, kInfinity, 8}, {std::nextafter(20, 0), kInfinity, 20}};
+    } cases[] = {{0, kInfinity, 8},
+                 {8, kInfinity, 12},
+                 {12, kInfinity, 20},
+                 {20, kInfinity, kInfinity},
+                 {12, 20, 20},
+                 {12, std::nextafter(20, 0), kInfinity},
+                 {0, 8, 8},
+                 {0, std::nextafter(8, 0), kInfinity},
+                 {8, 8, kInfinity},
+                 {-kInfinity, kInfinity, 8},
+                 {std::nextafter(20, 0), kInfinity, 20}};
     for (const auto& c : cases) {
         const Ray ray{{0, 0, 0}, {0, 0, -1}, c.t_min, c.t_max, 0};
         const auto hit = compiled.closest_hit(ray);
@@ -155,22 +175,30 @@ TEST_CASE("compile: features name what is in the scene and nothing else", "[comp
     const Object mesh = std::make_shared<Mesh>(icosphere(1), nullptr);
     const CompiledScene balls = compile(zoo_of("balls", {ball({0, 0, 0}, 1)}).scene);
     CHECK(has_feature(balls, "sphere"));
-    for (const char* absent : {"quad", "mesh", "instance", "medium", "foreign-shape", "texture", "triangle"}) CHECK_FALSE(has_feature(balls, absent));
+    for (const char* absent : {"quad", "mesh", "instance", "medium", "foreign-shape", "texture", "triangle"})
+        CHECK_FALSE(has_feature(balls, absent));
     CHECK(balls.features().find("mo") == std::string::npos);  // no motion of any kind
 
-    const CompiledScene all = compile(zoo_of("all", {std::make_shared<Quad>(Point3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, nullptr), mesh,
-                                                     std::make_shared<Instance>(mesh, Transform::translate({1, 2, 3})),
-                                                     std::make_shared<ConstantMedium>(ball({}, 1), 1, Color{}), std::make_shared<Stranger>(mesh),
-                                                     std::make_shared<Sphere>(Point3{9, 9, 9}, 1.0, std::make_shared<Lambertian>(std::make_shared<Checker>(1, Color{}, Color{1, 1, 1})))}).scene);
-    for (const char* present : {"sphere", "quad", "mesh", "instance", "medium", "foreign-shape", "texture"}) CHECK(has_feature(all, present));
+    const CompiledScene all = compile(
+        zoo_of("all", {std::make_shared<Quad>(Point3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, nullptr), mesh,
+                       std::make_shared<Instance>(mesh, Transform::translate({1, 2, 3})),
+                       std::make_shared<ConstantMedium>(ball({}, 1), 1, Color{}), std::make_shared<Stranger>(mesh),
+                       std::make_shared<Sphere>(
+                           Point3{9, 9, 9}, 1.0,
+                           std::make_shared<Lambertian>(std::make_shared<Checker>(1, Color{}, Color{1, 1, 1})))})
+            .scene);
+    for (const char* present : {"sphere", "quad", "mesh", "instance", "medium", "foreign-shape", "texture"})
+        CHECK(has_feature(all, present));
     CHECK_FALSE(has_feature(all, "triangle"));
-    const CompiledScene moving = compile(zoo_of("moving", {std::make_shared<Sphere>(Point3{}, Point3{1, 0, 0}, 1.0, nullptr)}).scene);
+    const CompiledScene moving =
+        compile(zoo_of("moving", {std::make_shared<Sphere>(Point3{}, Point3{1, 0, 0}, 1.0, nullptr)}).scene);
     CHECK(moving.features() != balls.features());
     CHECK(compile(Scene{}).features().empty());
 }
 
 TEST_CASE("compile: stats count primitives, degenerate triangles, lights and memory", "[compile]") {
-    const auto lamp = std::make_shared<DiffuseLight>(Color{4, 4, 4}), dark = std::make_shared<DiffuseLight>(Color{0, 0, 0});
+    const auto lamp = std::make_shared<DiffuseLight>(Color{4, 4, 4}),
+               dark = std::make_shared<DiffuseLight>(Color{0, 0, 0});
     const auto grey = std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
     MeshData data = cube_mesh();
     data.triangles.push_back({3, 3, 4});
@@ -197,9 +225,11 @@ TEST_CASE("compile: stats count primitives, degenerate triangles, lights and mem
 
 TEST_CASE("compile: a medium whose boundary holds a medium is refused", "[compile]") {
     const Object fog = std::make_shared<ConstantMedium>(ball({}, 1), 1, Color{});
-    for (const Object& boundary : {fog, Object(std::make_shared<Instance>(fog, Transform::translate({1, 0, 0}))),
-                                   Object(std::make_shared<HittableList>(std::vector<Object>{ball({3, 0, 0}, 1), fog}))})
-        CHECK_THROWS_AS(compile(zoo_of("nested", {std::make_shared<ConstantMedium>(boundary, 1, Color{})}).scene), ArgumentError);
+    for (const Object& boundary :
+         {fog, Object(std::make_shared<Instance>(fog, Transform::translate({1, 0, 0}))),
+          Object(std::make_shared<HittableList>(std::vector<Object>{ball({3, 0, 0}, 1), fog}))})
+        CHECK_THROWS_AS(compile(zoo_of("nested", {std::make_shared<ConstantMedium>(boundary, 1, Color{})}).scene),
+                        ArgumentError);
 }
 
 TEST_CASE("compile: an object that contains itself is refused", "[compile]") {
@@ -208,7 +238,8 @@ TEST_CASE("compile: an object that contains itself is refused", "[compile]") {
         Box bounds() const override { return {{0, 0, 0}, {1, 1, 1}}; }
         std::optional<Hit> hit(const Ray&) const override { return std::nullopt; }
         void lower(RecordSink& sink) const override {
-            sink.instance({Transform{}, Transform{}, sink.group(self.lock(), [&](RecordSink& inner) { lower(inner); }), false});
+            sink.instance(
+                {Transform{}, Transform{}, sink.group(self.lock(), [&](RecordSink& inner) { lower(inner); }), false});
         }
         std::weak_ptr<const Hittable> self;
     };

@@ -27,7 +27,8 @@ void check_common(const Ray& ray, const RayHit& hit, const Surface& s, Tally& ta
     const double magnitude = length(s.position - Point3{}) + std::abs(hit.t) * length(ray.direction);
     if (!(length(s.position - ray.at(hit.t)) <= 1e-6 * magnitude)) tally.fault(ray, "position is not where the ray is");
     if (!(std::abs(length(Vec3(s.normal)) - 1) <= gamma(8))) tally.fault(ray, "normal is not unit");
-    if (!(dot(s.normal, ray.direction) <= 1e-14 * length(ray.direction))) tally.fault(ray, "normal is not on the ray's side");
+    if (!(dot(s.normal, ray.direction) <= 1e-14 * length(ray.direction)))
+        tally.fault(ray, "normal is not on the ray's side");
     if (!(dot(s.shading_normal, s.normal) >= 0)) tally.fault(ray, "shading normal is on the other side");
 }
 
@@ -50,7 +51,8 @@ TEST_CASE("surface_at: on a sphere the position is within its error bound of the
                 ++tally.hits;
                 const Surface s = compiled.surface_at(ray, *hit);
                 check_common(ray, *hit, s, tally);
-                if (absolute(length(Real3(s.position) - Real3(c)) - Real(std::abs(r))) > admitted(s)) tally.fault(ray, "position");
+                if (absolute(length(Real3(s.position) - Real3(c)) - Real(std::abs(r))) > admitted(s))
+                    tally.fault(ray, "position");
                 if (s.front_face != ((i % 2 == 1) == (r > 0))) tally.fault(ray, "front_face");
             }
             INFO("scale " << scale << ", shift " << shift << ": " << tally.first);
@@ -60,7 +62,8 @@ TEST_CASE("surface_at: on a sphere the position is within its error bound of the
     }
 }
 
-TEST_CASE("surface_at: on triangles and quads the position is within its error bound of the true plane", "[compile][surface]") {
+TEST_CASE("surface_at: on triangles and quads the position is within its error bound of the true plane",
+          "[compile][surface]") {
     Random random(331);
     for (const double scale : {1e-6, 1.0, 1e4, 1e9}) {
         for (const double shift : {0.0, 10.0, 1000.0}) {
@@ -81,7 +84,8 @@ TEST_CASE("surface_at: on triangles and quads the position is within its error b
                 ++tally.hits;
                 const Surface s = compiled.surface_at(ray, *hit);
                 check_common(ray, *hit, s, tally);
-                const Real3 b = triangle ? Real3(a + e) : Real3(a) + Real3(e), c = triangle ? Real3(a + f) : Real3(a) + Real3(f);
+                const Real3 b = triangle ? Real3(a + e) : Real3(a) + Real3(e),
+                            c = triangle ? Real3(a + f) : Real3(a) + Real3(f);
                 if (distance_to_plane(Real3(s.position), Real3(a), b, c) > admitted(s)) tally.fault(ray, "position");
                 if (s.front_face != (dot(cross(e, f), ray.direction) < 0)) tally.fault(ray, "front_face");
                 if (s.uv.u != hit->u || s.uv.v != hit->v) tally.fault(ray, "uv");
@@ -93,7 +97,8 @@ TEST_CASE("surface_at: on triangles and quads the position is within its error b
     }
 }
 
-TEST_CASE("surface_at: through two instances the position is within its error bound of the true surface", "[compile][surface]") {
+TEST_CASE("surface_at: through two instances the position is within its error bound of the true surface",
+          "[compile][surface]") {
     Random random(332);
     const Point3 a{0.2, -1, 0.5}, b{1.5, 0.25, -0.5}, c{-1, 1, 0.75};
     const Object triangle = std::make_shared<Triangle>(a, b, c, nullptr);
@@ -102,15 +107,20 @@ TEST_CASE("surface_at: through two instances the position is within its error bo
             Tally tally;
             for (int i = 0; i < 500; ++i) {
                 const Transform inner = random_pose(random, 2);
-                const Transform outer = Transform::translate(shift * random.unit()) * Transform::rotate(random.unit(), 77) *
+                const Transform outer = Transform::translate(shift * random.unit()) *
+                                        Transform::rotate(random.unit(), 77) *
                                         Transform::scale(scale, scale, 2 * scale);
                 const bool sphere = i % 2;
                 const Object object = sphere ? ball({0, 0, 0}, 1) : triangle;
-                const CompiledScene compiled = compile(zoo_of("instance", {std::make_shared<Instance>(std::make_shared<Instance>(object, inner), outer)}).scene);
+                const CompiledScene compiled = compile(
+                    zoo_of("instance", {std::make_shared<Instance>(std::make_shared<Instance>(object, inner), outer)})
+                        .scene);
                 const auto world = [&](const Real3& p) { return transform_point(outer, transform_point(inner, p)); };
-                const Point3 local = sphere ? Point3{} + 0.9 * random.in_cube(0.5) : a + 0.3 * (b - a) + random.uniform(0.1, 0.5) * (c - a);
+                const Point3 local = sphere ? Point3{} + 0.9 * random.in_cube(0.5)
+                                            : a + 0.3 * (b - a) + random.uniform(0.1, 0.5) * (c - a);
                 const Real3 exact_aim = world(Real3(local));
-                const Point3 aim{static_cast<double>(exact_aim.x), static_cast<double>(exact_aim.y), static_cast<double>(exact_aim.z)};
+                const Point3 aim{static_cast<double>(exact_aim.x), static_cast<double>(exact_aim.y),
+                                 static_cast<double>(exact_aim.z)};
                 const Point3 origin = aim + 20 * scale * random.unit();
                 const Ray ray{.origin = origin, .direction = aim - origin};
                 const auto hit = compiled.closest_hit(ray);
@@ -147,7 +157,8 @@ TEST_CASE("surface_at: a mesh gives its own normals, texture coordinates and mat
     data.normals = {{0, 0, 1}, {0.5f, 0, 1}, {0.5f, 0, 1}, {0, 0, 1}};
     data.material_slots = {1, 0};
     const auto red = std::make_shared<Lambertian>(Color{1, 0, 0}), blue = std::make_shared<Lambertian>(Color{0, 0, 1});
-    const CompiledScene compiled = compile(zoo_of("mesh", {std::make_shared<Mesh>(data, std::vector<std::shared_ptr<const Material>>{red, blue})}).scene);
+    const CompiledScene compiled = compile(
+        zoo_of("mesh", {std::make_shared<Mesh>(data, std::vector<std::shared_ptr<const Material>>{red, blue})}).scene);
     const auto at = [&](double x, double y, double side) {
         const Ray ray{.origin = {x, y, side}, .direction = {0, 0, -side}};
         return compiled.surface_at(ray, *compiled.closest_hit(ray));
@@ -166,7 +177,8 @@ TEST_CASE("surface_at: a mesh gives its own normals, texture coordinates and mat
     }
 }
 
-TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, material and error as hit() does", "[compile][surface]") {
+TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, material and error as hit() does",
+          "[compile][surface]") {
     class Plane final : public Hittable {
     public:
         explicit Plane(std::shared_ptr<const Material> material) : material_(std::move(material)) {}
@@ -176,8 +188,14 @@ TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, materia
             if (!is_usable(ray) || !(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
             const Point3 p = ray.at(t);
             if (std::abs(p.x) > 1 || std::abs(p.y) > 1) return std::nullopt;
-            return Hit{.t = t, .normal = {0, 0, 1}, .u = p.x, .v = p.y, .material = material_.get(), .shading_normal = {0.6, 0, 0.8},
-                       .uv = Uv{7, 8}, .position_error = {0, 0, 0.125}};
+            return Hit{.t = t,
+                       .normal = {0, 0, 1},
+                       .u = p.x,
+                       .v = p.y,
+                       .material = material_.get(),
+                       .shading_normal = {0.6, 0, 0.8},
+                       .uv = Uv{7, 8},
+                       .position_error = {0, 0, 0.125}};
         }
 
     private:

@@ -76,7 +76,8 @@ TEST_CASE("transform_box: contains the exact image of every point of the box, an
     for (int i = 0; i < 3000; ++i) {
         Transform m;
         for (auto& row : m.rows)
-            for (double& entry : row) entry = random.sign() * random.log_uniform(1e-3, 1e3) * (random.chance(0.2) ? 0 : 1);
+            for (double& entry : row)
+                entry = random.sign() * random.log_uniform(1e-3, 1e3) * (random.chance(0.2) ? 0 : 1);
         for (auto& row : m.rows) row[3] *= random.log_uniform(1, 1e6);
         const Box box = random_box(random, random.log_uniform(1e-3, 1e6), random.log_uniform(1e-3, 1e3));
         const Box image = transform_box(m, box);

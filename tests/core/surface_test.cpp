@@ -26,7 +26,8 @@ Surface random_surface(Random& random) {
 
 }  // namespace
 
-TEST_CASE("offset_origin: moves to the direction's side by at least the error bound along the normal", "[core][surface]") {
+TEST_CASE("offset_origin: moves to the direction's side by at least the error bound along the normal",
+          "[core][surface]") {
     Random random(12);
     for (int i = 0; i < 20000; ++i) {
         const Surface s = random_surface(random);

@@ -10,7 +10,8 @@
 using namespace limn;
 using limn::test::Random;
 
-TEST_CASE("Vec3: the cross product is perpendicular to both factors and as long as Lagrange's identity says", "[core][vec]") {
+TEST_CASE("Vec3: the cross product is perpendicular to both factors and as long as Lagrange's identity says",
+          "[core][vec]") {
     Random random(1);
     for (int i = 0; i < 2000; ++i) {
         const Vec3 a = random.in_cube(), b = random.in_cube();

@@ -23,19 +23,23 @@ TEST_CASE("Depth: one segment sees lamps and sky, and nothing that needs scatter
         CHECK(seen({sphere({0, 0, 0}, 1, lamp(2))}, 0.5, 1, estimator) == 2);
         CHECK(seen({sphere({0, 0, 0}, 1, grey(1))}, 1, 1, estimator) == 0);
         CHECK(seen({sphere({0, 0, 0}, 1, std::make_shared<Metal>(Color{1, 1, 1}))}, 1, 1, estimator) == 0);
-        CHECK(seen({sphere({0, 0, 0}, 1, grey(1)), quad({-9, -9, 9}, {18, 0, 0}, {0, 18, 0}, lamp(3))}, 0, 1, estimator) == 0);
+        CHECK(seen({sphere({0, 0, 0}, 1, grey(1)), quad({-9, -9, 9}, {18, 0, 0}, {0, 18, 0}, lamp(3))}, 0, 1,
+                   estimator) == 0);
     }
 }
 
 TEST_CASE("Depth: two segments see one scattering", "[render][depth]") {
     for (const Estimator estimator : {Estimator::path, Estimator::naive}) {
         CHECK(seen({sphere({0, 0, 0}, 1, grey(0.5))}, 1, 2, estimator) == Approx(0.5).epsilon(1e-6));
-        CHECK(seen({sphere({0, 0, 0}, 1, std::make_shared<Metal>(Color{0.8, 0.8, 0.8}))}, 1, 2, estimator) == Approx(0.8).epsilon(1e-6));
+        CHECK(seen({sphere({0, 0, 0}, 1, std::make_shared<Metal>(Color{0.8, 0.8, 0.8}))}, 1, 2, estimator) ==
+              Approx(0.8).epsilon(1e-6));
         // A mirror before a mirror: two scatterings need three segments.
-        const std::vector<Object> mirrors{quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, std::make_shared<Metal>(Color{0.5, 0.5, 0.5})),
-                                          quad({-9, -9, 6}, {18, 0, 0}, {0, 18, 0}, std::make_shared<Metal>(Color{0.5, 0.5, 0.5}))};
+        const std::vector<Object> mirrors{
+            quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, std::make_shared<Metal>(Color{0.5, 0.5, 0.5})),
+            quad({-9, -9, 6}, {18, 0, 0}, {0, 18, 0}, std::make_shared<Metal>(Color{0.5, 0.5, 0.5}))};
         CHECK(seen(mirrors, 1, 2, estimator) == 0);
-        for (const int depth : {2, 3, 4, 5, 50}) CHECK(seen(mirrors, 1, depth, estimator) == 0);  // the light is between them for ever
+        for (const int depth : {2, 3, 4, 5, 50})
+            CHECK(seen(mirrors, 1, depth, estimator) == 0);  // the light is between them for ever
     }
     // Through a pane of index 1: enter and leave, then the sky.
     const Object pane = make_box({-1, -1, -1}, {1, 1, 1}, std::make_shared<Dielectric>(1.0));
@@ -46,9 +50,9 @@ TEST_CASE("Depth: two segments see one scattering", "[render][depth]") {
 TEST_CASE("Depth: n mirrors need n + 1 segments", "[render][depth]") {
     // A corridor of mirrors at 45 degrees: each turns the ray once.
     const MaterialPtr mirror = std::make_shared<Metal>(Color{1, 1, 1});
-    const std::vector<Object> periscope{quad({-1, -1, -1}, {0, 2, 2}, {2, 0, 0}, mirror),      // at the origin: -z becomes +y or -y
-                                        quad({-1, -6, 4 - 5}, {0, 2, 2}, {2, 0, 0}, mirror),
-                                        quad({-1, 4, -1}, {0, 2, 2}, {2, 0, 0}, mirror)};
+    const std::vector<Object> periscope{
+        quad({-1, -1, -1}, {0, 2, 2}, {2, 0, 0}, mirror),  // at the origin: -z becomes +y or -y
+        quad({-1, -6, 4 - 5}, {0, 2, 2}, {2, 0, 0}, mirror), quad({-1, 4, -1}, {0, 2, 2}, {2, 0, 0}, mirror)};
     CHECK(seen(periscope, 1, 1) == 0);
     CHECK(seen(periscope, 1, 2) == 0);
     CHECK(seen(periscope, 1, 3) == Approx(1).epsilon(1e-6));
@@ -56,7 +60,8 @@ TEST_CASE("Depth: n mirrors need n + 1 segments", "[render][depth]") {
 
 TEST_CASE("Depth: a light found by sampling counts as the segment that it stands for", "[render][depth]") {
     // Two diffuse surfaces and a lamp that only the second sees: lit from depth 3 on.
-    const std::vector<Object> objects{quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, grey(1)), quad({-50, -50, 20}, {100, 0, 0}, {0, 100, 0}, grey(1)),
+    const std::vector<Object> objects{quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, grey(1)),
+                                      quad({-50, -50, 20}, {100, 0, 0}, {0, 100, 0}, grey(1)),
                                       quad({-20, -20, -1}, {40, 0, 0}, {0, 18, 0}, lamp(5))};
     for (const Estimator estimator : {Estimator::path, Estimator::naive}) {
         CHECK(seen(objects, 0, 2, estimator) == 0);

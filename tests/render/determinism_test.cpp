@@ -15,9 +15,11 @@ CompiledScene busy_scene() {
     const Object ball = sphere({0, 0, 0}, 1, std::make_shared<Dielectric>(1.5));
     return compile_with(Background::gradient({1, 1, 1}, {0.5, 0.7, 1}),
                         {sphere({0, -1000, 0}, 1000, std::make_shared<Lambertian>(std::make_shared<Marble>(4.0, 7))),
-                         std::make_shared<Instance>(ball, Transform::translate({0, 1, 0}), Transform::translate({0, 1.5, 0}) * Transform::rotate_x(20)),
+                         std::make_shared<Instance>(ball, Transform::translate({0, 1, 0}),
+                                                    Transform::translate({0, 1.5, 0}) * Transform::rotate_x(20)),
                          sphere({-2, 1, 0}, 1, std::make_shared<Metal>(Color{0.8, 0.6, 0.2}, 0.3)),
-                         std::make_shared<Mesh>(icosphere(1, 1, {2, 1, 0}), grey(0.7)), quad({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, lamp(5)),
+                         std::make_shared<Mesh>(icosphere(1, 1, {2, 1, 0}), grey(0.7)),
+                         quad({-1, 4, -1}, {2, 0, 0}, {0, 0, 2}, lamp(5)),
                          std::make_shared<ConstantMedium>(sphere({0, 1, 2}, 0.8, grey(1)), 1, Color{0.5, 0.8, 0.9}),
                          std::make_shared<Stranger>(sphere({1, 0.4, 2}, 0.4, grey(0.3)))});
 }
@@ -34,8 +36,9 @@ RenderSettings settings_of(std::uint64_t seed, int threads) {
 
 // A sky seen through smoke that passes one half: every sample is a coin, every pixel the mean of `samples` of them.
 std::vector<double> coins(std::uint64_t seed, int side, int samples) {
-    static const CompiledScene scene =
-        compile_with(sky(1), {std::make_shared<ConstantMedium>(make_box({-9, -9, 0}, {9, 9, 1}, grey(1)), std::log(2.0), Color{0, 0, 0})});
+    static const CompiledScene scene = compile_with(
+        sky(1),
+        {std::make_shared<ConstantMedium>(make_box({-9, -9, 0}, {9, 9, 1}, grey(1)), std::log(2.0), Color{0, 0, 0})});
     RenderSettings s = square(side, samples, 1);
     s.seed = seed;
     const Image image = render(scene, camera_at({0, 0, 1000}, {0, 0, 0}, 1e-3), s).image;
@@ -48,7 +51,8 @@ std::vector<double> coins(std::uint64_t seed, int side, int samples) {
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     const auto n = static_cast<double>(a.size());
     double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sa += a[i], sb += b[i], saa += a[i] * a[i], sbb += b[i] * b[i], sab += a[i] * b[i];
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sa += a[i], sb += b[i], saa += a[i] * a[i], sbb += b[i] * b[i], sab += a[i] * b[i];
     return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
 
@@ -85,7 +89,8 @@ TEST_CASE("Determinism: watching the progress changes no pixel", "[render][deter
 TEST_CASE("Determinism: another seed gives another picture", "[render][determinism]") {
     const CompiledScene scene = busy_scene();
     const Image first = render(scene, kView, settings_of(1, 2)).image;
-    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{1} << 32, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+    for (const std::uint64_t seed :
+         {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{1} << 32, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
         const Image other = render(scene, kView, settings_of(seed, 2)).image;
         int equal = 0;
         for (int y = 0; y < first.height(); ++y)
@@ -118,7 +123,8 @@ TEST_CASE("Independence: neighbouring pixels, seeds and samples are not correlat
         INFO("pixels " << by << " apart");
         CHECK(std::abs(correlation(a, shifted(a, by))) <= bound);
     }
-    for (const std::uint64_t seed : {std::uint64_t{21}, std::uint64_t{22}, std::uint64_t{84}, std::uint64_t{20} + (std::uint64_t{1} << 32), ~std::uint64_t{20}}) {
+    for (const std::uint64_t seed : {std::uint64_t{21}, std::uint64_t{22}, std::uint64_t{84},
+                                     std::uint64_t{20} + (std::uint64_t{1} << 32), ~std::uint64_t{20}}) {
         const std::vector<double> b = coins(seed, side, 1);
         INFO("seeds 20 and " << seed);
         CHECK(std::abs(correlation(a, b)) <= bound);

@@ -18,7 +18,8 @@ struct Subject {
 // Sky through a ball of smoke: pixels from bright to dark, and the truth of each is known to the quadrature's error.
 Subject smoke_ball(int side) {
     const Camera camera = camera_at({0, 0, 10}, {0, 0, 0}, 12);
-    CompiledScene scene = compile_with(sky(1), {std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1, grey(1)), 0.75, Color{0, 0, 0})});
+    CompiledScene scene =
+        compile_with(sky(1), {std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1, grey(1)), 0.75, Color{0, 0, 0})});
     Image truth(side, side);
     const CameraRays rays(camera, side, side);
     const int grid = 16;
@@ -41,7 +42,8 @@ Subject smoke_ball(int side) {
 
 // A lamp-lit floor by scattering alone: rare bright samples. The truth is a long render by light sampling.
 Subject lit_floor(int side) {
-    CompiledScene scene = compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)), quad({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}, lamp(8))});
+    CompiledScene scene = compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)),
+                                                quad({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}, lamp(8))});
     const Camera camera = camera_at({0, 2, 6}, {0, 0, 0}, 35);
     Image truth = render(scene, camera, square(side, 1024, 2)).image;
     return {"floor", std::move(scene), camera, std::move(truth)};
@@ -49,7 +51,8 @@ Subject lit_floor(int side) {
 
 }  // namespace
 
-TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does not miss it from below", "[render][estimate]") {
+TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does not miss it from below",
+          "[render][estimate]") {
     const int side = 40;
     const Subject subjects[] = {smoke_ball(side), lit_floor(side)};
     for (const Subject& s : subjects) {
@@ -93,7 +96,8 @@ TEST_CASE("Error estimate: four times the samples give a quarter of it", "[rende
 }
 
 TEST_CASE("Error estimate: a picture without noise has none", "[render][estimate]") {
-    const RenderResult r = render(compile_with(sky(0.7), {sphere({0, 0, 0}, 1, grey(0.5))}), camera_at({0, 0, 5}, {0, 0, 0}, 5), square(8, 16, 10));
+    const RenderResult r = render(compile_with(sky(0.7), {sphere({0, 0, 0}, 1, grey(0.5))}),
+                                  camera_at({0, 0, 5}, {0, 0, 0}, 5), square(8, 16, 10));
     CHECK(r.error.estimate == Approx(0).margin(1e-12));
     CHECK(r.error.ci95_high == Approx(0).margin(1e-12));
     CHECK(r.error.max_sample_share == Approx(1.0 / 16).epsilon(1e-6));
@@ -118,7 +122,8 @@ TEST_CASE("Error estimate: below four samples a pixel there is none, and a reaso
 
 TEST_CASE("Error estimate: the largest share of a sample tells of rare bright light", "[render][estimate]") {
     // A tiny lamp found by chance alone: the one sample that hits it is all that its pixel has.
-    const CompiledScene rare = compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)), sphere({0, 3, 0}, 0.1, lamp(1e4))});
+    const CompiledScene rare =
+        compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)), sphere({0, 3, 0}, 0.1, lamp(1e4))});
     const Camera camera = camera_at({0, 2, 6}, {0, 0, 0}, 35);
     const RenderResult naive = render(rare, camera, square(32, 64, 2, Estimator::naive));
     const RenderResult path = render(rare, camera, square(32, 64, 2));

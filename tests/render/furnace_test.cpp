@@ -10,7 +10,8 @@ using namespace limn::test;
 
 namespace {
 
-constexpr int kDeep = 1000;  // no path that matters is cut, and none ends by roulette: what is lossless is so to the bit
+constexpr int kDeep =
+    1000;  // no path that matters is cut, and none ends by roulette: what is lossless is so to the bit
 
 // Somebody else's diffuse reflector, which may glow.
 class GlowingDiffuse final : public Material {
@@ -59,8 +60,10 @@ std::vector<std::pair<std::string, Object>> bodies(const MaterialPtr& m) {
             {"moving sphere", std::make_shared<Sphere>(Point3{-0.5, 0, 0}, Point3{0.5, 0.2, 0}, 0.8, m)},
             {"mesh", std::make_shared<Mesh>(icosphere(2), m)},
             {"box", make_box({-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}, m)},
-            {"mirrored instance", std::make_shared<Instance>(ball, Transform::rotate_z(20) * Transform::scale(-1, 0.7, 1.2))},
-            {"moving instance", std::make_shared<Instance>(ball, Transform::scale(0.5, 1, 1), Transform::translate({0.2, 0, 0}))},
+            {"mirrored instance",
+             std::make_shared<Instance>(ball, Transform::rotate_z(20) * Transform::scale(-1, 0.7, 1.2))},
+            {"moving instance",
+             std::make_shared<Instance>(ball, Transform::scale(0.5, 1, 1), Transform::translate({0.2, 0, 0}))},
             {"user's own shape", std::make_shared<Stranger>(ball)}};
 }
 
@@ -88,7 +91,8 @@ TEST_CASE("White furnace: every lossless material on every shape is invisible, t
     }
 }
 
-TEST_CASE("White furnace: rough metal may lose light but never makes any, and loses more the rougher", "[render][furnace]") {
+TEST_CASE("White furnace: rough metal may lose light but never makes any, and loses more the rougher",
+          "[render][furnace]") {
     double last = 1;
     for (const double fuzz : {0.1, 0.5, 1.0}) {
         const Object ball = sphere({0, 0, 0}, 1, std::make_shared<Metal>(Color{1, 1, 1}, fuzz));
@@ -100,7 +104,8 @@ TEST_CASE("White furnace: rough metal may lose light but never makes any, and lo
     CHECK(last > 0.8);
 }
 
-TEST_CASE("White furnace: a fraction of the light comes back from a convex body of that albedo, exactly", "[render][furnace]") {
+TEST_CASE("White furnace: a fraction of the light comes back from a convex body of that albedo, exactly",
+          "[render][furnace]") {
     for (const double albedo : {0.0, 0.18, 0.5, 0.99}) {
         for (const auto& [name, body] : bodies(grey(albedo))) {
             const Camera close = camera_at({0, 0, 4}, {0, 0, 0}, 2);  // nothing but the body in view
@@ -118,7 +123,8 @@ TEST_CASE("White furnace: smooth normals only ever lose light, at the terminator
     data.normals = data.vertices;
     for (const double albedo : {1.0, 0.5}) {
         const Object body = std::make_shared<Mesh>(data, grey(albedo));
-        const Extremes e = extremes(render(compile_with(sky(1), {body}), camera_at({0, 0, 6}, {0, 0, 0}, 10), square(24, 64, kDeep)).image);
+        const Extremes e = extremes(
+            render(compile_with(sky(1), {body}), camera_at({0, 0, 6}, {0, 0, 0}, 10), square(24, 64, kDeep)).image);
         CHECK(e.least >= 0);
         CHECK(e.most <= albedo + 1e-6);
         CHECK(e.least > 0.8 * albedo);
@@ -129,9 +135,11 @@ TEST_CASE("White furnace: hollow glass, glass in glass and nested media are invi
     const MaterialPtr glass = std::make_shared<Dielectric>(1.5);
     const auto list = [](std::vector<Object> objects) { return std::make_shared<HittableList>(std::move(objects)); };
     const Color white{1, 1, 1};
-    for (const Object& body : {Object(list({sphere({0, 0, 0}, 1, glass), sphere({0, 0, 0}, -0.8, glass)})),
-                               Object(list({sphere({0, 0, 0}, 1, glass), sphere({0, 0, 0}, 0.8, std::make_shared<Dielectric>(1 / 1.5))})),
-                               Object(list({sphere({0, 0, 0}, 1, glass), std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 0.9, glass), 2, white)}))}) {
+    for (const Object& body :
+         {Object(list({sphere({0, 0, 0}, 1, glass), sphere({0, 0, 0}, -0.8, glass)})),
+          Object(list({sphere({0, 0, 0}, 1, glass), sphere({0, 0, 0}, 0.8, std::make_shared<Dielectric>(1 / 1.5))})),
+          Object(list({sphere({0, 0, 0}, 1, glass),
+                       std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 0.9, glass), 2, white)}))}) {
         const Extremes e = in_uniform_field(body);
         CHECK(e.least >= 1 - 1e-6);
         CHECK(e.most <= 1 + 1e-6);
@@ -152,12 +160,17 @@ TEST_CASE("White furnace: a medium of albedo 1 is invisible at optical depths 0.
 
 TEST_CASE("White furnace: with unlimited depth roulette changes no mean", "[render][furnace]") {
     const Object fog = std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1, grey(0.3)), 5, Color{1, 1, 1});
-    check_mean(measure(compile_with(sky(1), {fog}), camera_at({0, 0, 6}, {0, 0, 0}, 15), square(16, 64, kUnlimitedDepth)), 1, 1e-3);
+    check_mean(
+        measure(compile_with(sky(1), {fog}), camera_at({0, 0, 6}, {0, 0, 0}, 15), square(16, 64, kUnlimitedDepth)), 1,
+        1e-3);
     const Object glass = std::make_shared<Mesh>(icosphere(1), std::make_shared<Dielectric>(1.5));
-    check_mean(measure(compile_with(sky(1), {glass}), camera_at({0, 0, 6}, {0, 0, 0}, 15), square(16, 64, kUnlimitedDepth)), 1, 1e-3);
+    check_mean(
+        measure(compile_with(sky(1), {glass}), camera_at({0, 0, 6}, {0, 0, 0}, 15), square(16, 64, kUnlimitedDepth)), 1,
+        1e-3);
 }
 
-TEST_CASE("Ground sphere: diffuse in a uniform field, it shows albedo times field at every radius", "[render][furnace]") {
+TEST_CASE("Ground sphere: diffuse in a uniform field, it shows albedo times field at every radius",
+          "[render][furnace]") {
     for (double r = 1e3; r <= 1e7; r *= 10) {
         const CompiledScene scene = compile_with(sky(1), {sphere({0, -r, 0}, r, grey(0.5))});
         const Extremes e = extremes(render(scene, camera_at({0, 1, 0}, {1, 0, 1}, 60), square(16, 64, 50)).image);
@@ -178,7 +191,8 @@ TEST_CASE("Closed furnace: a glowing room of albedo a shows 1 / (1 - a)", "[rend
         for (const Object& room : {sphere({0, 0, 0}, 3, wall), Object(make_box({-1, -2, -3}, {3, 2, 1}, wall)),
                                    Object(std::make_shared<Mesh>(icosphere(1, 3), wall))}) {
             INFO("albedo " << c.albedo);
-            check_mean(measure(compile_with(sky(0), {room}), camera_at({0.2, 0.1, 0}, {1, 0.3, -1}, 90), square(16, c.samples, kUnlimitedDepth)),
+            check_mean(measure(compile_with(sky(0), {room}), camera_at({0.2, 0.1, 0}, {1, 0.3, -1}, 90),
+                               square(16, c.samples, kUnlimitedDepth)),
                        1 / (1 - c.albedo), c.power);
         }
     }
@@ -188,7 +202,8 @@ TEST_CASE("Integrating sphere: a small lamp in a white room gives the exact unif
     // Wall radius 1, lamp radius r in its centre, k = r^2. The wall gets E = pi L k + a E (1 - k), for a fraction k of
     // what it reflects ends in the lamp (Hottel and Sarofim, Radiative Transfer, 1967, concentric spheres).
     const double k = 0.04, albedo = 0.8, radiance = 10;
-    const CompiledScene scene = compile_with(sky(0), {sphere({0, 0, 0}, -1, grey(albedo)), sphere({0, 0, 0}, std::sqrt(k), lamp(radiance))});
+    const CompiledScene scene =
+        compile_with(sky(0), {sphere({0, 0, 0}, -1, grey(albedo)), sphere({0, 0, 0}, std::sqrt(k), lamp(radiance))});
     const double truth = albedo * radiance * k / (1 - albedo * (1 - k));
     const Camera at_wall = camera_at({0.6, 0, 0}, {1, 0, 0}, 60);
     check_mean(measure(scene, at_wall, square(16, 32, kUnlimitedDepth)), truth, 3e-3);

@@ -38,7 +38,8 @@ void check_floor(const Object& light, double irradiance) {
 
 void check_path_is_naive(const std::vector<Object>& objects, const Camera& camera, double power, int naive_factor = 4) {
     const CompiledScene scene = compile_with(sky(0), objects);
-    check_same(measure(scene, camera, square(32, 16, 6)), measure(scene, camera, square(32, 16 * naive_factor, 6, Estimator::naive)), power);
+    check_same(measure(scene, camera, square(32, 16, 6)),
+               measure(scene, camera, square(32, 16 * naive_factor, 6, Estimator::naive)), power);
 }
 
 }  // namespace
@@ -80,7 +81,8 @@ TEST_CASE("Direct light: an emitting mesh lights as its triangles, a box as its 
 }
 
 TEST_CASE("Direct light: an instanced light radiates from where it stands, scaled and sheared", "[render][lights]") {
-    Transform m = Transform::translate({0.5, 2, 0.25}) * Transform::rotate({1, 0, 2}, 25) * Transform::scale(1.5, -0.75, 1);
+    Transform m =
+        Transform::translate({0.5, 2, 0.25}) * Transform::rotate({1, 0, 2}, 25) * Transform::scale(1.5, -0.75, 1);
     m.rows[0][1] += 0.5;
     const Point3 q{-0.5, -0.5, 0};
     const Vec3 u{1, 0, 0}, v{0, 1, 0};
@@ -88,10 +90,16 @@ TEST_CASE("Direct light: an instanced light radiates from where it stands, scale
     const double truth = irradiance_of_polygon({at(q), at(q + u), at(q + u + v), at(q + v)});
     const Object light = quad(q, u, v, lamp(kRadiance));
     check_floor(std::make_shared<Instance>(light, m), truth);
-    check_floor(std::make_shared<Instance>(std::make_shared<Instance>(light, Transform::rotate_z(90)), m * Transform::rotate_z(-90)), truth);
-    check_floor(std::make_shared<HittableList>(std::vector<Object>{std::make_shared<Bvh>(std::vector<Object>{std::make_shared<Instance>(light, m)})}), truth);
+    check_floor(std::make_shared<Instance>(std::make_shared<Instance>(light, Transform::rotate_z(90)),
+                                           m * Transform::rotate_z(-90)),
+                truth);
+    check_floor(std::make_shared<HittableList>(std::vector<Object>{
+                    std::make_shared<Bvh>(std::vector<Object>{std::make_shared<Instance>(light, m)})}),
+                truth);
     // A stretched sphere: no closed form here, so the naive estimator is the truth.
-    check_path_is_naive({floor_of(grey(0.5)), std::make_shared<Instance>(sphere({0, 0, 0}, 1, lamp(5)), Transform::translate({0, 2, 0}) * Transform::scale(0.5, 1, 0.75))},
+    check_path_is_naive({floor_of(grey(0.5)),
+                         std::make_shared<Instance>(sphere({0, 0, 0}, 1, lamp(5)),
+                                                    Transform::translate({0, 2, 0}) * Transform::scale(0.5, 1, 0.75))},
                         camera_at({0, 1, 6}, {0, 0.5, 0}, 40), 1e-2);
 }
 
@@ -100,12 +108,15 @@ TEST_CASE("Direct light: several lights add up", "[render][lights]") {
     const Vec3 u{1, 0, 0}, v{0, 0, 1};
     const double d = length(c - Point3{}), r = 0.4;
     const double both = irradiance_of_polygon({q, q + u, q + u + v, q + v}) + 3 * kPi * r * r / (d * d) * (c.y / d);
-    check_floor(std::make_shared<HittableList>(std::vector<Object>{quad(q, u, v, lamp(kRadiance)), sphere(c, r, lamp(3 * kRadiance))}), both);
+    check_floor(std::make_shared<HittableList>(
+                    std::vector<Object>{quad(q, u, v, lamp(kRadiance)), sphere(c, r, lamp(3 * kRadiance))}),
+                both);
 }
 
 TEST_CASE("Direct light: a tiny distant sphere is not lost, down to 1e-5 of its distance", "[render][lights]") {
     for (const double ratio : {1e-2, 1e-3, 1e-4, 1e-5}) {
-        const CompiledScene scene = compile_with(sky(0), {floor_of(grey(kAlbedo)), sphere({0, 1000, 0}, 1000 * ratio, lamp(1 / (ratio * ratio)))});
+        const CompiledScene scene = compile_with(
+            sky(0), {floor_of(grey(kAlbedo)), sphere({0, 1000, 0}, 1000 * ratio, lamp(1 / (ratio * ratio)))});
         INFO("R / d = " << ratio);
         check_mean(measure(scene, kLow, square(4, 16, 2)), kAlbedo, 1e-3);  // pi L (R/d)^2 = pi
     }
@@ -113,7 +124,8 @@ TEST_CASE("Direct light: a tiny distant sphere is not lost, down to 1e-5 of its 
 
 TEST_CASE("Direct light: inside a glowing sphere a convex body shows its albedo", "[render][lights]") {
     for (const double r : {10.0, -10.0}) {
-        const CompiledScene scene = compile_with(sky(0), {sphere({0, 0, 0}, r, lamp(1)), sphere({3, 0, 0}, 1, grey(0.5))});
+        const CompiledScene scene =
+            compile_with(sky(0), {sphere({0, 0, 0}, r, lamp(1)), sphere({3, 0, 0}, 1, grey(0.5))});
         const Camera camera = camera_at({3, 0, 5}, {3, 0, 0}, 10);
         check_mean(measure(scene, camera, square(8, 128, 10)), 0.5, 1e-2);
         check_mean(measure(scene, camera, square(8, 16, 10, Estimator::naive)), 0.5, 1e-6);
@@ -122,9 +134,12 @@ TEST_CASE("Direct light: inside a glowing sphere a convex body shows its albedo"
 
 TEST_CASE("Direct light: a lamp looks the same in both estimators: its radiance, to the bit", "[render][lights]") {
     for (const Estimator estimator : {Estimator::path, Estimator::naive}) {
-        for (const Object& light : {sphere({0, 0, 0}, 1, lamp(4)), quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, lamp(4)), quad({-2, -2, 0}, {0, 4, 0}, {4, 0, 0}, lamp(4)),
+        for (const Object& light : {sphere({0, 0, 0}, 1, lamp(4)), quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, lamp(4)),
+                                    quad({-2, -2, 0}, {0, 4, 0}, {4, 0, 0}, lamp(4)),
                                     Object(std::make_shared<Mesh>(icosphere(1), lamp(4)))}) {
-            const Image image = render(compile_with(sky(0.5), {light}), camera_at({0, 0, 5}, {0, 0, 0}, 1), square(4, 4, 3, estimator)).image;
+            const Image image =
+                render(compile_with(sky(0.5), {light}), camera_at({0, 0, 5}, {0, 0, 0}, 1), square(4, 4, 3, estimator))
+                    .image;
             for (const float v : image.values()) CHECK(v == 4.0f);
         }
     }
@@ -132,7 +147,9 @@ TEST_CASE("Direct light: a lamp looks the same in both estimators: its radiance,
 
 TEST_CASE("Direct light: what is shadowed gets nothing", "[render][lights]") {
     const Object roof = quad({-5, 1, -5}, {10, 0, 0}, {0, 0, 10}, grey(0));
-    const CompiledScene scene = compile_with(sky(0), {floor_of(grey(1)), roof, quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, lamp(9)), sphere({0, 3, 0}, 0.5, lamp(9))});
+    const CompiledScene scene = compile_with(
+        sky(0),
+        {floor_of(grey(1)), roof, quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, lamp(9)), sphere({0, 3, 0}, 0.5, lamp(9))});
     for (const Estimator estimator : {Estimator::path, Estimator::naive})
         CHECK(mean(render(scene, kLow, square(4, 64, 2, estimator)).image) == 0);
 }
@@ -140,51 +157,87 @@ TEST_CASE("Direct light: what is shadowed gets nothing", "[render][lights]") {
 TEST_CASE("Estimators: light sampling and naive paths agree on glossy, glassy and diffuse scenes", "[render][lights]") {
     const Camera camera = camera_at({0, 2, 7}, {0, 0.7, 0}, 40);
     const auto stage = [](MaterialPtr m) {
-        return std::vector<Object>{floor_of(grey(0.5)), sphere({0, 1, 0}, 1, std::move(m)), quad({-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, lamp(3))};
+        return std::vector<Object>{floor_of(grey(0.5)), sphere({0, 1, 0}, 1, std::move(m)),
+                                   quad({-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, lamp(3))};
     };
     SECTION("diffuse") { check_path_is_naive(stage(grey(0.8)), camera, 5e-3); }
     SECTION("mirror") { check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0)), camera, 5e-3); }
-    SECTION("rough metal") { check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0.3)), camera, 5e-3); }
-    SECTION("very rough metal") { check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 1)), camera, 5e-3); }
-    SECTION("almost smooth metal") { check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0.01)), camera, 5e-3); }
+    SECTION("rough metal") {
+        check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0.3)), camera, 5e-3);
+    }
+    SECTION("very rough metal") {
+        check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 1)), camera, 5e-3);
+    }
+    SECTION("almost smooth metal") {
+        check_path_is_naive(stage(std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0.01)), camera, 5e-3);
+    }
     SECTION("glass") { check_path_is_naive(stage(std::make_shared<Dielectric>(1.5)), camera, 8e-3); }
-    SECTION("isotropic surface") { check_path_is_naive(stage(std::make_shared<Isotropic>(Color{0.9, 0.9, 0.9})), camera, 5e-3); }
+    SECTION("isotropic surface") {
+        check_path_is_naive(stage(std::make_shared<Isotropic>(Color{0.9, 0.9, 0.9})), camera, 5e-3);
+    }
     SECTION("smooth normals") {
         MeshData data = icosphere(1, 1, {0, 1, 0});
         for (const Float3& p : data.vertices) data.normals.push_back({p.x, p.y - 1, p.z});
-        check_path_is_naive({floor_of(grey(0.5)), std::make_shared<Mesh>(data, grey(0.8)), quad({-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, lamp(3))}, camera, 5e-3);
+        check_path_is_naive({floor_of(grey(0.5)), std::make_shared<Mesh>(data, grey(0.8)),
+                             quad({-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, lamp(3))},
+                            camera, 5e-3);
     }
 }
 
-TEST_CASE("Estimators: agree for lights of every kind: moving, textured, touching, from outside classes", "[render][lights]") {
+TEST_CASE("Estimators: agree for lights of every kind: moving, textured, touching, from outside classes",
+          "[render][lights]") {
     const Camera camera = camera_at({0, 2, 7}, {0, 0.7, 0}, 40);
     const MaterialPtr bright = lamp(6);
-    const auto stage = [](Object light) { return std::vector<Object>{floor_of(grey(0.6)), sphere({-1, 1, 0}, 1, grey(0.8)), std::move(light)}; };
-    SECTION("moving sphere") { check_path_is_naive(stage(std::make_shared<Sphere>(Point3{1, 2, 1}, Point3{2, 3, -1}, 0.7, bright)), camera, 8e-3); }
+    const auto stage = [](Object light) {
+        return std::vector<Object>{floor_of(grey(0.6)), sphere({-1, 1, 0}, 1, grey(0.8)), std::move(light)};
+    };
+    SECTION("moving sphere") {
+        check_path_is_naive(stage(std::make_shared<Sphere>(Point3{1, 2, 1}, Point3{2, 3, -1}, 0.7, bright)), camera,
+                            8e-3);
+    }
     SECTION("moving instance") {
         const Object light = quad({-1, 0, -1}, {2, 0, 0}, {0, 0, 2}, bright);
-        check_path_is_naive(stage(std::make_shared<Instance>(light, Transform::translate({1, 3, 0}), Transform::translate({2, 2, 0}) * Transform::rotate_z(40))), camera, 1.5e-2);
+        check_path_is_naive(
+            stage(std::make_shared<Instance>(light, Transform::translate({1, 3, 0}),
+                                             Transform::translate({2, 2, 0}) * Transform::rotate_z(40))),
+            camera, 1.5e-2);
     }
     SECTION("checkered") {
         const auto texture = std::make_shared<Checker>(0.3, Color{0.5, 0.5, 0.5}, Color{9, 9, 9});
-        check_path_is_naive(stage(quad({0, 3.1, -1}, {2, 0, 0}, {0, 0, 2}, std::make_shared<DiffuseLight>(texture))), camera, 8e-3);
+        check_path_is_naive(stage(quad({0, 3.1, -1}, {2, 0, 0}, {0, 0, 2}, std::make_shared<DiffuseLight>(texture))),
+                            camera, 8e-3);
     }
-    SECTION("sphere that stands on the floor") { check_path_is_naive(stage(sphere({1.5, 0.5, 0}, 0.5, bright)), camera, 8e-3); }
-    SECTION("sphere half sunk in the floor") { check_path_is_naive(stage(sphere({1.5, 0, 0}, 0.7, bright)), camera, 8e-3); }
-    SECTION("quad that stands on the floor") { check_path_is_naive(stage(quad({2, 0, -1}, {0, 0, 2}, {0, 1.5, 0}, bright)), camera, 8e-3); }
-    SECTION("needle of a triangle") { check_path_is_naive(stage(std::make_shared<Triangle>(Point3{0, 3, -2}, Point3{0.1, 3, 2}, Point3{0.2, 3.1, -2}, lamp(60))), camera, 2e-2, 16); }
-    SECTION("a user's own shape, which light sampling does not know") { check_path_is_naive(stage(std::make_shared<Stranger>(sphere({1.5, 3, 0}, 0.9, bright))), camera, 2e-2); }
+    SECTION("sphere that stands on the floor") {
+        check_path_is_naive(stage(sphere({1.5, 0.5, 0}, 0.5, bright)), camera, 8e-3);
+    }
+    SECTION("sphere half sunk in the floor") {
+        check_path_is_naive(stage(sphere({1.5, 0, 0}, 0.7, bright)), camera, 8e-3);
+    }
+    SECTION("quad that stands on the floor") {
+        check_path_is_naive(stage(quad({2, 0, -1}, {0, 0, 2}, {0, 1.5, 0}, bright)), camera, 8e-3);
+    }
+    SECTION("needle of a triangle") {
+        check_path_is_naive(
+            stage(std::make_shared<Triangle>(Point3{0, 3, -2}, Point3{0.1, 3, 2}, Point3{0.2, 3.1, -2}, lamp(60))),
+            camera, 2e-2, 16);
+    }
+    SECTION("a user's own shape, which light sampling does not know") {
+        check_path_is_naive(stage(std::make_shared<Stranger>(sphere({1.5, 3, 0}, 0.9, bright))), camera, 2e-2);
+    }
     SECTION("a lamp of which one copy is sampled and one is not") {
         const Object light = sphere({1.5, 3, 0}, 0.5, bright);
-        check_path_is_naive({floor_of(grey(0.6)), light, std::make_shared<Stranger>(sphere({-1.5, 3, 0}, 0.5, bright))}, camera, 1e-2);
+        check_path_is_naive({floor_of(grey(0.6)), light, std::make_shared<Stranger>(sphere({-1.5, 3, 0}, 0.5, bright))},
+                            camera, 1e-2);
     }
 }
 
 TEST_CASE("Estimators: a user's own index-matched boundary casts no shadow", "[render][lights]") {
     // It is a boundary of nothing: light passes straight through.
-    const Object veil = std::make_shared<Stranger>(std::make_shared<ConstantMedium>(quad({-3, 1.5, -3}, {6, 0, 0}, {0, 0, 6}, nullptr), 0, Color{}));
+    const Object veil = std::make_shared<Stranger>(
+        std::make_shared<ConstantMedium>(quad({-3, 1.5, -3}, {6, 0, 0}, {0, 0, 6}, nullptr), 0, Color{}));
     const Object light = quad({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}, lamp(kRadiance));
-    const double truth = kAlbedo * kRadiance * irradiance_of_polygon({{-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}}) / kPi;
+    const double truth =
+        kAlbedo * kRadiance * irradiance_of_polygon({{-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1}}) / kPi;
     const CompiledScene scene = compile_with(sky(0), {floor_of(grey(kAlbedo)), veil, light});
     check_mean(measure(scene, kLow, square(8, 512, 2, Estimator::naive)), truth, 1e-2);
     check_mean(measure(scene, kLow, square(4, 128, 2)), truth, 5e-3);
@@ -197,7 +250,8 @@ TEST_CASE("Motion: a ball that moves over the shutter is seen as long as it cove
     const Object instance = std::make_shared<Instance>(still, Transform{}, Transform::translate({0, 1, 0}));
     for (const Object& ball : {Object(light), instance}) {
         const CompiledScene scene = compile_with(sky(0), {ball});
-        for (const auto& [y, expected] : {std::pair{-0.41, 0.0}, {0.0, 0.4}, {0.2, 0.6}, {0.5, 0.8}, {1.0, 0.4}, {1.3, 0.1}, {1.41, 0.0}}) {
+        for (const auto& [y, expected] :
+             {std::pair{-0.41, 0.0}, {0.0, 0.4}, {0.2, 0.6}, {0.5, 0.8}, {1.0, 0.4}, {1.3, 0.1}, {1.41, 0.0}}) {
             const Camera camera = camera_at({0, y, 1000}, {0, y, 0}, 1e-5);
             const Measured m = measure(scene, camera, square(8, 64, 2), 16);
             const double sigma = std::sqrt(expected * (1 - expected) / (64 * 64 * 16));

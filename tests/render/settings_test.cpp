@@ -48,21 +48,33 @@ TEST_CASE("render: impossible settings are refused by name", "[render][settings]
 
 TEST_CASE("render: a shape without a material is refused, a medium's boundary needs none", "[render][settings]") {
     const Object bare = sphere({0, 0, 0}, 1, nullptr);
-    for (const Object& object : {bare, quad({}, {1, 0, 0}, {0, 1, 0}, nullptr), Object(std::make_shared<Triangle>(Point3{}, Point3{1, 0, 0}, Point3{0, 1, 0}, nullptr)),
-                                 Object(std::make_shared<Sphere>(Point3{}, Point3{1, 0, 0}, 1.0, nullptr)), Object(std::make_shared<Mesh>(icosphere(0), nullptr)),
-                                 Object(std::make_shared<Instance>(bare, Transform::scale(2, 2, 2))), Object(std::make_shared<HittableList>(std::vector<Object>{sphere({3, 0, 0}, 1, grey(1)), bare}))}) {
+    for (const Object& object :
+         {bare, quad({}, {1, 0, 0}, {0, 1, 0}, nullptr),
+          Object(std::make_shared<Triangle>(Point3{}, Point3{1, 0, 0}, Point3{0, 1, 0}, nullptr)),
+          Object(std::make_shared<Sphere>(Point3{}, Point3{1, 0, 0}, 1.0, nullptr)),
+          Object(std::make_shared<Mesh>(icosphere(0), nullptr)),
+          Object(std::make_shared<Instance>(bare, Transform::scale(2, 2, 2))),
+          Object(std::make_shared<HittableList>(std::vector<Object>{sphere({3, 0, 0}, 1, grey(1)), bare}))}) {
         const CompiledScene scene = compile_with(sky(1), {object});
         CHECK_THROWS_AS(render(scene, kEye, square(4, 4, 4)), Error);
         CHECK_THROWS_WITH(render(scene, kEye, square(4, 4, 4)), Catch::Contains("material"));
     }
-    CHECK_NOTHROW(render(compile_with(sky(1), {std::make_shared<ConstantMedium>(bare, 1, Color{})}), kEye, square(4, 4, 4)));
-    CHECK_NOTHROW(render(compile_with(sky(1), {std::make_shared<Instance>(std::make_shared<ConstantMedium>(std::make_shared<Mesh>(icosphere(0), nullptr), 1, Color{}), Transform{})}), kEye, square(4, 4, 4)));
+    CHECK_NOTHROW(
+        render(compile_with(sky(1), {std::make_shared<ConstantMedium>(bare, 1, Color{})}), kEye, square(4, 4, 4)));
+    CHECK_NOTHROW(render(
+        compile_with(sky(1), {std::make_shared<Instance>(std::make_shared<ConstantMedium>(
+                                                             std::make_shared<Mesh>(icosphere(0), nullptr), 1, Color{}),
+                                                         Transform{})}),
+        kEye, square(4, 4, 4)));
     // The same bare ball once as a boundary and once as a shape: the shape still lacks its material.
-    CHECK_THROWS_AS(render(compile_with(sky(1), {std::make_shared<ConstantMedium>(bare, 1, Color{}), bare}), kEye, square(4, 4, 4)), Error);
+    CHECK_THROWS_AS(
+        render(compile_with(sky(1), {std::make_shared<ConstantMedium>(bare, 1, Color{}), bare}), kEye, square(4, 4, 4)),
+        Error);
 }
 
 TEST_CASE("render: a user's own shape without a material is black at worst, never a crash", "[render][settings]") {
-    const RenderResult r = render(compile_with(sky(1), {std::make_shared<Stranger>(sphere({0, 0, 0}, 1, nullptr))}), kEye, square(8, 4, 4));
+    const RenderResult r = render(compile_with(sky(1), {std::make_shared<Stranger>(sphere({0, 0, 0}, 1, nullptr))}),
+                                  kEye, square(8, 4, 4));
     for (const float v : r.image.values()) CHECK((v >= 0 && v <= 1));
 }
 
@@ -111,7 +123,8 @@ TEST_CASE("render: antialias off sends every sample through the pixel's centre",
     const Sphere ball({0, 0, 0}, 1, nullptr);
     int wrong = 0;
     for (int y = 0; y < 100; ++y)
-        for (int x = 0; x < 100; ++x) wrong += image.at(x, y).r != (ball.hit(rays.ray(x + 0.5, y + 0.5, 0, 0, 0)) ? 1 : 0);
+        for (int x = 0; x < 100; ++x)
+            wrong += image.at(x, y).r != (ball.hit(rays.ray(x + 0.5, y + 0.5, 0, 0, 0)) ? 1 : 0);
     CHECK(wrong == 0);
     settings.seed = 99;
     CHECK(render(scene, camera, settings).image == image);
@@ -122,7 +135,8 @@ TEST_CASE("render: antialias off sends every sample through the pixel's centre",
 }
 
 TEST_CASE("render: aperture 0 gives the pinhole's picture, to the bit", "[render][settings]") {
-    const CompiledScene scene = compile_with(Background::gradient({1, 1, 1}, {0.5, 0.7, 1}), {sphere({0, 0, 0}, 1, grey(0.5)), sphere({1, 0, -3}, 1, grey(0.2))});
+    const CompiledScene scene = compile_with(Background::gradient({1, 1, 1}, {0.5, 0.7, 1}),
+                                             {sphere({0, 0, 0}, 1, grey(0.5)), sphere({1, 0, -3}, 1, grey(0.2))});
     Camera pinhole = kEye, focused = kEye;
     focused.focus_distance = 2;
     focused.aperture_angle = 0;
@@ -130,7 +144,8 @@ TEST_CASE("render: aperture 0 gives the pinhole's picture, to the bit", "[render
     focused.aperture_angle = 5;
     const Image blurred = render(scene, focused, square(16, 64, 5)).image;
     CHECK_FALSE(blurred == render(scene, pinhole, square(16, 64, 5)).image);
-    CHECK(mean(blurred) == Approx(mean(render(scene, pinhole, square(16, 64, 5)).image)).epsilon(0.03));  // light moves, none is made
+    CHECK(mean(blurred) ==
+          Approx(mean(render(scene, pinhole, square(16, 64, 5)).image)).epsilon(0.03));  // light moves, none is made
 }
 
 TEST_CASE("render: progress never falls, is not called by two threads at once, and ends at 1", "[render][settings]") {
@@ -167,7 +182,8 @@ TEST_CASE("render: stopping leaves a whole picture with fewer samples, and says 
     CHECK(r.report.samples_per_pixel < 1 << 20);
     CHECK(r.report.render_seconds < 20);
     CHECK(r.image.width() == 64);
-    for (const float v : r.image.values()) CHECK((v >= 0.49f && v <= 1.001f));  // albedo .5 before a white sky: never black
+    for (const float v : r.image.values())
+        CHECK((v >= 0.49f && v <= 1.001f));  // albedo .5 before a white sky: never black
 
     settings.progress = [](const Progress&) { return false; };  // at the first call
     const RenderResult none = render(scene, kEye, settings);

@@ -6,7 +6,8 @@
 using namespace limn;
 using limn::test::Random;
 
-TEST_CASE("Background: black is black and a constant is the same in every direction, to the bit", "[scene][background]") {
+TEST_CASE("Background: black is black and a constant is the same in every direction, to the bit",
+          "[scene][background]") {
     Random random(90);
     const Color sky{0.7, 0.8, 1};
     for (int i = 0; i < 1000; ++i) {
@@ -17,7 +18,8 @@ TEST_CASE("Background: black is black and a constant is the same in every direct
     CHECK(is_black(Background{}.radiance({0, 1, 0})));
 }
 
-TEST_CASE("Background: a gradient is (1 - a) bottom + a top with a = (y + 1) / 2 of the unit direction", "[scene][background]") {
+TEST_CASE("Background: a gradient is (1 - a) bottom + a top with a = (y + 1) / 2 of the unit direction",
+          "[scene][background]") {
     const Color bottom{1, 1, 1}, top{0.5, 0.7, 1};
     const Background sky = Background::gradient(bottom, top);
     CHECK(sky.radiance({0, -3, 0}) == bottom);

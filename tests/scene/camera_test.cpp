@@ -20,7 +20,8 @@ struct Direction {
 
 // The direction of a camera that looks along -z, through a point of the picture.
 Direction exact_direction(double vertical_fov, int width, int height, double x, double y) {
-    const long double half = std::tan(static_cast<long double>(vertical_fov) * (3.14159265358979323846264338327950288L / 180) / 2);
+    const long double half =
+        std::tan(static_cast<long double>(vertical_fov) * (3.14159265358979323846264338327950288L / 180) / 2);
     return {(2.0L * x - width) / height * half, (height - 2.0L * y) / height * half, -1};
 }
 
@@ -28,12 +29,14 @@ Direction exact_direction(double vertical_fov, int width, int height, double x, 
 double error_of(const Vec3& d, const Direction& e) {
     const long double x = d.x, y = d.y, z = d.z;
     const long double ld = std::sqrt(x * x + y * y + z * z), le = std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z);
-    return static_cast<double>(std::max({std::abs(x / ld - e.x / le), std::abs(y / ld - e.y / le), std::abs(z / ld - e.z / le)}));
+    return static_cast<double>(
+        std::max({std::abs(x / ld - e.x / le), std::abs(y / ld - e.y / le), std::abs(z / ld - e.z / le)}));
 }
 
 }  // namespace
 
-TEST_CASE("Camera: pixels run right along right and down from the top, over the whole field of view", "[scene][camera]") {
+TEST_CASE("Camera: pixels run right along right and down from the top, over the whole field of view",
+          "[scene][camera]") {
     const CameraRays rays(plain(), 200, 100);
     const auto direction = [&](double x, double y) { return rays.ray(x, y, 0.5, 0.5, 0).direction; };
     CHECK(length(cross(direction(100, 50), Vec3{0, 0, -1})) <= 1e-15);
@@ -46,7 +49,8 @@ TEST_CASE("Camera: pixels run right along right and down from the top, over the 
     Camera square = plain();
     square.aspect_ratio = 1.0;
     const CameraRays squeezed(square, 200, 100);
-    CHECK(angle_between(squeezed.ray(0, 50, 0, 0, 0).direction, squeezed.ray(200, 50, 0, 0, 0).direction) == Approx(radians(90)));
+    CHECK(angle_between(squeezed.ray(0, 50, 0, 0, 0).direction, squeezed.ray(200, 50, 0, 0, 0).direction) ==
+          Approx(radians(90)));
 }
 
 TEST_CASE("Camera: up stays up, and the picture is not mirrored", "[scene][camera]") {
@@ -58,7 +62,8 @@ TEST_CASE("Camera: up stays up, and the picture is not mirrored", "[scene][camer
     Random random(100);
     for (int i = 0; i < 500; ++i) {
         Camera c = plain();
-        c.look_from = Point3{} + random.in_cube(10), c.look_at = Point3{} + random.in_cube(10), c.up = random.in_cube(3);
+        c.look_from = Point3{} + random.in_cube(10), c.look_at = Point3{} + random.in_cube(10),
+        c.up = random.in_cube(3);
         const CameraRays r(c, 64, 64);
         const Vec3 forward = normalize(c.look_at - c.look_from);
         const Vec3 right = r.ray(64, 32, 0, 0, 0).direction - r.ray(0, 32, 0, 0, 0).direction;
@@ -86,9 +91,12 @@ TEST_CASE("Camera: an impossible one is refused with a message that says why", "
     refused([](Camera& c) { c.look_from = {1, 2, 3}, c.look_at = {4, 8, 12}, c.up = {1, 2, 3}; }, "up");
     for (const double fov : {0.0, 180.0, -10.0, 360.0, nan, kInfinity})
         refused([&](Camera& c) { c.vertical_fov = fov; }, "field of view");
-    for (const double angle : {-1.0, 180.0, nan, kInfinity}) refused([&](Camera& c) { c.aperture_angle = angle; }, "aperture");
-    for (const double focus : {0.0, -1.0, nan, kInfinity}) refused([&](Camera& c) { c.focus_distance = focus; }, "focus");
-    for (const double aspect : {0.0, -1.0, nan, kInfinity}) refused([&](Camera& c) { c.aspect_ratio = aspect; }, "aspect");
+    for (const double angle : {-1.0, 180.0, nan, kInfinity})
+        refused([&](Camera& c) { c.aperture_angle = angle; }, "aperture");
+    for (const double focus : {0.0, -1.0, nan, kInfinity})
+        refused([&](Camera& c) { c.focus_distance = focus; }, "focus");
+    for (const double aspect : {0.0, -1.0, nan, kInfinity})
+        refused([&](Camera& c) { c.aspect_ratio = aspect; }, "aspect");
     refused([](Camera& c) { c.shutter_open = 0.6, c.shutter_close = 0.5; }, "shutter");
     refused([](Camera& c) { c.shutter_open = -0.1; }, "shutter");
     refused([](Camera& c) { c.shutter_close = 1.1; }, "shutter");
@@ -137,8 +145,10 @@ TEST_CASE("Camera: the narrowest and widest fields of view are right to 4 ulp", 
                 const Direction e = exact_direction(fov, 640, 480, x, y);
                 CHECK(error_of(d, e) <= 4 * 0x1p-52);
                 if (fov > 90) continue;  // beyond it the tangent magnifies what rounding 179.9 degrees to radians costs
-                CHECK(std::abs(d.x / -d.z - static_cast<double>(e.x)) <= 4 * 0x1p-52 * std::abs(static_cast<double>(e.x)));
-                CHECK(std::abs(d.y / -d.z - static_cast<double>(e.y)) <= 4 * 0x1p-52 * std::abs(static_cast<double>(e.y)));
+                CHECK(std::abs(d.x / -d.z - static_cast<double>(e.x)) <=
+                      4 * 0x1p-52 * std::abs(static_cast<double>(e.x)));
+                CHECK(std::abs(d.y / -d.z - static_cast<double>(e.y)) <=
+                      4 * 0x1p-52 * std::abs(static_cast<double>(e.y)));
             }
         }
     }
@@ -158,7 +168,8 @@ TEST_CASE("Camera: without a lens the random numbers do not matter, every ray le
     }
 }
 
-TEST_CASE("Camera: every lens ray passes the point in focus, from a uniform disc of radius f tan(angle / 2)", "[scene][camera]") {
+TEST_CASE("Camera: every lens ray passes the point in focus, from a uniform disc of radius f tan(angle / 2)",
+          "[scene][camera]") {
     Random random(103);
     for (const double aperture : {1e-3, 0.6, 10.0}) {
         for (const double focus : {1e-3, 3.4, 1e6}) {
@@ -249,10 +260,12 @@ TEST_CASE("frame_box: all of the box is in the picture, and a cube fills at leas
         double extent = 0;
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 v = Point3{corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
-                                  corner & 4 ? box.upper.z : box.lower.z} - camera.look_from;
+                                  corner & 4 ? box.upper.z : box.lower.z} -
+                           camera.look_from;
             const double depth = dot(v, forward);
             CHECK(depth > 0);
-            const double x = std::abs(dot(v, right)) / depth / half_width, y = std::abs(dot(v, up)) / depth / half_height;
+            const double x = std::abs(dot(v, right)) / depth / half_width,
+                         y = std::abs(dot(v, up)) / depth / half_height;
             CHECK((x <= 1 && y <= 1));
             extent = std::max({extent, x, y});
         }
@@ -261,10 +274,12 @@ TEST_CASE("frame_box: all of the box is in the picture, and a cube fills at leas
     }
 }
 
-TEST_CASE("frame_box: an empty or unbounded box and an impossible aspect ratio are refused, a point is not", "[scene][camera]") {
+TEST_CASE("frame_box: an empty or unbounded box and an impossible aspect ratio are refused, a point is not",
+          "[scene][camera]") {
     CHECK_THROWS_AS(frame_box(Box{}), ArgumentError);
     CHECK_THROWS_AS(frame_box(Box{{0, 0, 0}, {1, kInfinity, 1}}), ArgumentError);
     for (const double aspect : {0.0, -1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()})
         CHECK_THROWS_AS(frame_box(Box{{0, 0, 0}, {1, 1, 1}}, aspect), ArgumentError);
-    for (const Point3 p : {Point3{0, 0, 0}, Point3{1e5, -2, 3}, Point3{1e-20, 0, 0}}) CHECK_NOTHROW(CameraRays(frame_box(Box{p, p}), 8, 8));
+    for (const Point3 p : {Point3{0, 0, 0}, Point3{1e5, -2, 3}, Point3{1e-20, 0, 0}})
+        CHECK_NOTHROW(CameraRays(frame_box(Box{p, p}), 8, 8));
 }

@@ -8,7 +8,8 @@ using namespace limn;
 
 TEST_CASE("Scene: objects are numbered in the order of add, and null is refused", "[scene]") {
     Scene scene;
-    const auto a = std::make_shared<Sphere>(Point3{0, 0, 0}, 1.0, nullptr), b = std::make_shared<Sphere>(Point3{9, 0, 0}, 1.0, nullptr);
+    const auto a = std::make_shared<Sphere>(Point3{0, 0, 0}, 1.0, nullptr),
+               b = std::make_shared<Sphere>(Point3{9, 0, 0}, 1.0, nullptr);
     CHECK(scene.bounds().is_empty());
     CHECK(scene.add(a) == 0);
     CHECK(scene.add(b) == 1);

@@ -31,10 +31,18 @@ Objects random_objects(Random& random, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const Point3 p = Point3{} + random.in_cube(5);
         switch (random.index(4)) {
-            case 0: objects.push_back(std::make_shared<Sphere>(p, random.uniform(0.1, 1), nullptr)); break;
-            case 1: objects.push_back(std::make_shared<Sphere>(p, p + random.in_cube(2), 0.4, nullptr)); break;
-            case 2: objects.push_back(std::make_shared<Triangle>(p, p + random.in_cube(2), p + random.in_cube(2), nullptr)); break;
-            default: objects.push_back(std::make_shared<Quad>(p, random.in_cube(2), random.in_cube(2), nullptr)); break;
+            case 0:
+                objects.push_back(std::make_shared<Sphere>(p, random.uniform(0.1, 1), nullptr));
+                break;
+            case 1:
+                objects.push_back(std::make_shared<Sphere>(p, p + random.in_cube(2), 0.4, nullptr));
+                break;
+            case 2:
+                objects.push_back(std::make_shared<Triangle>(p, p + random.in_cube(2), p + random.in_cube(2), nullptr));
+                break;
+            default:
+                objects.push_back(std::make_shared<Quad>(p, random.in_cube(2), random.in_cube(2), nullptr));
+                break;
         }
         if (random.chance(0.1)) objects.push_back(objects[random.index(objects.size())]);  // exact duplicates
     }
@@ -47,13 +55,15 @@ void compare(const Objects& objects, Random& random, int rays) {
     CHECK(bvh.bounds() == list.bounds());
     test::Targets targets{list.bounds(), {}};
     if (targets.region.is_empty()) targets.region = {{0, 0, 0}, {1, 1, 1}};
-    for (const auto& object : objects) targets.points.push_back(object->bounds().is_empty() ? Point3{} : object->bounds().center());
+    for (const auto& object : objects)
+        targets.points.push_back(object->bounds().is_empty() ? Point3{} : object->bounds().center());
     if (targets.points.empty()) targets.points.push_back({});
     Tally tally;
     for (int i = 0; i < rays; ++i) {
         const Ray ray = random_ray(random, targets);
         const auto a = list.hit(ray), b = bvh.hit(ray);
-        if (a.has_value() != b.has_value() || (a && (a->t != b->t || a->element != b->element || !(a->normal == b->normal))))
+        if (a.has_value() != b.has_value() ||
+            (a && (a->t != b->t || a->element != b->element || !(a->normal == b->normal))))
             tally.fault(ray, "list and Bvh differ");
         tally.hits += a.has_value();
     }
@@ -66,7 +76,8 @@ void compare(const Objects& objects, Random& random, int rays) {
 
 TEST_CASE("Bvh: hit for hit the same as a list, for 0, 1, 2, 3 and 2^k +- 1 objects", "[shape][bvh]") {
     Random random(80);
-    for (const std::size_t count : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 33u, 63u, 64u, 65u, 127u, 129u, 255u, 257u})
+    for (const std::size_t count :
+         {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 33u, 63u, 64u, 65u, 127u, 129u, 255u, 257u})
         compare(random_objects(random, count), random, 2000);
 }
 
@@ -77,7 +88,8 @@ TEST_CASE("Bvh: hit for hit the same as a list with lists, meshes, media and emp
     objects.push_back(std::make_shared<HittableList>(random_objects(random, 5)));
     objects.push_back(std::make_shared<Nothing>());
     objects.push_back(std::make_shared<HittableList>());
-    objects.push_back(std::make_shared<ConstantMedium>(std::make_shared<Sphere>(Point3{1, 1, 1}, 2.0, nullptr), 1, Color{}));
+    objects.push_back(
+        std::make_shared<ConstantMedium>(std::make_shared<Sphere>(Point3{1, 1, 1}, 2.0, nullptr), 1, Color{}));
     objects.push_back(std::make_shared<Bvh>(random_objects(random, 9)));
     compare(objects, random, 20000);
 }
@@ -86,12 +98,16 @@ TEST_CASE("Bvh: a flat box far from the origin loses no ray", "[shape][bvh]") {
     Random random(82);
     // Axis-aligned quads at 1e5: their boxes have no thickness.
     Objects walls;
-    for (int i = 0; i < 50; ++i) walls.push_back(std::make_shared<Quad>(Point3{1e5, static_cast<double>(i), 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, nullptr));
+    for (int i = 0; i < 50; ++i)
+        walls.push_back(
+            std::make_shared<Quad>(Point3{1e5, static_cast<double>(i), 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, nullptr));
     const Bvh bvh(walls);
     int misses = 0;
     for (int i = 0; i < 50000; ++i) {
         const Point3 aim{1e5, random.uniform(0, 50), random.uniform(0, 1)};
-        const Point3 origin = i % 2 ? Point3{1e5 - 10, aim.y, aim.z} : aim + random.uniform(0.1, 100) * normalize(Vec3{-1, random.uniform(-1, 1), random.uniform(-1, 1)});
+        const Point3 origin =
+            i % 2 ? Point3{1e5 - 10, aim.y, aim.z}
+                  : aim + random.uniform(0.1, 100) * normalize(Vec3{-1, random.uniform(-1, 1), random.uniform(-1, 1)});
         const Vec3 d = i % 2 ? Vec3{1, 0, -0.0} : aim - origin;
         // The rounded direction may pass beside the wall's border; the middle of it may not be lost.
         if (aim.y < 0.001 || aim.y > 49.999 || aim.z < 0.001 || aim.z > 0.999) continue;

@@ -41,7 +41,8 @@ TEST_CASE("Instance: a scaled and moved sphere is hit where exact arithmetic hit
     Random random(60);
     for (const double s : {1e-3, 1.0, 1e3}) {
         for (const double shift : {0.0, 1e3, 1e5}) {
-            const Instance instance(unit_sphere(), Transform::translate({shift, -shift, shift}) * Transform::scale(s, s, s));
+            const Instance instance(unit_sphere(),
+                                    Transform::translate({shift, -shift, shift}) * Transform::scale(s, s, s));
             Tally tally;
             for (int i = 0; i < 3000; ++i) {
                 const Point3 center{shift, -shift, shift};
@@ -49,7 +50,8 @@ TEST_CASE("Instance: a scaled and moved sphere is hit where exact arithmetic hit
                 const Ray ray{.origin = origin, .direction = center + 1.5 * s * random.in_cube() - origin};
                 // The truth of the instance: the ray carried into the sphere's own space without rounding.
                 const test::Real3 o = test::Real3(ray.origin) - test::Real3(center), d(ray.direction);
-                const test::Real a = test::dot(d, d), b = test::dot(o, d), c = test::dot(o, o) - test::Real(s) * test::Real(s);
+                const test::Real a = test::dot(d, d), b = test::dot(o, d),
+                                 c = test::dot(o, o) - test::Real(s) * test::Real(s);
                 const test::Real discriminant = b * b - a * c;
                 const bool undecided = test::absolute(discriminant) <= test::Real(1e-12) * b * b;
                 ++tally.rays;
@@ -81,8 +83,10 @@ TEST_CASE("Instance: eight nested turns by 45 degrees change nothing", "[shape][
             const Point3 origin = Point3{} + 5 * random.unit();
             const Ray ray{.origin = origin, .direction = Point3{} + 0.8 * random.unit() - origin};
             const auto a = mesh->hit(ray), b = turned->hit(ray);
-            if (a.has_value() != b.has_value() || (a && std::abs(a->t - b->t) > 4 * kUlp * a->t)) tally.fault(ray, "moved");
-            if (a && b && a->element == b->element && length(Vec3(a->normal) - Vec3(b->normal)) > 1e-6) tally.fault(ray, "normal");
+            if (a.has_value() != b.has_value() || (a && std::abs(a->t - b->t) > 4 * kUlp * a->t))
+                tally.fault(ray, "moved");
+            if (a && b && a->element == b->element && length(Vec3(a->normal) - Vec3(b->normal)) > 1e-6)
+                tally.fault(ray, "normal");
         }
         INFO(tally.first);
         CHECK(tally.wrong == 0);
@@ -108,7 +112,8 @@ TEST_CASE("Instance: permutations and mirrors of the axes are exact, and keep ou
     }
 }
 
-TEST_CASE("Instance: under stretch and shear t stays the object's, normals go by the inverse transpose", "[shape][instance]") {
+TEST_CASE("Instance: under stretch and shear t stays the object's, normals go by the inverse transpose",
+          "[shape][instance]") {
     Random random(63);
     Transform m = Transform::scale(1, 1e-3, 1e3);
     m.rows[0][1] = 0.3, m.rows[0][2] = -200, m.rows[1][2] = 0.1;
@@ -152,8 +157,10 @@ TEST_CASE("Instance: motion is bit-exact at both ends, clamped outside, entry by
         const double time = random.uniform();
         const Instance between(mesh, interpolate(m0, m1, time));
         const Point3 origin = Point3{} + 20 * random.unit();
-        for (const auto& [at, still] : {std::pair<double, const Instance*>{0, &first}, {1, &last}, {-1, &first}, {2, &last}, {time, &between}}) {
-            const Ray ray{.origin = origin, .direction = still->bounds().center() + 0.8 * random.unit() - origin, .time = at};
+        for (const auto& [at, still] :
+             {std::pair<double, const Instance*>{0, &first}, {1, &last}, {-1, &first}, {2, &last}, {time, &between}}) {
+            const Ray ray{
+                .origin = origin, .direction = still->bounds().center() + 0.8 * random.unit() - origin, .time = at};
             const auto a = moving.hit(ray), b = still->hit(ray);
             REQUIRE(a.has_value() == b.has_value());
             if (a) CHECK((a->t == b->t && a->element == b->element && a->normal == b->normal));
@@ -174,10 +181,12 @@ TEST_CASE("Instance: the box of a moving instance contains the object at every t
     for (int motion = 0; motion < 300; ++motion) {
         const auto pose = [&] {
             return Transform::translate(random.in_cube(random.log_uniform(1e-2, 1e6))) *
-                   Transform::rotate(random.unit(), random.uniform(-60, 60)) * Transform::scale(1, random.uniform(0.5, 2), 3);
+                   Transform::rotate(random.unit(), random.uniform(-60, 60)) *
+                   Transform::scale(1, random.uniform(0.5, 2), 3);
         };
         const Transform m0 = pose();
-        const Transform m1 = Transform::translate(random.in_cube(10)) * Transform::rotate(random.unit(), random.uniform(-60, 60)) * m0;
+        const Transform m1 =
+            Transform::translate(random.in_cube(10)) * Transform::rotate(random.unit(), random.uniform(-60, 60)) * m0;
         const Instance instance(mesh, m0, m1);
         const Box box = instance.bounds();
         for (int i = 0; i < 30; ++i) {
@@ -209,7 +218,8 @@ TEST_CASE("Instance: a singular or non-finite matrix is refused, at any time of 
     CHECK_NOTHROW(Instance(unit_sphere(), Transform{}, Transform::rotate_y(175)));
     CHECK_NOTHROW(Instance(unit_sphere(), Transform::scale(-1, 1, 1), Transform::scale(-2, 1, 1)));
     CHECK_NOTHROW(Instance(unit_sphere(), Transform::scale(1e-60, 1e-60, 1e-60)));
-    for (const double s : {1e-3, 1e-6, 1e-12, 1e-60}) CHECK_NOTHROW(Instance(unit_sphere(), Transform{}, Transform::scale(s, s, s)));
+    for (const double s : {1e-3, 1e-6, 1e-12, 1e-60})
+        CHECK_NOTHROW(Instance(unit_sphere(), Transform{}, Transform::scale(s, s, s)));
 }
 
 TEST_CASE("Instance: an unusable ray misses", "[shape][instance]") {

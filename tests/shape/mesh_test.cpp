@@ -38,10 +38,12 @@ test::Targets targets_of(const MeshData& data) {
 
 TEST_CASE("Mesh: the same hits as its triangles one by one, ties to the lowest", "[shape][mesh]") {
     Random random(50);
-    for (const MeshData& data : {test::icosphere(1), test::cube_mesh(), test::u_shape(), test::icosphere(1, 0.01, {1e3, 0, 5})}) {
+    for (const MeshData& data :
+         {test::icosphere(1), test::cube_mesh(), test::u_shape(), test::icosphere(1, 0.01, {1e3, 0, 5})}) {
         HittableList triangles;
         for (const Index3& t : data.triangles)
-            triangles.add(std::make_shared<Triangle>(test::vertex(data, t.a), test::vertex(data, t.b), test::vertex(data, t.c), none()));
+            triangles.add(std::make_shared<Triangle>(test::vertex(data, t.a), test::vertex(data, t.b),
+                                                     test::vertex(data, t.c), none()));
         const Mesh mesh(data, none());
         const test::Targets targets = targets_of(data);
         Tally tally;
@@ -68,7 +70,8 @@ TEST_CASE("Mesh: a cube's edges, corners and face planes give t = 1 in all 96 sy
     const struct {
         Point3 origin;
         Vec3 direction;
-    } rays[] = {{{-1, 0, 0}, {1, 0, 0}}, {{-1, -1, -1}, {1, 1, 1}}, {{-1, 0.5, 0}, {1, 0, 0}}, {{-1, -1, 0}, {1, 1, 0}}};
+    } rays[] = {
+        {{-1, 0, 0}, {1, 0, 0}}, {{-1, -1, -1}, {1, 1, 1}}, {{-1, 0.5, 0}, {1, 0, 0}}, {{-1, -1, 0}, {1, 1, 0}}};
     const std::size_t permutations[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     int hits = 0, copies = 0;
     for (const auto& ray : rays) {
@@ -176,12 +179,17 @@ TEST_CASE("Mesh: triangles without area are dropped and counted, the others stay
 
 TEST_CASE("Mesh: a collinear triangle misses: pbrt's bad case", "[shape][mesh]") {
     MeshData data = one_triangle();
-    data.vertices = {{-1113.45459f, -79.049614f, -56.2431908f}, {-1113.45459f, -87.0922699f, -56.2431908f},
-                     {-1113.45459f, -79.2090149f, -56.2431908f}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    data.vertices = {{-1113.45459f, -79.049614f, -56.2431908f},
+                     {-1113.45459f, -87.0922699f, -56.2431908f},
+                     {-1113.45459f, -79.2090149f, -56.2431908f},
+                     {0, 0, 0},
+                     {1, 0, 0},
+                     {0, 1, 0}};
     data.triangles = {{0, 1, 2}, {3, 4, 5}};
     const Mesh mesh(data, none());
     CHECK(mesh.degenerate_triangles() == 1);
-    const Ray ray{.origin = {-1081.47925, 99.9999542, 87.7701111}, .direction = {-32.1072998, -183.355865, -144.607635}};
+    const Ray ray{.origin = {-1081.47925, 99.9999542, 87.7701111},
+                  .direction = {-32.1072998, -183.355865, -144.607635}};
     CHECK_FALSE(mesh.hit(ray));
 }
 
@@ -193,7 +201,8 @@ TEST_CASE("Mesh: the reported t of a skinny triangle lies within its vertices' d
         const Vec3 x = random.unit(), y = normalize(cross(x, random.unit())), n = cross(x, y);
         const Vec3 base = random.in_cube(20);
         MeshData data = one_triangle();
-        data.vertices = {test::to_float3(base), test::to_float3(base + 11.2 * x), test::to_float3(base + 9.64 * x + 0.9 * y)};
+        data.vertices = {test::to_float3(base), test::to_float3(base + 11.2 * x),
+                         test::to_float3(base + 9.64 * x + 0.9 * y)};
         const Mesh mesh(data, none());
         const double around = random.uniform(0, 2 * kPi), off = radians(0.52);
         const Vec3 d = std::cos(off) * (std::cos(around) * x + std::sin(around) * y) - std::sin(off) * n;

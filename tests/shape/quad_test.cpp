@@ -30,7 +30,8 @@ void judge_ray(Tally& tally, const Sides& s, const Ray& ray) {
 
 }  // namespace
 
-TEST_CASE("Quad: hits what exact arithmetic hits, at the same t, u, v, on random and degenerate rays", "[shape][quad]") {
+TEST_CASE("Quad: hits what exact arithmetic hits, at the same t, u, v, on random and degenerate rays",
+          "[shape][quad]") {
     Random random(40);
     const Sides fixed[] = {{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                            {{213, 554, 227}, {130, 0, 0}, {0, 0, 105}},
@@ -39,11 +40,12 @@ TEST_CASE("Quad: hits what exact arithmetic hits, at the same t, u, v, on random
                            {{2, 1, 0}, {1e4, 0, 3}, {0, 1, 1}}};
     for (int i = 0; i < 12; ++i) {
         const double scale = random.log_uniform(1e-12, 1e12);
-        const Sides s = i < 5 ? fixed[i] : Sides{Point3{} + random.in_cube(scale), random.in_cube(scale), random.in_cube(scale)};
+        const Sides s =
+            i < 5 ? fixed[i] : Sides{Point3{} + random.in_cube(scale), random.in_cube(scale), random.in_cube(scale)};
         const Point3 c = s.corner;
-        const test::Targets targets{Quad(c, s.u, s.v, nullptr).bounds(),
-                                    {c, c + s.u, c + s.v, c + s.u + s.v, c + 0.5 * s.u, c + s.u + 0.25 * s.v,
-                                     c + 0.5 * s.u + 0.5 * s.v}};
+        const test::Targets targets{
+            Quad(c, s.u, s.v, nullptr).bounds(),
+            {c, c + s.u, c + s.v, c + s.u + s.v, c + 0.5 * s.u, c + s.u + 0.25 * s.v, c + 0.5 * s.u + 0.5 * s.v}};
         Tally tally;
         for (int n = 0; n < 10000; ++n) judge_ray(tally, s, random_ray(random, targets));
         INFO("quad " << i << ": " << tally.first);
@@ -78,7 +80,8 @@ TEST_CASE("Quad: parallel or zero edges, NaN and infinity are refused by name", 
 
 TEST_CASE("Quad: it is a closed set, corners and edges are hits, its plane is not", "[shape][quad]") {
     const Quad quad({0, 0, 0}, {4, 0, 0}, {0, 2, 0}, nullptr);
-    for (const Point3 on : {Point3{0, 0, 0}, Point3{4, 0, 0}, Point3{4, 2, 0}, Point3{0, 2, 0}, Point3{2, 0, 0}, Point3{4, 1, 0}}) {
+    for (const Point3 on :
+         {Point3{0, 0, 0}, Point3{4, 0, 0}, Point3{4, 2, 0}, Point3{0, 2, 0}, Point3{2, 0, 0}, Point3{4, 1, 0}}) {
         for (const Vec3 d : {Vec3{0, 0, -1}, Vec3{1, 2, 4}, Vec3{-2, 1, -4}}) {
             const auto hit = quad.hit({.origin = on - 3 * d, .direction = d});
             REQUIRE(hit);
@@ -105,7 +108,8 @@ TEST_CASE("Quad: the range is open at t_min and closed at t_max", "[shape][quad]
 }
 
 TEST_CASE("Quad: u and v run along the edges and the normal is edge_u x edge_v", "[shape][quad]") {
-    const auto hit = Quad({1, 2, 3}, {4, 0, 0}, {1, 2, 0}, nullptr).hit({.origin = {1 + 1 + 0.75, 2 + 1.5, 8}, .direction = {0, 0, -1}});
+    const auto hit = Quad({1, 2, 3}, {4, 0, 0}, {1, 2, 0}, nullptr)
+                         .hit({.origin = {1 + 1 + 0.75, 2 + 1.5, 8}, .direction = {0, 0, -1}});
     REQUIRE(hit);
     CHECK(hit->u == Approx(0.25));
     CHECK(hit->v == Approx(0.75));
@@ -121,8 +125,9 @@ TEST_CASE("Quad: its box contains all four corners", "[shape][quad]") {
         bool inside = true;
         for (const test::Real3& p : {test::Real3(c), test::Real3(c) + test::Real3(u), test::Real3(c) + test::Real3(v),
                                      test::Real3(c) + test::Real3(u) + test::Real3(v)})
-            inside = inside && p.x >= test::Real(box.lower.x) && p.y >= test::Real(box.lower.y) && p.z >= test::Real(box.lower.z) &&
-                     p.x <= test::Real(box.upper.x) && p.y <= test::Real(box.upper.y) && p.z <= test::Real(box.upper.z);
+            inside = inside && p.x >= test::Real(box.lower.x) && p.y >= test::Real(box.lower.y) &&
+                     p.z >= test::Real(box.lower.z) && p.x <= test::Real(box.upper.x) &&
+                     p.y <= test::Real(box.upper.y) && p.z <= test::Real(box.upper.z);
         CHECK(inside);
     }
 }

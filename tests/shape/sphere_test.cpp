@@ -39,10 +39,14 @@ TEST_CASE("Sphere: hits what exact arithmetic hits, at the same t, on random and
         Point3 center0, center1;
         double radius;
     };
-    const Kind kinds[] = {{{0, 0, 0}, {0, 0, 0}, 1},        {{3, -2, 5}, {3, -2, 5}, 0.7},
-                          {{0, -1000, 0}, {0, -1000, 0}, 1000}, {{1e5, 2e5, -3e5}, {1e5, 2e5, -3e5}, 1e-2},
-                          {{1, 2, 3}, {4, -2, 1}, 1.5},      {{0, 0, 0}, {0, 0, 0}, -1},
-                          {{1e-9, 0, 0}, {1e-9, 0, 0}, 1e-12}, {{0, 0, 1e12}, {0, 1e9, 1e12}, 1e10}};
+    const Kind kinds[] = {{{0, 0, 0}, {0, 0, 0}, 1},
+                          {{3, -2, 5}, {3, -2, 5}, 0.7},
+                          {{0, -1000, 0}, {0, -1000, 0}, 1000},
+                          {{1e5, 2e5, -3e5}, {1e5, 2e5, -3e5}, 1e-2},
+                          {{1, 2, 3}, {4, -2, 1}, 1.5},
+                          {{0, 0, 0}, {0, 0, 0}, -1},
+                          {{1e-9, 0, 0}, {1e-9, 0, 0}, 1e-12},
+                          {{0, 0, 1e12}, {0, 1e9, 1e12}, 1e10}};
     for (const Kind& kind : kinds) {
         const Sphere sphere(kind.center0, kind.center1, kind.radius, nullptr);
         test::Targets targets{sphere.bounds(), {}};
@@ -50,7 +54,8 @@ TEST_CASE("Sphere: hits what exact arithmetic hits, at the same t, on random and
         for (const Point3& c : {kind.center0, kind.center1}) {
             targets.points.push_back(c);
             for (const double s : {-1.0, 1.0})
-                for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) targets.points.push_back(c + s * r * axis);
+                for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+                    targets.points.push_back(c + s * r * axis);
             for (int i = 0; i < 8; ++i) targets.points.push_back(c + r * random.unit());
         }
         std::vector<Ray> rays(15000);
@@ -248,7 +253,8 @@ TEST_CASE("Sphere: its box contains the exact moving sphere at every time", "[sh
     std::uint64_t outside = 0;
     for (int motion = 0; motion < 1000; ++motion) {
         const double scale = random.log_uniform(1e-6, 1e9);
-        const Point3 a = Point3{} + random.in_cube(scale), b = random.chance(0.2) ? a : Point3{} + random.in_cube(scale);
+        const Point3 a = Point3{} + random.in_cube(scale),
+                     b = random.chance(0.2) ? a : Point3{} + random.in_cube(scale);
         const double r = random.sign() * random.log_uniform(1e-9, 10) * scale;
         const Sphere sphere(a, b, r, nullptr);
         const Box box = sphere.bounds();

@@ -35,7 +35,8 @@ test::Targets targets_of(const Corners& k) {
 
 }  // namespace
 
-TEST_CASE("Triangle: hits what exact arithmetic hits, at the same t, u, v, on random and degenerate rays", "[shape][triangle]") {
+TEST_CASE("Triangle: hits what exact arithmetic hits, at the same t, u, v, on random and degenerate rays",
+          "[shape][triangle]") {
     Random random(30);
     const Corners fixed[] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                              {{1e5, 1e5, 1e5}, {1e5 + 1, 1e5, 1e5}, {1e5, 1e5 + 1, 1e5 - 1}},
@@ -109,7 +110,8 @@ TEST_CASE("Triangle: size does not matter, no triangle is too small or too large
         CHECK_FALSE(triangle.hit({.origin = {-s / 1e6, s / 3, -10 * s}, .direction = {0, 0, 1}}));
     }
     const double s = 2e-4;
-    const auto hit = Triangle({0, 0, 0}, {s, 0, 0}, {0, s, 0}, nullptr).hit({.origin = {s / 3, s / 3, -1}, .direction = {0, 0, 1}});
+    const auto hit =
+        Triangle({0, 0, 0}, {s, 0, 0}, {0, s, 0}, nullptr).hit({.origin = {s / 3, s / 3, -1}, .direction = {0, 0, 1}});
     REQUIRE(hit);
     CHECK(hit->t == 1);
 }

@@ -18,7 +18,9 @@ using MaterialPtr = std::shared_ptr<const Material>;
 inline MaterialPtr grey(double albedo) { return std::make_shared<Lambertian>(Color{albedo, albedo, albedo}); }
 inline MaterialPtr lamp(double radiance) { return std::make_shared<DiffuseLight>(Color{radiance, radiance, radiance}); }
 inline Object sphere(const Point3& c, double r, MaterialPtr m) { return std::make_shared<Sphere>(c, r, std::move(m)); }
-inline Object quad(const Point3& q, const Vec3& u, const Vec3& v, MaterialPtr m) { return std::make_shared<Quad>(q, u, v, std::move(m)); }
+inline Object quad(const Point3& q, const Vec3& u, const Vec3& v, MaterialPtr m) {
+    return std::make_shared<Quad>(q, u, v, std::move(m));
+}
 
 inline CompiledScene compile_with(const Background& background, const std::vector<Object>& objects) {
     Scene scene;
@@ -30,7 +32,8 @@ inline Background sky(double radiance) { return Background::constant({radiance, 
 
 inline Camera camera_at(const Point3& from, const Point3& at, double vertical_fov) {
     const bool upright = std::abs(normalize(at - from).y) < 0.9;
-    return {.look_from = from, .look_at = at, .up = upright ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, .vertical_fov = vertical_fov};
+    return {
+        .look_from = from, .look_at = at, .up = upright ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, .vertical_fov = vertical_fov};
 }
 
 inline RenderSettings square(int side, int samples, int max_depth, Estimator estimator = Estimator::path) {

@@ -49,16 +49,22 @@ inline Object ball(const Point3& c, double r) { return std::make_shared<Sphere>(
 inline Object random_shape(Random& random, std::size_t kind, double spread = 5) {
     const Point3 p = Point3{} + random.in_cube(spread);
     switch (kind) {
-        case 0: return ball(p, random.sign() * random.uniform(0.1, 1.5));
-        case 1: return std::make_shared<Sphere>(p, p + random.in_cube(2), random.uniform(0.1, 1), nullptr);
-        case 2: return std::make_shared<Triangle>(p, p + random.in_cube(3), p + random.in_cube(3), nullptr);
-        case 3: return std::make_shared<Quad>(p, random.in_cube(3), random.in_cube(3), nullptr);
-        default: return std::make_shared<Mesh>(icosphere(1, random.uniform(0.2, 2), p - Point3{}), nullptr);
+        case 0:
+            return ball(p, random.sign() * random.uniform(0.1, 1.5));
+        case 1:
+            return std::make_shared<Sphere>(p, p + random.in_cube(2), random.uniform(0.1, 1), nullptr);
+        case 2:
+            return std::make_shared<Triangle>(p, p + random.in_cube(3), p + random.in_cube(3), nullptr);
+        case 3:
+            return std::make_shared<Quad>(p, random.in_cube(3), random.in_cube(3), nullptr);
+        default:
+            return std::make_shared<Mesh>(icosphere(1, random.uniform(0.2, 2), p - Point3{}), nullptr);
     }
 }
 
 inline Transform random_pose(Random& random, double spread = 4) {
-    const double x = random.sign() * random.log_uniform(0.3, 3), y = random.log_uniform(0.3, 3), z = random.log_uniform(0.3, 3);
+    const double x = random.sign() * random.log_uniform(0.3, 3), y = random.log_uniform(0.3, 3),
+                 z = random.log_uniform(0.3, 3);
     return Transform::translate(random.in_cube(spread)) * Transform::rotate(random.unit(), random.uniform(0, 360)) *
            Transform::scale(x, y, z);
 }
@@ -94,7 +100,8 @@ inline void aim_at_boxes(ZooScene& zoo) {
         const Box b = object->bounds();
         if (b.is_empty() || !is_finite(b.lower) || !is_finite(b.upper)) continue;
         zoo.targets.region.extend(b);
-        zoo.targets.points.insert(zoo.targets.points.end(), {b.center(), b.lower, b.upper, {b.center().x, b.upper.y, b.center().z}});
+        zoo.targets.points.insert(zoo.targets.points.end(),
+                                  {b.center(), b.lower, b.upper, {b.center().x, b.upper.y, b.center().z}});
     }
     if (zoo.targets.points.empty()) zoo.targets = {{{-1, -1, -1}, {1, 1, 1}}, {{0, 0, 0}}};
 }
@@ -116,9 +123,15 @@ inline ZooScene zoo_of_kind(const std::string& name, std::size_t kind, std::size
         const Point3 p = Point3{} + random.in_cube(5);
         const Vec3 e = random.in_cube(3), f = random.in_cube(3);
         switch (kind) {
-            case 2: objects.push_back(std::make_shared<Triangle>(p, p + e, p + f, nullptr)); break;
-            case 3: objects.push_back(std::make_shared<Quad>(p, e, f, nullptr)); break;
-            default: objects.push_back(random_shape(random, kind)); break;
+            case 2:
+                objects.push_back(std::make_shared<Triangle>(p, p + e, p + f, nullptr));
+                break;
+            case 3:
+                objects.push_back(std::make_shared<Quad>(p, e, f, nullptr));
+                break;
+            default:
+                objects.push_back(random_shape(random, kind));
+                break;
         }
         if (kind == 2 || kind == 3) points.insert(points.end(), {p, p + e, p + f, p + 0.5 * e, p + e + f});
         if (i % 10 == 9) objects.push_back(objects[i / 2]);
@@ -135,8 +148,9 @@ inline ZooScene zoo_mesh() {
         data.uvs.push_back({p.x, p.y});
     }
     data.triangles.insert(data.triangles.begin() + 7, {{0, 0, 1}, {5, 5, 5}});  // without area
-    ZooScene zoo = zoo_of("mesh", {std::make_shared<Mesh>(data, nullptr), std::make_shared<Mesh>(cube_mesh(4, {-2, -2, -2}), nullptr),
-                                   std::make_shared<Mesh>(u_shape(), nullptr)});
+    ZooScene zoo = zoo_of(
+        "mesh", {std::make_shared<Mesh>(data, nullptr), std::make_shared<Mesh>(cube_mesh(4, {-2, -2, -2}), nullptr),
+                 std::make_shared<Mesh>(u_shape(), nullptr)});
     for (std::uint32_t i = 0; i < data.vertices.size(); ++i) zoo.targets.points.push_back(vertex(data, i));
     for (std::uint32_t i = 0; i < 16; ++i) zoo.targets.points.push_back(vertex(u_shape(), i));
     return zoo;
@@ -161,13 +175,18 @@ inline ZooScene zoo_instances() {
 /// Boundaries of media: convex, not convex, hollow, nested, instanced, shared, from a user's own shape.
 inline ZooScene zoo_media() {
     const Object u = std::make_shared<Mesh>(u_shape(), nullptr);
-    const auto fog = [](const Object& boundary) { return std::make_shared<ConstantMedium>(boundary, 0.5, Color{0.5, 0.5, 0.5}); };
+    const auto fog = [](const Object& boundary) {
+        return std::make_shared<ConstantMedium>(boundary, 0.5, Color{0.5, 0.5, 0.5});
+    };
     const Object shell = std::make_shared<HittableList>(std::vector<Object>{ball({0, 0, 0}, 2), ball({0, 0, 0}, -1)});
-    return zoo_of("media", {fog(ball({0, 0, 0}, 3)), ball({0, 0, 0}, 1), fog(u),
-                            std::make_shared<Instance>(fog(u), Transform::translate({-3, 0, 0}) * Transform::rotate_y(30)),
-                            fog(std::make_shared<Instance>(u, Transform::translate({1, -2, 0}), Transform::translate({2, -2, 0}))),
-                            fog(shell), fog(std::make_shared<Stranger>(shell)),
-                            std::make_shared<HittableList>(std::vector<Object>{ball({5, 5, 0}, 1), fog(make_box({-5, -5, -5}, {-3, -3, -3}, nullptr))})});
+    return zoo_of(
+        "media",
+        {fog(ball({0, 0, 0}, 3)), ball({0, 0, 0}, 1), fog(u),
+         std::make_shared<Instance>(fog(u), Transform::translate({-3, 0, 0}) * Transform::rotate_y(30)),
+         fog(std::make_shared<Instance>(u, Transform::translate({1, -2, 0}), Transform::translate({2, -2, 0}))),
+         fog(shell), fog(std::make_shared<Stranger>(shell)),
+         std::make_shared<HittableList>(
+             std::vector<Object>{ball({5, 5, 0}, 1), fog(make_box({-5, -5, -5}, {-3, -3, -3}, nullptr))})});
 }
 
 inline ZooScene zoo_strangers() {
@@ -192,8 +211,11 @@ inline ZooScene zoo_mixed(std::uint64_t seed) {
 /// A millimetre of mesh a hundred kilometres out, inside a huge ground sphere, among small balls.
 inline ZooScene zoo_scales() {
     Random random(207);
-    std::vector<Object> objects{ball({0, -1e6, 0}, 1e6), std::make_shared<Mesh>(icosphere(1, 1e-3, {1e5, 0, 0}), nullptr)};
-    for (int i = 0; i < 200; ++i) objects.push_back(ball(Point3{1e5, 0, 0} + random.in_cube(random.log_uniform(1e-2, 10)), random.log_uniform(1e-4, 1e-1)));
+    std::vector<Object> objects{ball({0, -1e6, 0}, 1e6),
+                                std::make_shared<Mesh>(icosphere(1, 1e-3, {1e5, 0, 0}), nullptr)};
+    for (int i = 0; i < 200; ++i)
+        objects.push_back(
+            ball(Point3{1e5, 0, 0} + random.in_cube(random.log_uniform(1e-2, 10)), random.log_uniform(1e-4, 1e-1)));
     ZooScene zoo = zoo_of("scales", objects);
     zoo.targets.region = {{1e5 - 10, -10, -10}, {1e5 + 10, 10, 10}};
     return zoo;

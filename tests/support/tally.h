@@ -27,8 +27,8 @@ struct Tally {
     }
 };
 
-/// Whether a hit lies at the ray's very origin, so near that its t is nothing but the rounding of the coordinates: which
-/// of several such surfaces comes first is then open.
+/// Whether a hit lies at the ray's very origin, so near that its t is nothing but the rounding of the coordinates:
+/// which of several such surfaces comes first is then open.
 inline bool is_at_origin(const Ray& ray, double t) {
     const double largest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
     return std::abs(t) * length(ray.direction) <= 1e-13 * largest;

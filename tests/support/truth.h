@@ -100,9 +100,10 @@ inline Truth true_sphere_hit(const Point3& center, double radius, const Ray& ray
     return truth;
 }
 
-/// corner + u edge_u + v edge_v = origin + t direction by Cramer's rule. `triangle`: u, v >= 0 and u + v <= 1; else both
-/// in [0, 1].
-inline Truth true_planar_hit(const Real3& corner, const Real3& edge_u, const Real3& edge_v, bool triangle, const Ray& ray) {
+/// corner + u edge_u + v edge_v = origin + t direction by Cramer's rule. `triangle`: u, v >= 0 and u + v <= 1; else
+/// both in [0, 1].
+inline Truth true_planar_hit(const Real3& corner, const Real3& edge_u, const Real3& edge_v, bool triangle,
+                             const Ray& ray) {
     const Real3 d(ray.direction), q = Real3(ray.origin) - corner;
     Real determinant = -dot(cross(edge_u, edge_v), d);
     Real u = -dot(cross(q, edge_v), d), v = -dot(cross(edge_u, q), d), t = dot(cross(edge_u, edge_v), q);
@@ -163,7 +164,8 @@ inline void judge(Tally& tally, const Ray& ray, const Truth& truth, const std::o
 inline void judge_uv(Tally& tally, const Ray& ray, const Truth& truth, const std::optional<Hit>& hit) {
     if (truth.verdict != Truth::Verdict::hit || !hit) return;
     const Real allowed = truth.uv_error + Real(0x1p-23);
-    if (absolute(Real(hit->u) - truth.u) > allowed || absolute(Real(hit->v) - truth.v) > allowed) tally.fault(ray, "u, v");
+    if (absolute(Real(hit->u) - truth.u) > allowed || absolute(Real(hit->v) - truth.v) > allowed)
+        tally.fault(ray, "u, v");
 }
 
 inline Real3 transform_point(const Transform& m, const Real3& p) {
