@@ -23,7 +23,7 @@ Figure fig01_bouncing_spheres(const FigureInputs&) {
     return {.name = __func__,
             .scene = std::move(scene),
             .camera = {.look_from = {13, 2, 3}, .vertical_fov = 20, .aperture_angle = 0.6, .focus_distance = 10},
-            .settings = {.samples_per_pixel = 200}};
+            .settings = {.samples_per_pixel = 250}};
 }
 
 }  // namespace limn::figures

@@ -15,7 +15,7 @@ Figure fig12_emissive(const FigureInputs&) {
     return {.name = __func__,
             .scene = std::move(scene),
             .camera = {.look_from = {26, 3, 6}, .look_at = {0, 2, 0}, .vertical_fov = 20},
-            .settings = {.samples_per_pixel = 400}};
+            .settings = {.samples_per_pixel = 300}};
 }
 
 }  // namespace limn::figures

@@ -17,7 +17,7 @@ Figure fig13_dielectric(const FigureInputs&) {
     return {.name = __func__,
             .scene = std::move(scene),
             .camera = {.look_from = {-2, 2, 1}, .look_at = {0, 0, -1}, .vertical_fov = 35},
-            .settings = {.samples_per_pixel = 300}};
+            .settings = {.samples_per_pixel = 400}};
 }
 
 }  // namespace limn::figures

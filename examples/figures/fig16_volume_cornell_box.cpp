@@ -13,7 +13,7 @@ Figure fig16_volume_cornell_box(const FigureInputs&) {
     return {.name = __func__,
             .scene = std::move(scene),
             .camera = cornell_camera(),
-            .settings = {.samples_per_pixel = 500}};
+            .settings = {.samples_per_pixel = 100}};
 }
 
 }  // namespace limn::figures

@@ -100,14 +100,24 @@ void gather_features(flat::Scene& s) {
     }
 }
 
+// Shapes that can be seen but have no material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
-    const auto missing = [](const auto& rows) {
-        return static_cast<std::size_t>(
-            std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.material == MaterialId::none; }));
-    };
-    s.unassigned = missing(s.spheres) + missing(s.moving_spheres) + missing(s.triangles) + missing(s.quads);
-    for (const flat::Mesh& mesh : s.meshes)
-        s.unassigned += static_cast<std::size_t>(std::count(mesh.materials.begin(), mesh.materials.end(), MaterialId::none));
+    std::vector<bool> seen(s.groups.size(), false);
+    std::vector<GroupId> open{GroupId::root};
+    while (!open.empty()) {
+        const auto id = static_cast<std::size_t>(open.back());
+        open.pop_back();
+        if (seen[id]) continue;
+        seen[id] = true;
+        for (std::uint32_t i = 0; i < s.groups[id].range_count; ++i) {
+            const PrimitiveRange& range = s.ranges[s.groups[id].first_range + i];
+            if (range.kind == PrimitiveKind::instance) open.push_back(s.instances[range.first_row].group);
+            const bool has_row = range.kind != PrimitiveKind::instance && range.kind != PrimitiveKind::medium &&
+                                 range.kind != PrimitiveKind::foreign;
+            for (std::uint64_t e = 0; has_row && e < range.count; ++e)
+                s.unassigned += flat::material_of(s, range, e) == MaterialId::none ? 1 : 0;
+        }
+    }
 }
 
 std::size_t memory_of(const flat::Scene& s) {

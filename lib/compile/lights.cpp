@@ -65,31 +65,13 @@ private:
         return id == MaterialId::none ? 0 : brightness_[static_cast<std::size_t>(id)];
     }
 
-    MaterialId material_of(const PrimitiveRange& range, std::uint64_t element) const {
-        const auto row = range.first_row + element;
-        switch (range.kind) {
-            case PrimitiveKind::sphere: return scene_.spheres[row].material;
-            case PrimitiveKind::moving_sphere: return scene_.moving_spheres[row].material;
-            case PrimitiveKind::triangle: return scene_.triangles[row].material;
-            case PrimitiveKind::quad: return scene_.quads[row].material;
-            case PrimitiveKind::mesh: {
-                const flat::Mesh& mesh = scene_.meshes[range.first_row];
-                return mesh.materials[mesh.arrays.material_slots.empty() ? 0 : mesh.arrays.material_slots[element]];
-            }
-            case PrimitiveKind::instance:
-            case PrimitiveKind::medium:
-            case PrimitiveKind::foreign: break;
-        }
-        return MaterialId::none;
-    }
-
     bool any_emits(const PrimitiveRange& range) const {
         if (range.kind == PrimitiveKind::mesh) {
             const auto& ids = scene_.meshes[range.first_row].materials;
             return std::any_of(ids.begin(), ids.end(), [&](MaterialId id) { return brightness(id) > 0; });
         }
         for (std::uint64_t i = 0; i < range.count; ++i)
-            if (brightness(material_of(range, i)) > 0) return true;
+            if (brightness(material_of(scene_, range, i)) > 0) return true;
         return false;
     }
 
@@ -111,7 +93,7 @@ private:
     void add(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number, const Transform& m) {
         flat::Light light;
         light.number = number;
-        light.material = material_of(range, element);
+        light.material = material_of(scene_, range, element);
         if (!(brightness(light.material) > 0)) return;
         const auto row = range.first_row + element;
         const auto sphere = [&](const Point3& center, const Vec3& motion, double radius) {

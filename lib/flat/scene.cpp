@@ -27,4 +27,22 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
     }
 }
 
+MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element) {
+    const auto row = range.first_row + element;
+    switch (range.kind) {
+        case PrimitiveKind::sphere: return scene.spheres[row].material;
+        case PrimitiveKind::moving_sphere: return scene.moving_spheres[row].material;
+        case PrimitiveKind::triangle: return scene.triangles[row].material;
+        case PrimitiveKind::quad: return scene.quads[row].material;
+        case PrimitiveKind::mesh: {
+            const Mesh& mesh = scene.meshes[range.first_row];
+            return mesh.materials[mesh.arrays.material_slots.empty() ? 0 : mesh.arrays.material_slots[element]];
+        }
+        case PrimitiveKind::instance:
+        case PrimitiveKind::medium:
+        case PrimitiveKind::foreign: break;
+    }
+    return MaterialId::none;
+}
+
 }  // namespace limn::flat

@@ -152,6 +152,9 @@ struct Place {
 // \pre number < primitives of the group
 Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::root);
 
+// Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
+MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
+
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 
 }  // namespace limn::flat

@@ -9,11 +9,9 @@
 #define STBI_ONLY_TGA
 #include <stb_image.h>
 
+#include <algorithm>
 #include <cstring>
-#include <limits>
 #include <memory>
-#include <string_view>
-#include <type_traits>
 
 #include "io/decode_stb.h"
 #include "io/png_chunks.h"
@@ -42,13 +40,59 @@ void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
     }
 }
 
+// Hands the bytes out and notes whether more were asked for: stb fills what is missing with zeros and says nothing.
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes), is_hdr_(is_hdr(bytes)) {}
+    bool overran() const { return overran_; }
+
+    static constexpr stbi_io_callbacks callbacks() {
+        return {[](void* reader, char* to, int size) { return static_cast<Reader*>(reader)->read(to, size); },
+                [](void* reader, int count) { static_cast<Reader*>(reader)->skip(count); },
+                [](void* reader) { return static_cast<int>(static_cast<Reader*>(reader)->rest_.empty()); }};
+    }
+
+private:
+    static bool is_hdr(std::span<const std::byte> bytes) {
+        return bytes.size() >= 2 && std::memcmp(bytes.data(), "#?", 2) == 0;
+    }
+    int read(char* to, int size) {
+        const std::size_t count = std::min(rest_.size(), static_cast<std::size_t>(size));
+        if (count > 0) std::memcpy(to, rest_.data(), count);
+        rest_ = rest_.subspan(count);
+        if (count > 0) return static_cast<int>(count);
+        overran_ = true;
+        // With zeros behind its end stb would unpack an HDR for ever; line feeds end its header and fill its rows.
+        if (!is_hdr_) return 0;
+        std::memset(to, '\n', static_cast<std::size_t>(size));
+        return size;
+    }
+    void skip(int count) {
+        const std::size_t forward = static_cast<std::size_t>(std::max(count, 0));
+        overran_ = overran_ || forward > rest_.size();
+        rest_ = rest_.subspan(std::min(rest_.size(), forward));
+    }
+
+    std::span<const std::byte> rest_;
+    bool is_hdr_, overran_ = false;
+};
+
+// Calls one of stb's functions on the bytes from their beginning.
+template <class Function, class... Arguments>
+auto call(Function function, Reader reader, Arguments... arguments) {
+    const stbi_io_callbacks callbacks = Reader::callbacks();
+    return function(&callbacks, &reader, arguments...);
+}
+
 template <class T, class Load>
 void read_values(std::span<const std::byte> bytes, StoredImage& image, const std::string& name, Load load) {
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    Reader reader(bytes);
+    const stbi_io_callbacks callbacks = Reader::callbacks();
     int channels_in_file;
-    const std::unique_ptr<T, decltype([](T* p) { stbi_image_free(p); })> values(load(
-        data, static_cast<int>(bytes.size()), &image.width, &image.height, &channels_in_file, image.channels));
+    const std::unique_ptr<T, decltype([](T* p) { stbi_image_free(p); })> values(
+        load(&callbacks, &reader, &image.width, &image.height, &channels_in_file, image.channels));
     if (!values) throw FileError(name, std::string("cannot be read: ") + stbi_failure_reason());
+    if (reader.overran()) throw FileError(name, "is an image that breaks off before its end");
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                               static_cast<std::size_t>(image.channels);
     image.values = std::vector<T>(values.get(), values.get() + count);
@@ -56,34 +100,20 @@ void read_values(std::span<const std::byte> bytes, StoredImage& image, const std
 
 }  // namespace
 
-void require_whole_jpeg(std::span<const std::byte> bytes, const std::string& name) {
-    const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (!file.starts_with("\xff\xd8")) return;
-    // ITU-T T.81, table B.1: within the data of a scan, neither marker occurs.
-    const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
-    if (end == std::string_view::npos || (scan != std::string_view::npos && end < scan))
-        throw FileError(name, "is a JPEG that breaks off before its end");
-}
-
 StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
-    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw FileError(name, "is larger than 2 GiB");
-    require_whole_jpeg(bytes, name);
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int size = static_cast<int>(bytes.size());
     StoredImage image;
     int channels_in_file;
-    if (!stbi_info_from_memory(data, size, &image.width, &image.height, &channels_in_file))
+    if (!call(stbi_info_from_callbacks, Reader(bytes), &image.width, &image.height, &channels_in_file))
         throw FileError(name, std::string("is not a readable image: ") + stbi_failure_reason());
     image.channels = channels_in_file < 3 ? 1 : 3;  // alpha is left out
     read_png_header(bytes, image);
-    if (stbi_is_hdr_from_memory(data, size)) {
+    if (call(stbi_is_hdr_from_callbacks, Reader(bytes))) {
         image.transfer = Transfer::linear;
-        read_values<float>(bytes, image, name, stbi_loadf_from_memory);
-    } else if (stbi_is_16_bit_from_memory(data, size)) {
-        read_values<std::uint16_t>(bytes, image, name, stbi_load_16_from_memory);
+        read_values<float>(bytes, image, name, stbi_loadf_from_callbacks);
+    } else if (call(stbi_is_16_bit_from_callbacks, Reader(bytes))) {
+        read_values<std::uint16_t>(bytes, image, name, stbi_load_16_from_callbacks);
     } else {
-        read_values<std::uint8_t>(bytes, image, name, stbi_load_from_memory);
+        read_values<std::uint8_t>(bytes, image, name, stbi_load_from_callbacks);
     }
     return image;
 }

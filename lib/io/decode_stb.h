@@ -9,7 +9,4 @@ namespace limn {
 // Decodes a PNG, JPEG, HDR, BMP or TGA file in memory. \throws FileError naming `name`
 StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name);
 
-// Decoders fill a JPEG that breaks off with grey and say nothing. \throws FileError if its end marker is missing
-void require_whole_jpeg(std::span<const std::byte> bytes, const std::string& name);
-
 }  // namespace limn

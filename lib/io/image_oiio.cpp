@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <string_view>
 
-#include "io/decode_stb.h"
 #include "io/image_codec.h"
 #include "io/read_file.h"
 #include "limn/core/error.h"
@@ -72,6 +72,14 @@ void require_plausible(const ImageSpec& spec, std::uintmax_t file_bytes, const s
     if (bytes > kHarmless && bytes > kBestPacking * static_cast<double>(file_bytes))
         throw FileError(path, "is too short for a picture of " + std::to_string(spec.width) + " x " +
                                   std::to_string(spec.height));
+}
+
+// libjpeg fills what is missing with grey and says nothing.
+void require_whole_jpeg(std::string_view file, const std::string& path) {
+    // ITU-T T.81, table B.1: neither marker occurs within the data of a scan.
+    const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
+    if (end == std::string_view::npos || (scan != std::string_view::npos && end < scan))
+        throw FileError(path, "is a JPEG that breaks off before its end");
 }
 
 void read_transfer(const ImageSpec& spec, StoredImage& image) {
@@ -159,10 +167,7 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
 StoredImage decode_file(const std::string& path) {
     require_readable(path);
     const std::unique_ptr<ImageInput> input = open(path, path);
-    if (std::strcmp(input->format_name(), "jpeg") == 0) {
-        const std::string file = read_file(path);
-        require_whole_jpeg(std::as_bytes(std::span(file)), path);
-    }
+    if (std::strcmp(input->format_name(), "jpeg") == 0) require_whole_jpeg(read_file(path), path);
     std::error_code unknown;
     return read(*input, std::filesystem::file_size(path, unknown), path);
 }

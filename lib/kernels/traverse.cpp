@@ -15,7 +15,7 @@ namespace {
 
 // What to do with hits. `limit` is the t beyond which nothing matters; `report` returns true to end the search.
 struct Closest {
-    static constexpr bool kEveryHit = false;
+    static constexpr bool kEveryHit = false, kThroughBoundaries = false;
     flat::RawHit best;
 
     double limit() const { return best.t; }
@@ -25,8 +25,9 @@ struct Closest {
     }
 };
 
+template <bool kThrough>
 struct Any {
-    static constexpr bool kEveryHit = false;
+    static constexpr bool kEveryHit = false, kThroughBoundaries = kThrough;
     double t_max;
     bool found = false;
 
@@ -35,7 +36,7 @@ struct Any {
 };
 
 struct Every {
-    static constexpr bool kEveryHit = true;
+    static constexpr bool kEveryHit = true, kThroughBoundaries = false;
     double t_max;
     std::vector<Crossing>& crossings;
 
@@ -172,8 +173,9 @@ private:
         ForeignHit hit;
         while (shape.hit(*shape.object, rest, hit)) {
             if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
-            if (query_.report(hit.t, number, inward(Vec3(hit.normal)))) return true;
-            if constexpr (!Query::kEveryHit) return false;
+            const bool passes = Query::kThroughBoundaries && hit.index_matched;
+            if (!passes && query_.report(hit.t, number, inward(Vec3(hit.normal)))) return true;
+            if (!passes && !Query::kEveryHit) return false;
             rest.t_min = hit.t;
         }
         return false;
@@ -245,7 +247,13 @@ Ray enter_instance(const flat::Instance& instance, const Ray& ray) {
 flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, ray, 0); }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
-    Any query{ray.t_max};
+    Any<false> query{ray.t_max};
+    search(scene, GroupId::root, ray, 0, query);
+    return query.found;
+}
+
+bool is_occluded(const flat::Scene& scene, const Ray& ray) {
+    Any<true> query{ray.t_max};
     search(scene, GroupId::root, ray, 0, query);
     return query.found;
 }

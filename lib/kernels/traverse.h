@@ -13,6 +13,9 @@ namespace limn::kernels {
 flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
 
+// Whether something stops light on the way: a foreign shape that says its boundary is index-matched does not.
+bool is_occluded(const flat::Scene& scene, const Ray& ray);
+
 // The same for the boundary of a medium.
 flat::RawHit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
 

@@ -118,7 +118,7 @@ Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampl
     if (is_black(emission)) return {};
     const Ray shadow = vertex.surface.spawn_ray_to(s->point, time);
     ++rays_;
-    if (!is_usable(shadow) || kernels::any_hit(scene_, shadow)) return {};
+    if (!is_usable(shadow) || kernels::is_occluded(scene_, shadow)) return {};
     double transmittance = 1;
     if (!scene_.media.empty()) {
         media_.trace(scene_, shadow);

@@ -9,8 +9,6 @@ namespace limn::tracing {
 
 namespace {
 
-MaterialRef table_material(MaterialId id) { return {static_cast<std::uint32_t>(id), nullptr, nullptr}; }
-
 // A hit in the primitive's own space. Normals are outward.
 struct LocalHit {
     Point3 position;
@@ -22,14 +20,13 @@ struct LocalHit {
     bool index_matched = false;
 };
 
-LocalHit on_sphere(const Point3& center, double radius, MaterialId material, const Ray& ray, double t) {
+LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t) {
     const Vec3 outward = sphere_normal(center, ray, t);
     LocalHit hit;
     hit.position = center + std::abs(radius) * outward;
     hit.position_error = sphere_error(center, radius);
     hit.normal = hit.shading_normal = Normal3(radius < 0 ? -outward : outward);
     hit.uv = sphere_uv(Vec3(hit.normal));
-    hit.material = table_material(material);
     return hit;
 }
 
@@ -54,8 +51,6 @@ LocalHit on_mesh(const flat::Mesh& mesh, std::uint64_t element, const Ray& ray) 
     LocalHit hit = on_triangle(triangle_vertices(mesh.arrays, element), ray, planar);
     hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
     hit.uv = texture_coordinates(mesh.arrays, element, planar);
-    const auto& slots = mesh.arrays.material_slots;
-    hit.material = table_material(mesh.materials[slots.empty() ? 0 : slots[element]]);
     return hit;
 }
 
@@ -82,26 +77,22 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
     switch (range.kind) {
         case PrimitiveKind::sphere: {
             const flat::Sphere& s = scene.spheres[row];
-            return on_sphere(s.center, s.radius, s.material, ray, t);
+            return on_sphere(s.center, s.radius, ray, t);
         }
         case PrimitiveKind::moving_sphere: {
             const flat::MovingSphere& s = scene.moving_spheres[row];
-            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, s.material, ray, t);
+            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, t);
         }
         case PrimitiveKind::triangle: {
             const flat::Triangle& triangle = scene.triangles[row];
             PlanarHit planar;
-            LocalHit hit = on_triangle({triangle.a, triangle.b, triangle.c}, ray, planar);
-            hit.material = table_material(triangle.material);
-            return hit;
+            return on_triangle({triangle.a, triangle.b, triangle.c}, ray, planar);
         }
         case PrimitiveKind::quad: {
             const flat::Quad& q = scene.quads[row];
             PlanarHit planar{};
             intersect_quad(q.corner, q.edge_u, q.edge_v, ShearedRay(ray), -kInfinity, kInfinity, planar);
-            LocalHit hit = on_plane(q.corner, q.edge_u, q.edge_v, planar);
-            hit.material = table_material(q.material);
-            return hit;
+            return on_plane(q.corner, q.edge_u, q.edge_v, planar);
         }
         case PrimitiveKind::mesh: return on_mesh(scene.meshes[range.first_row], place.element, ray);
         case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], ray, t);
@@ -132,6 +123,9 @@ SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawH
     for (std::uint32_t i = 0; i < place.depth; ++i)
         local = kernels::enter_instance(scene.instances[place.instances[i]], local);
     LocalHit hit = on_primitive(scene, place, local, raw.t);
+    const PrimitiveRange& range = scene.ranges[place.range];
+    if (range.kind != PrimitiveKind::foreign)
+        hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));
     // Decided in the primitive's own space, where no transform has rounded.
     const bool front = dot(hit.normal, local.direction) < 0;
     for (std::uint32_t i = place.depth; i-- > 0;) leave_instance(scene.instances[place.instances[i]], ray.time, hit);
