@@ -17,6 +17,9 @@ function(limn_target_defaults target)
     # g++ 12 sees overlapping copies in "literal" + std::string where there are none (GCC bug 105651).
     target_compile_options(${target} PRIVATE
         $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+    # g++ 12, at -O2 and up, loses the rounding in double(float(x)) where it packs neighbouring values into vectors; boxes
+    # that are rounded outward would no longer enclose what they must.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
     if(LIMN_WARNINGS_AS_ERRORS)
         target_compile_options(${target} PRIVATE -Werror)
     endif()

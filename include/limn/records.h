@@ -34,14 +34,14 @@ enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence
 
 struct TextureRecord {
     TextureKind kind = TextureKind::solid;
-    Filter filter = Filter::bilinear;     // image
-    Wrap wrap = Wrap::repeat;             // image
-    std::uint32_t data = 0;               // row of SceneRecords::images or ::lattices
-    TextureId even = TextureId::none;     // checker
-    TextureId odd = TextureId::none;      // checker
-    double scale = 1;                     // checker: side of a cell; noises: frequency
-    Color color;                          // solid: the colour; noises: multiplies
-    const Texture* object = nullptr;      // foreign
+    Filter filter = Filter::bilinear;                          // image
+    Wrap wrap = Wrap::repeat;                                  // image
+    std::uint32_t data = 0;                                    // row of SceneRecords::images or ::lattices
+    TextureId even = TextureId::none;                          // checker
+    TextureId odd = TextureId::none;                           // checker
+    double scale = 1;                                          // checker: side of a cell; noises: frequency
+    Color color;                                               // solid: the colour; noises: multiplies
+    const Texture* object = nullptr;                           // foreign
     Color (*value)(const Texture&, const Surface&) = nullptr;  // foreign
 };
 static_assert(sizeof(TextureRecord) == 64);
@@ -116,9 +116,9 @@ struct MediumRecord {
 /// What a foreign shape's intersection tells.
 struct ForeignHit {
     double t = 0;
-    Normal3 normal;           // outward, unit
-    Normal3 shading_normal;   // zero: same as normal
-    Vec3 position_error;      // beyond the rounding of origin + t direction
+    Normal3 normal;          // outward, unit
+    Normal3 shading_normal;  // zero: same as normal
+    Vec3 position_error;     // beyond the rounding of origin + t direction
     double u = 0, v = 0;
     Uv uv;
     MaterialRef material;

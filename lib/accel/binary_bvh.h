@@ -33,8 +33,8 @@ inline constexpr int kMaxDepth = 96;
 // 2007).
 BinaryBvh build_binary_bvh(std::span<const Box> boxes);
 
-// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first. `visit` returns the t beyond which
-// the rest does not matter.
+// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first. `visit` returns the t beyond
+// which the rest does not matter.
 template <class Visit>
 void for_each_met(const BinaryBvh& bvh, const Ray& ray, const Visit& visit) {
     if (bvh.nodes.empty()) return;

@@ -11,9 +11,9 @@
 
 namespace limn::accel {
 
-// Traversal compares where a ray enters a box with the t of hits found elsewhere, and a hit's t carries a rounding of its
-// own: relative to the coordinates that it was computed from, not to t. So t_min and t_max count as wider by this much
-// of the largest coordinate, in units of t. It only costs a visit now and then.
+// Traversal compares where a ray enters a box with the t of hits found elsewhere, and a hit's t carries a rounding of
+// its own: relative to the coordinates that it was computed from, not to t. So t_min and t_max count as wider by this
+// much of the largest coordinate, in units of t. It only costs a visit now and then.
 inline constexpr double kSlack = 0x1p-44;
 
 struct SlabRay {

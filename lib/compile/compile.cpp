@@ -73,8 +73,10 @@ void gather_features(flat::Scene& s) {
     for (const TextureRecord& t : s.textures) {
         f.textures |= t.kind != TextureKind::solid;
         f.foreign_textures |= t.kind == TextureKind::foreign;
+        f.texture_coordinates |= t.kind == TextureKind::image;
     }
     for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == MaterialKind::foreign;
+    f.texture_coordinates |= f.foreign_textures || f.foreign_materials || f.foreign_shapes;
     f.lights = !s.lights.empty();
     f.background = !is_black(s.background_bottom) || !is_black(s.background_top);
 
@@ -127,8 +129,9 @@ std::size_t memory_of(const flat::Scene& s) {
                       bytes(s.references) + bytes(s.nodes) + bytes(s.first_of_object) + bytes(s.medium_shapes) +
                       bytes(s.media) + bytes(s.lights) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept);
     for (const flat::Mesh& mesh : s.meshes)
-        sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() + mesh.arrays.normals.size_bytes() +
-               mesh.arrays.uvs.size_bytes() + mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials);
+        sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
+               mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +
+               mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials);
     for (const auto& image : s.images) sum += image->values().size_bytes();
     return sum + s.lattices.size() * sizeof(PerlinLattice);
 }

@@ -166,7 +166,8 @@ class MediumPlacer {
 public:
     explicit MediumPlacer(flat::Scene& scene)
         : scene_(scene),
-          holds_media_(groups_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; })) {
+          holds_media_(
+              groups_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; })) {
         visit(GroupId::root, 0);
     }
 

@@ -18,8 +18,7 @@ double typical_brightness(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     switch (t.kind) {
         case TextureKind::solid: return max_component(t.color);
-        case TextureKind::checker:
-            return (typical_brightness(scene, t.even) + typical_brightness(scene, t.odd)) / 2;
+        case TextureKind::checker: return (typical_brightness(scene, t.even) + typical_brightness(scene, t.odd)) / 2;
         case TextureKind::image: {
             const auto values = scene.images[t.data]->values();
             double sum = 0;

@@ -29,31 +29,15 @@ inline SphereRoots sphere_roots_in_range(const Vec3& from_center, double radius,
     return outer < inner ? SphereRoots{true, outer, inner} : SphereRoots{true, inner, outer};
 }
 
+// The same where squares of the lengths would overflow or underflow.
+SphereRoots sphere_roots_scaled(const Vec3& from_center, double radius, const Vec3& direction);
+
 inline SphereRoots sphere_roots(const Point3& center, double radius, const Ray& ray) {
     const Vec3 from_center = ray.origin - center;
-    const double squares[3] = {dot(ray.direction, ray.direction), dot(from_center, from_center), radius * radius};
-    const auto safe = [](double x) { return x > 1e-140 && x < 1e140; };
-    if (safe(squares[0]) && (safe(squares[1]) || from_center == Vec3{}) && safe(squares[2]))
+    const double a = dot(ray.direction, ray.direction), b = dot(from_center, from_center), c = radius * radius;
+    if (a > 1e-140 && a < 1e140 && (b > 1e-140 || b == 0) && b < 1e140 && c > 1e-140 && c < 1e140)
         return sphere_roots_in_range(from_center, radius, ray.direction);
-    // Squares would overflow or underflow: scale lengths and the direction by powers of two, which is exact.
-    const auto exponent = [](const Vec3& v) {
-        int e = 0;
-        std::frexp(max_abs(v), &e);
-        return e;
-    };
-    const auto scaled = [](const Vec3& v, int e) {
-        return Vec3{std::ldexp(v.x, -e), std::ldexp(v.y, -e), std::ldexp(v.z, -e)};
-    };
-    int length_exponent = 0;
-    std::frexp(radius, &length_exponent);
-    length_exponent = from_center == Vec3{} ? length_exponent : std::max(length_exponent, exponent(from_center));
-    const int direction_exponent = exponent(ray.direction);
-    SphereRoots roots = sphere_roots_in_range(scaled(from_center, length_exponent),
-                                              std::ldexp(radius, -length_exponent),
-                                              scaled(ray.direction, direction_exponent));
-    roots.near = std::ldexp(roots.near, length_exponent - direction_exponent);
-    roots.far = std::ldexp(roots.far, length_exponent - direction_exponent);
-    return roots;
+    return sphere_roots_scaled(from_center, radius, ray.direction);
 }
 
 // The nearest root in (t_min, t_max], or false.

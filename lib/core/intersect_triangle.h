@@ -54,9 +54,9 @@ inline bool intersect_triangle(const Point3& a, const Point3& b, const Point3& c
 }
 
 // Solves corner + u edge_u + v edge_v = origin in the sheared plane by Cramer's rule. Quads that meet share no numbers
-// of which an edge test could make the same decision twice, so a quad is closed by the rounding of its test: each sheared
-// coordinate is at most 2 M with an error of 6 M u, M being the largest coordinate that went into it; the difference of
-// two products of them is off by at most 64 u M M', u = 2^-53.
+// of which an edge test could make the same decision twice, so a quad is closed by the rounding of its test: each
+// sheared coordinate is at most 2 M with an error of 6 M u, M being the largest coordinate that went into it; the
+// difference of two products of them is off by at most 64 u M M', u = 2^-53.
 inline bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const ShearedRay& ray,
                            double t_min, double t_max, PlanarHit& hit) {
     const Vec3 q = ray.shear(corner - ray.origin), eu = ray.shear(edge_u), ev = ray.shear(edge_v);

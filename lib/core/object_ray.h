@@ -10,7 +10,8 @@ namespace limn {
 // on both sides.
 inline Ray to_object_ray(const Transform& world_from_object, const Transform& object_from_world, const Ray& ray) {
     Ray local = ray;
-    local.origin = Point3{} + transform_vector(object_from_world, (ray.origin - Point3{}) - world_from_object.translation());
+    local.origin =
+        Point3{} + transform_vector(object_from_world, (ray.origin - Point3{}) - world_from_object.translation());
     local.direction = transform_vector(object_from_world, ray.direction);
     return local;
 }

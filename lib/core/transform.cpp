@@ -60,7 +60,8 @@ Transform operator*(const Transform& a, const Transform& b) {
     Transform product;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 4; ++j)
-            product.rows[i][j] = a.rows[i][0] * b.rows[0][j] + a.rows[i][1] * b.rows[1][j] + a.rows[i][2] * b.rows[2][j];
+            product.rows[i][j] =
+                a.rows[i][0] * b.rows[0][j] + a.rows[i][1] * b.rows[1][j] + a.rows[i][2] * b.rows[2][j];
         product.rows[i][3] += a.rows[i][3];
     }
     return product;

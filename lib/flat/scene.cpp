@@ -9,8 +9,9 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
     for (;;) {
         const Group& group = group_at(scene, id);
         const auto begin = scene.ranges.begin() + group.first_range;
-        const auto after = std::upper_bound(begin, begin + group.range_count, number,
-                                            [](std::uint64_t n, const PrimitiveRange& r) { return n < r.first_number; });
+        const auto after =
+            std::upper_bound(begin, begin + group.range_count, number,
+                             [](std::uint64_t n, const PrimitiveRange& r) { return n < r.first_number; });
         const auto range = after - 1;
         place.range = static_cast<std::uint32_t>(range - scene.ranges.begin());
         place.element = number - range->first_number;

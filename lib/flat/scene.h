@@ -64,7 +64,7 @@ struct Group {
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
     Box bounds;
-    double extent = 0;              // the largest finite coordinate in the tree
+    double extent = 0;  // the largest finite coordinate in the tree
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.
@@ -72,8 +72,8 @@ struct Medium {
     std::uint32_t shape = 0;           // row of Scene::medium_shapes
     std::uint32_t first_instance = 0;  // in Scene::medium_instances
     std::uint32_t instance_count = 0;
-    std::uint64_t first_number = 0;    // of its boundary's primitives, in the scene
-    Box bounds;                        // in world space
+    std::uint64_t first_number = 0;  // of its boundary's primitives, in the scene
+    Box bounds;                      // in world space
 };
 
 enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
@@ -86,15 +86,16 @@ struct Light {
     Point3 origin;             // a triangle's first vertex, a quad's corner, a sphere's centre at time 0
     Vec3 edge_u, edge_v;       // of triangle and quad; of a sphere edge_u is the motion of its centre
     double radius = 0;
-    Vec3 position_error;       // of points computed on it
-    double pick = 0;           // probability with which it is chosen
-    double pick_below = 0;     // sum of the probabilities before it
+    Vec3 position_error;    // of points computed on it
+    double pick = 0;        // probability with which it is chosen
+    double pick_below = 0;  // sum of the probabilities before it
 };
 
 struct Features {
     bool spheres = false, moving_spheres = false, triangles = false, quads = false, meshes = false;
     bool instances = false, moving_instances = false, foreign_shapes = false, media = false;
     bool smooth_normals = false, textures = false, foreign_materials = false, foreign_textures = false;
+    bool texture_coordinates = false;  // may be asked for by a texture or a foreign material
     bool lights = false, background = false;
 };
 
@@ -130,7 +131,7 @@ struct Scene {
     unsigned kinds = 0;  // of primitives in the trees: bit 1 << PrimitiveKind
     std::string feature_names;
     std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
-    std::size_t unassigned = 0;   // stored primitives without a material
+    std::size_t unassigned = 0;  // stored primitives without a material
     std::size_t memory_bytes = 0;
     double compile_seconds = 0;
 };

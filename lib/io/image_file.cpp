@@ -56,7 +56,8 @@ void check_values(const Image& image, const std::string& path, FileFormat format
         throw FileError(path, "pixel (" + std::to_string(pixel % image.width()) + ", " +
                                   std::to_string(pixel / image.width()) + ") is " + why);
     };
-    if (format != FileFormat::exr) refuse([](float v) { return !std::isfinite(v); }, "not finite, which only EXR holds");
+    if (format != FileFormat::exr)
+        refuse([](float v) { return !std::isfinite(v); }, "not finite, which only EXR holds");
     if (format == FileFormat::hdr) refuse([](float v) { return v > kLargestRgbe; }, "too large for HDR");
     if (format == FileFormat::exr && half)
         refuse([](float v) { return std::abs(v) > kLargestHalf && !std::isinf(v); }, "too large for half (65504)");
@@ -141,8 +142,7 @@ Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear l
     Image image(stored.width, stored.height);
     const std::span<float> out = image.values();
     const std::size_t channels = static_cast<std::size_t>(stored.channels);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = linear(values[channels < 3 ? i / 3 * channels : i]);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = linear(values[channels < 3 ? i / 3 * channels : i]);
     return image;
 }
 
@@ -151,7 +151,8 @@ Image to_image(const StoredImage& stored, Encoding encoding) {
     const auto convert = [&]<class T>(const std::vector<T>& values) {
         const auto linear = [&](double v) { return static_cast<float>(decode_value(v, transfer, stored.exponent)); };
         if constexpr (std::is_same_v<T, float>) {
-            if (transfer == Transfer::linear) return to_image(stored, values, [](float v) { return v; });  // bit for bit
+            if (transfer == Transfer::linear)
+                return to_image(stored, values, [](float v) { return v; });  // bit for bit
             return to_image(stored, values, linear);
         } else {
             const double largest = std::numeric_limits<T>::max();

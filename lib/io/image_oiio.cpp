@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -51,7 +52,20 @@ std::string name_in_memory(FileFormat format) {
     return format == FileFormat::png ? "/dev/null/memory.png" : "/dev/null/memory.exr";
 }
 
-// Opens the file `name`, or its bytes in `memory`.
+// A JPEG that breaks off is read as if it were filled with grey, and such a PNG leaks memory; so the end is looked for.
+void require_end(std::string_view file, const std::string& path) {
+    bool whole = true;
+    if (file.starts_with("\xff\xd8")) {
+        // ITU-T T.81, table B.1: neither marker occurs within the data of a scan.
+        const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
+        whole = end != std::string_view::npos && (scan == std::string_view::npos || scan < end);
+    } else if (file.starts_with("\x89PNG")) {
+        whole = file.find("IEND\xae\x42\x60\x82") != std::string_view::npos;
+    }
+    if (!whole) throw FileError(path, "is an image that breaks off before its end");
+}
+
+// Opens the file `name`, or its bytes in `memory`; `path` is for messages.
 std::unique_ptr<ImageInput> open(const std::string& name, const std::string& path,
                                  OIIO::Filesystem::IOProxy* memory = nullptr) {
     ImageSpec wishes;
@@ -62,6 +76,14 @@ std::unique_ptr<ImageInput> open(const std::string& name, const std::string& pat
     return input;
 }
 
+std::unique_ptr<ImageInput> open_file(const std::string& path) {
+    require_readable(path);
+    char first = 0;
+    std::ifstream(path, std::ios::binary).get(first);
+    if (first == '\xff' || first == '\x89') require_end(read_file(path), path);
+    return open(path, path);
+}
+
 // A header may promise any size. Deflate packs 1032 to 1 at best, so a small file of a large picture is broken; up to
 // a gibibyte the reader finds out by itself.
 void require_plausible(const ImageSpec& spec, std::uintmax_t file_bytes, const std::string& path) {
@@ -70,16 +92,8 @@ void require_plausible(const ImageSpec& spec, std::uintmax_t file_bytes, const s
     constexpr double kHarmless = 1 << 30, kBestPacking = 5000;
     const double bytes = static_cast<double>(spec.width) * spec.height * spec.nchannels * 4.0;
     if (bytes > kHarmless && bytes > kBestPacking * static_cast<double>(file_bytes))
-        throw FileError(path, "is too short for a picture of " + std::to_string(spec.width) + " x " +
-                                  std::to_string(spec.height));
-}
-
-// libjpeg fills what is missing with grey and says nothing.
-void require_whole_jpeg(std::string_view file, const std::string& path) {
-    // ITU-T T.81, table B.1: neither marker occurs within the data of a scan.
-    const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
-    if (end == std::string_view::npos || (scan != std::string_view::npos && end < scan))
-        throw FileError(path, "is a JPEG that breaks off before its end");
+        throw FileError(
+            path, "is too short for a picture of " + std::to_string(spec.width) + " x " + std::to_string(spec.height));
 }
 
 void read_transfer(const ImageSpec& spec, StoredImage& image) {
@@ -165,16 +179,10 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
 }
 
 StoredImage decode_file(const std::string& path) {
-    require_readable(path);
-    const std::unique_ptr<ImageInput> input = open(path, path);
-    if (std::strcmp(input->format_name(), "jpeg") == 0) require_whole_jpeg(read_file(path), path);
     std::error_code unknown;
-    return read(*input, std::filesystem::file_size(path, unknown), path);
+    return read(*open_file(path), std::filesystem::file_size(path, unknown), path);
 }
 
-Facts decode_facts(const std::string& path) {
-    require_readable(path);
-    return read_facts(open(path, path)->spec());
-}
+Facts decode_facts(const std::string& path) { return read_facts(open_file(path)->spec()); }
 
 }  // namespace limn

@@ -71,9 +71,8 @@ bool can_encode(FileFormat format) { return format == FileFormat::png || format 
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     const std::vector<std::byte> bytes =
-        job.format == FileFormat::png
-            ? encode_png(job, std::get<std::span<const std::uint8_t>>(job.values).data())
-            : encode_hdr(job, std::get<std::span<const float>>(job.values).data());
+        job.format == FileFormat::png ? encode_png(job, std::get<std::span<const std::uint8_t>>(job.values).data())
+                                      : encode_hdr(job, std::get<std::span<const float>>(job.values).data());
     if (bytes.empty()) throw FileError(path, "there is not enough memory to write it");
     return bytes;
 }

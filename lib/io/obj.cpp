@@ -15,8 +15,8 @@ namespace {
 
 [[noreturn]] void throw_no_usable_face(const std::string& path, std::size_t faces) {
     if (faces == 0) throw FileError(path, "has no usable face: there is no line with f");
-    throw FileError(path, "has no usable face: all " + std::to_string(faces) +
-                              " have fewer than three corners or no area");
+    throw FileError(path,
+                    "has no usable face: all " + std::to_string(faces) + " have fewer than three corners or no area");
 }
 
 void append(std::vector<std::string>& all, std::vector<std::string>& more) {

@@ -31,8 +31,8 @@ struct Receiver {
         file.faces.push_back({number, line, file.corners.size(), corner_count, material});
         // Counted from 1, 0 for none.
         for (std::size_t i = 0; i < corner_count; ++i)
-            file.corners.push_back({indices[i].vertex_index - 1, indices[i].texcoord_index - 1,
-                                    indices[i].normal_index - 1});
+            file.corners.push_back(
+                {indices[i].vertex_index - 1, indices[i].texcoord_index - 1, indices[i].normal_index - 1});
     }
 };
 
@@ -50,9 +50,7 @@ tinyobj::callback_t callbacks() {
     result.index_cb = [](void* r, tinyobj::index_t* indices, int count) {
         static_cast<Receiver*>(r)->add_face(indices, count);
     };
-    result.usemtl_cb = [](void* r, const char* place, int) {
-        static_cast<Receiver*>(r)->material = std::stoul(place);
-    };
+    result.usemtl_cb = [](void* r, const char* place, int) { static_cast<Receiver*>(r)->material = std::stoul(place); };
     return result;
 }
 

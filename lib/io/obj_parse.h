@@ -31,8 +31,8 @@ struct ObjFile {
     std::vector<Float3> positions, normals;
     std::vector<Float2> uvs;
     std::vector<ObjCorner> corners;
-    std::vector<ObjFace> faces;  // those with at least one corner
-    std::size_t face_count = 0;  // in the file
+    std::vector<ObjFace> faces;                     // those with at least one corner
+    std::size_t face_count = 0;                     // in the file
     std::vector<std::string> materials, libraries;  // as the file names them
     std::vector<std::string> warnings;
 };

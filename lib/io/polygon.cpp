@@ -48,7 +48,8 @@ bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& tr
         if (head == candidates_.size()) {
             tests_ += remaining_;
             if (!progress) on_ring = without_area(on_ring);
-            if (!progress && turn(previous_[on_ring], on_ring, next_[on_ring]) != 0) break;  // no ear: it crosses itself
+            if (!progress && turn(previous_[on_ring], on_ring, next_[on_ring]) != 0)
+                break;  // no ear: it crosses itself
             if (!progress) clip(on_ring, triangles), on_ring = next_[on_ring];
             candidates_.clear();
             head = 0;

@@ -51,7 +51,8 @@ struct Every {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, std::uint64_t first_number, Query& query)
+    Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, std::uint64_t first_number,
+              Query& query)
         : scene_(scene),
           group_(group),
           ray_(ray),
@@ -118,7 +119,8 @@ private:
                 break;
             case PrimitiveKind::mesh:
                 if constexpr (has(PrimitiveKind::mesh)) {
-                    const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, reference.element);
+                    const TriangleVertices v =
+                        triangle_vertices(scene_.meshes[range.first_row].arrays, reference.element);
                     return triangle(v.a, v.b, v.c, number);
                 }
                 break;
@@ -157,7 +159,8 @@ private:
             return roots.any && (report(roots.near, true) || report(roots.far, false));
         } else {
             double t = 0;
-            return intersect_sphere(center, std::abs(radius), ray_, query_.limit(), t) && query_.report(t, number, false);
+            return intersect_sphere(center, std::abs(radius), ray_, query_.limit(), t) &&
+                   query_.report(t, number, false);
         }
     }
 
@@ -198,7 +201,8 @@ constexpr unsigned kinds(Kinds... kind) {
 // The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
 constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
 constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
-constexpr unsigned kStill = kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
+constexpr unsigned kStill =
+    kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = ~0u;
 
 template <class Query>

@@ -9,7 +9,8 @@
 
 namespace limn::kernels {
 
-// The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre is_usable(ray)
+// The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre
+// is_usable(ray)
 flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
 

@@ -124,7 +124,8 @@ void RecordSink::append(PrimitiveKind kind, std::size_t row, std::uint64_t count
     if (count > std::numeric_limits<std::uint64_t>::max() / 2 - first_number)
         throw ArgumentError("scene: too many primitives");
     group.primitives += count;
-    const bool one_row = kind == PrimitiveKind::mesh || kind == PrimitiveKind::instance || kind == PrimitiveKind::medium;
+    const bool one_row =
+        kind == PrimitiveKind::mesh || kind == PrimitiveKind::instance || kind == PrimitiveKind::medium;
     if (!one_row && !group.ranges.empty()) {
         PrimitiveRange& last = group.ranges.back();
         if (last.kind == kind && last.first_row + last.count == row) {

@@ -22,7 +22,8 @@ Film::Film(int width, int height) : width_(width), height_(height) {
     try {
         pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     } catch (const std::exception&) {
-        throw Error("render: not enough memory for a picture of " + std::to_string(width) + " x " + std::to_string(height));
+        throw Error("render: not enough memory for a picture of " + std::to_string(width) + " x " +
+                    std::to_string(height));
     }
 }
 

@@ -102,15 +102,16 @@ std::optional<LightSample> sample_planar(const flat::Scene& scene, const Light& 
         const flat::Place place = flat::locate(scene, light.number);
         const PrimitiveRange& range = scene.ranges[place.range];
         if (range.kind == PrimitiveKind::mesh)
-            s.point.uv = texture_coordinates(scene.meshes[range.first_row].arrays, place.element, {0, weights.u, weights.v});
+            s.point.uv =
+                texture_coordinates(scene.meshes[range.first_row].arrays, place.element, {0, weights.u, weights.v});
     }
     return s;
 }
 
 }  // namespace
 
-std::optional<LightSample> sample_light(const flat::Scene& scene, const Point3& from, double time, double pick, double u,
-                                        double v) {
+std::optional<LightSample> sample_light(const flat::Scene& scene, const Point3& from, double time, double pick,
+                                        double u, double v) {
     const auto after = std::upper_bound(scene.lights.begin(), scene.lights.end(), pick,
                                         [](double p, const Light& light) { return p < light.pick_below; });
     const Light& light = after == scene.lights.begin() ? *after : *(after - 1);

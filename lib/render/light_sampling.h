@@ -16,8 +16,8 @@ struct LightSample {
 };
 
 // Chooses a light by `pick` and a point on it by (u, v). Nothing where the light is seen edge-on.
-std::optional<LightSample> sample_light(const flat::Scene& scene, const Point3& from, double time, double pick, double u,
-                                        double v);
+std::optional<LightSample> sample_light(const flat::Scene& scene, const Point3& from, double time, double pick,
+                                        double u, double v);
 
 // With which density sample_light would have drawn the direction from `from` to `hit`, a point on primitive `number`; 0
 // if that is not a light that can be sampled.

@@ -7,8 +7,8 @@ namespace limn::tracing {
 
 namespace {
 
-// Crossings of one surface point come once for each primitive that meets there, their t apart by rounding alone. Doubles
-// place them to some 2^-48; true crossings that close bound no visible depth.
+// Crossings of one surface point come once for each primitive that meets there, their t apart by rounding alone.
+// Doubles place them to some 2^-48; true crossings that close bound no visible depth.
 bool same_point(double a, double b) { return std::abs(a - b) <= 0x1p-40 * std::abs(a); }
 
 // Of the crossings at one point: one if all go the same way, none if the ray only touches.

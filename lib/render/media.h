@@ -35,7 +35,7 @@ public:
 private:
     struct Step {
         double t;
-        double extinction;    // change, per unit of t
+        double extinction;  // change, per unit of t
         std::uint32_t medium;
     };
     void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);

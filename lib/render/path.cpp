@@ -31,7 +31,7 @@ double power_heuristic(double a, double b) {
 // Where a path stands: on a surface, or in a medium (then `surface` has no normal and the phase function as material).
 struct PathTracer::Vertex {
     Surface surface;
-    Vec3 out;                   // unit, back along the path
+    Vec3 out;  // unit, back along the path
     std::uint64_t primitive = flat::RawHit::kMiss;
 };
 
@@ -56,7 +56,7 @@ bool PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
             }
         }
         if (hit.primitive == flat::RawHit::kMiss) return false;
-        const SurfaceHit at = surface_at(scene_, ray, hit);
+        const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
         vertex.surface = at.surface;
         vertex.primitive = hit.primitive;
         if (!at.index_matched) return true;
@@ -106,7 +106,8 @@ Color PathTracer::radiance(Ray ray, Sampler& sampler) {
     return light;
 }
 
-// f |cos| * emission * transmittance / pdf for one direction towards a light, weighted against finding it by scattering.
+// f |cos| * emission * transmittance / pdf for one direction towards a light, weighted against finding it by
+// scattering.
 Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampler) {
     const double pick = sampler.next();
     const Uv uv = sampler.next_2d();

@@ -18,7 +18,7 @@ namespace limn {
 
 namespace {
 
-constexpr int kTile = 16;      // pixels a side: some thousand paths, enough work to hide the cost of a task
+constexpr int kTile = 16;         // pixels a side: some thousand paths, enough work to hide the cost of a task
 constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
 constexpr int kMaxSide = 1 << 20;
 
@@ -32,8 +32,7 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
     require(s.max_depth > 0, "the depth limit must be at least 1");
     require(s.threads >= 0, "threads must not be negative");
     if (scene.flat().unassigned > 0)
-        throw Error("render: " + std::to_string(scene.flat().unassigned) +
-                    " shapes of the scene have no material");
+        throw Error("render: " + std::to_string(scene.flat().unassigned) + " shapes of the scene have no material");
 }
 
 // One picture being rendered: passes over all tiles, each of more samples than the one before, so that a render that is
@@ -98,8 +97,8 @@ private:
     }
 
     Color sample(int x, int y, std::uint64_t i, tracing::PathTracer& tracer) const {
-        const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) +
-                           static_cast<std::uint64_t>(x);
+        const auto pixel =
+            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) + static_cast<std::uint64_t>(x);
         tracing::Sampler sampler(settings_.seed, pixel, i);
         // Drawn whether needed or not, so that each dimension keeps its meaning.
         const Uv in_pixel = sampler.next_2d(), on_lens = sampler.next_2d();

@@ -14,7 +14,8 @@ namespace limn::tracing {
 // 2011. 53 bits a number, so that a free path can be longer than 24 bits allow.
 class Sampler {
 public:
-    Sampler(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample) : key_{{seed, 0}}, counter_{{pixel, sample, 0, 0}} {}
+    Sampler(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
+        : key_{{seed, 0}}, counter_{{pixel, sample, 0, 0}} {}
 
     // In [0, 1).
     double next() {

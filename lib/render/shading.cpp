@@ -74,8 +74,10 @@ std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Sur
     }
     const MaterialRecord& m = record_of(scene, s);
     switch (kind) {
-        case MaterialKind::lambertian: return bsdf::sample_lambertian(texture_value(scene, m.texture, s), s, out, random);
-        case MaterialKind::metal: return bsdf::sample_metal(texture_value(scene, m.texture, s), m.parameter, s, out, random);
+        case MaterialKind::lambertian:
+            return bsdf::sample_lambertian(texture_value(scene, m.texture, s), s, out, random);
+        case MaterialKind::metal:
+            return bsdf::sample_metal(texture_value(scene, m.texture, s), m.parameter, s, out, random);
         case MaterialKind::dielectric: return bsdf::sample_dielectric(m.parameter, m.fresnel, s, out, random);
         case MaterialKind::isotropic: return bsdf::sample_isotropic(texture_value(scene, m.texture, s), random);
         case MaterialKind::diffuse_light:

@@ -12,7 +12,8 @@ Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s);
 
 // The same three questions as Material's.
 Color emitted(const flat::Scene& scene, const Surface& s);
-std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Surface& s, const Vec3& out, const Random3& random);
+std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Surface& s, const Vec3& out,
+                                             const Random3& random);
 ScatterValue material_value(const flat::Scene& scene, const Surface& s, const Vec3& out, const Vec3& in);
 
 // False for materials whose value is zero for every pair of directions: lights need not be sampled for them.

@@ -14,7 +14,8 @@ double norm(double a, double b) { return std::sqrt(a * a + b * b); }
 
 }  // namespace
 
-SphericalRectangle::SphericalRectangle(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Point3& from) {
+SphericalRectangle::SphericalRectangle(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v,
+                                       const Point3& from) {
     const double length_u = length(edge_u), length_v = length(edge_v);
     const Vec3 x = edge_u / length_u, y = edge_v / length_v, z = cross(x, y);
     const Vec3 d = corner - from;

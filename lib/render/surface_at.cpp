@@ -20,13 +20,13 @@ struct LocalHit {
     bool index_matched = false;
 };
 
-LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t) {
+LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t, bool with_uv) {
     const Vec3 outward = sphere_normal(center, ray, t);
     LocalHit hit;
     hit.position = center + std::abs(radius) * outward;
     hit.position_error = sphere_error(center, radius);
     hit.normal = hit.shading_normal = Normal3(radius < 0 ? -outward : outward);
-    hit.uv = sphere_uv(Vec3(hit.normal));
+    if (with_uv) hit.uv = sphere_uv(Vec3(hit.normal));
     return hit;
 }
 
@@ -71,17 +71,17 @@ LocalHit on_foreign(const flat::Foreign& shape, Ray ray, double t) {
     return hit;
 }
 
-LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, double t) {
+LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, double t, bool with_uv) {
     const PrimitiveRange& range = scene.ranges[place.range];
     const std::size_t row = range.first_row + place.element;
     switch (range.kind) {
         case PrimitiveKind::sphere: {
             const flat::Sphere& s = scene.spheres[row];
-            return on_sphere(s.center, s.radius, ray, t);
+            return on_sphere(s.center, s.radius, ray, t, with_uv);
         }
         case PrimitiveKind::moving_sphere: {
             const flat::MovingSphere& s = scene.moving_spheres[row];
-            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, t);
+            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, t, with_uv);
         }
         case PrimitiveKind::triangle: {
             const flat::Triangle& triangle = scene.triangles[row];
@@ -117,12 +117,12 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
 
 }  // namespace
 
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw) {
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw, bool with_uv) {
     const flat::Place place = flat::locate(scene, raw.primitive);
     Ray local = ray;
     for (std::uint32_t i = 0; i < place.depth; ++i)
         local = kernels::enter_instance(scene.instances[place.instances[i]], local);
-    LocalHit hit = on_primitive(scene, place, local, raw.t);
+    LocalHit hit = on_primitive(scene, place, local, raw.t, with_uv);
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind != PrimitiveKind::foreign)
         hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));

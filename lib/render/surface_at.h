@@ -15,6 +15,7 @@ struct SurfaceHit {
 };
 
 // \pre `hit` was found for `ray` in `scene`
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& hit);
+// \param with_uv false leaves out a sphere's texture coordinates, which cost more than the rest of it
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& hit, bool with_uv = true);
 
 }  // namespace limn::tracing

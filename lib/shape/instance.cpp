@@ -18,15 +18,16 @@ using Cubic = std::array<double, 4>;
 // means of determinants with some rows from A and some from B.
 Cubic determinant_over_time(const Transform& a, const Transform& b) {
     const auto mixed = [&](bool row0, bool row1, bool row2) {
-        return determinant({{row0 ? b.rows[0] : a.rows[0], row1 ? b.rows[1] : a.rows[1], row2 ? b.rows[2] : a.rows[2]}});
+        return determinant(
+            {{row0 ? b.rows[0] : a.rows[0], row1 ? b.rows[1] : a.rows[1], row2 ? b.rows[2] : a.rows[2]}});
     };
     return {mixed(0, 0, 0), (mixed(1, 0, 0) + mixed(0, 1, 0) + mixed(0, 0, 1)) / 3,
             (mixed(0, 1, 1) + mixed(1, 0, 1) + mixed(1, 1, 0)) / 3, mixed(1, 1, 1)};
 }
 
-// A polynomial lies in the hull of its Bernstein coefficients: all above `rounding` or all below minus it, they exclude a
-// root. Else halve by de Casteljau's rule, whose results are rounded; what is still undecided after 20 halvings touches
-// zero or comes within 1e-12 of it.
+// A polynomial lies in the hull of its Bernstein coefficients: all above `rounding` or all below minus it, they exclude
+// a root. Else halve by de Casteljau's rule, whose results are rounded; what is still undecided after 20 halvings
+// touches zero or comes within 1e-12 of it.
 bool has_root(const Cubic& c, double rounding = 0, int halvings = 20) {
     const auto [least, most] = std::minmax_element(c.begin(), c.end());
     if (*least > rounding || *most < -rounding) return false;
@@ -57,9 +58,7 @@ Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& at_t
         throw ArgumentError("Instance: the moving transform is singular at some time of the shutter");
 }
 
-Box Instance::bounds() const {
-    return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds());
-}
+Box Instance::bounds() const { return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds()); }
 
 std::optional<Hit> Instance::hit(const Ray& ray) const {
     if (!is_usable(ray)) return std::nullopt;

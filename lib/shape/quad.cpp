@@ -12,7 +12,8 @@ Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::sh
     require_finite(corner, "Quad", "the corner");
     require_finite(edge_u, "Quad", "edge u");
     require_finite(edge_v, "Quad", "edge v");
-    if (!is_finite(normalize(cross(edge_u, edge_v)))) throw ArgumentError("Quad: the edges must not be zero or parallel");
+    if (!is_finite(normalize(cross(edge_u, edge_v))))
+        throw ArgumentError("Quad: the edges must not be zero or parallel");
 }
 
 Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
@@ -29,9 +30,7 @@ std::optional<Hit> Quad::hit(const Ray& ray) const {
                .position_error = planar_error(corner_, edge_u_, edge_v_)};
 }
 
-void Quad::lower(RecordSink& sink) const {
-    sink.quad({corner_, edge_u_, edge_v_, lower_material(sink, material_)});
-}
+void Quad::lower(RecordSink& sink) const { sink.quad({corner_, edge_u_, edge_v_, lower_material(sink, material_)}); }
 
 std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& opposite,
                                        const std::shared_ptr<const Material>& material) {

@@ -52,7 +52,8 @@ void check_tree(const std::vector<Box>& boxes) {
 }  // namespace
 
 TEST_CASE("BinaryBvh: every box stands in exactly one leaf, inside all its ancestors", "[accel]") {
-    for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 63u, 64u, 65u, 1000u, 20000u}) check_tree(random_boxes(count, count));
+    for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 63u, 64u, 65u, 1000u, 20000u})
+        check_tree(random_boxes(count, count));
 }
 
 TEST_CASE("BinaryBvh: equal, empty, unbounded and exponentially spread boxes build", "[accel]") {

@@ -31,12 +31,12 @@ const Box kUnit{{0, 0, 0}, {1, 1, 1}};
 
 TEST_CASE("Slab: a ray in a face, an edge or through a corner meets the closed box", "[accel]") {
     for (const double zero : {0.0, -0.0}) {
-        CHECK(meets(kUnit, {{-1, 0.5, 0}, {1, zero, zero}}));    // in the low z face
-        CHECK(meets(kUnit, {{-1, 0.5, 1}, {1, zero, zero}}));    // in the high z face
-        CHECK(meets(kUnit, {{-1, 0, 0}, {1, zero, zero}}));      // along an edge
+        CHECK(meets(kUnit, {{-1, 0.5, 0}, {1, zero, zero}}));  // in the low z face
+        CHECK(meets(kUnit, {{-1, 0.5, 1}, {1, zero, zero}}));  // in the high z face
+        CHECK(meets(kUnit, {{-1, 0, 0}, {1, zero, zero}}));    // along an edge
         CHECK(meets(kUnit, {{-1, 1, 1}, {1, zero, zero}}));
-        CHECK(meets(kUnit, {{0, 0.5, 0.5}, {zero, 1, zero}}));   // from a face, within it
-        CHECK(meets(kUnit, {{1, 0.5, 0.5}, {1, zero, zero}}));   // from a face, leaving
+        CHECK(meets(kUnit, {{0, 0.5, 0.5}, {zero, 1, zero}}));  // from a face, within it
+        CHECK(meets(kUnit, {{1, 0.5, 0.5}, {1, zero, zero}}));  // from a face, leaving
         CHECK_FALSE(meets(kUnit, {{-1, 1.0000000001, 0}, {1, zero, zero}}));
         CHECK_FALSE(meets(kUnit, {{-1, -1e-300, 0}, {1, zero, zero}}));
     }
@@ -58,7 +58,8 @@ TEST_CASE("Slab: the interval of the ray counts, closed at t_max", "[accel]") {
     CHECK(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 0, 1}));
     CHECK_FALSE(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 0, 0.999}));
     CHECK_FALSE(meets(kUnit, {{-1, 0.5, 0.5}, {1, 0, 0}, 2.001, 10}));
-    CHECK(meets(kUnit, {{3, 0.5, 0.5}, {1, 0, 0}, -kInfinity, 0}));  // behind the origin, and the interval reaches there
+    CHECK(
+        meets(kUnit, {{3, 0.5, 0.5}, {1, 0, 0}, -kInfinity, 0}));  // behind the origin, and the interval reaches there
 }
 
 TEST_CASE("Slab: an empty box is never met", "[accel]") {
@@ -87,8 +88,9 @@ TEST_CASE("Slab: no ray that meets a box in exact arithmetic is lost, at corners
         }
         Point3 target;
         for (std::size_t a = 0; a < 3; ++a)
-            target[a] = random() % 4 == 0 ? box.lower[a] + unit(random) * (box.upper[a] - box.lower[a])
-                        : random() % 2 == 0 ? box.lower[a] : box.upper[a];
+            target[a] = random() % 4 == 0   ? box.lower[a] + unit(random) * (box.upper[a] - box.lower[a])
+                        : random() % 2 == 0 ? box.lower[a]
+                                            : box.upper[a];
         Ray ray;
         for (std::size_t a = 0; a < 3; ++a) ray.origin[a] = place + 10 * size * (unit(random) - 0.5);
         ray.direction = target - ray.origin;

@@ -44,10 +44,12 @@ TEST_CASE("compare: one value that is off by 1 gives the metrics computed by han
 }
 
 TEST_CASE("compare: PSNR is that of the sRGB-encoded values", "[image][compare]") {
-    const Image black(4, 4), white(4, 4, Color{1, 1, 1}), grey(4, 4, Color{0.21404114048223255, 0.21404114048223255, 0.21404114048223255});
+    const Image black(4, 4), white(4, 4, Color{1, 1, 1}),
+        grey(4, 4, Color{0.21404114048223255, 0.21404114048223255, 0.21404114048223255});
     CHECK(compare_images(black, white).psnr_srgb == Approx(0).margin(1e-12));
     CHECK(compare_images(grey, black).psnr_srgb == Approx(-20 * std::log10(0.5)).epsilon(1e-6));
-    CHECK(compare_images(Image(1, 1, Color{-3, 0, 0}), Image(1, 1)).psnr_srgb == std::numeric_limits<double>::infinity());
+    CHECK(compare_images(Image(1, 1, Color{-3, 0, 0}), Image(1, 1)).psnr_srgb ==
+          std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("compare: equal images have no error, and no worst part of it", "[image][compare]") {
@@ -61,7 +63,8 @@ TEST_CASE("compare: equal images have no error, and no worst part of it", "[imag
     CHECK(m.valid);
 }
 
-TEST_CASE("compare: the worst 0.1 % are a thousandth of all values, the largest errors among them", "[image][compare]") {
+TEST_CASE("compare: the worst 0.1 % are a thousandth of all values, the largest errors among them",
+          "[image][compare]") {
     // 3000 values; two are far off by 10 and 20, one by 30, the other 2997 by 1; black reference. The worst 3 carry
     // 100 + 400 + 900 of 1400 + 2997.
     Image test(1000, 1, Color{1, 1, 1});
@@ -128,7 +131,8 @@ TEST_CASE("compare: images of different sizes and empty ones are refused", "[ima
     CHECK_THROWS_AS(compare_images(Image(), Image()), ArgumentError);
 }
 
-TEST_CASE("compare: sums are in double, so a million small errors are not lost beside a large one", "[image][compare]") {
+TEST_CASE("compare: sums are in double, so a million small errors are not lost beside a large one",
+          "[image][compare]") {
     Image test(1000, 1000, Color{0.1, 0.1, 0.1});
     test.set(0, 0, Color{1e6, 0.1, 0.1});
     const double off = 0.1f;

@@ -16,8 +16,8 @@ TEST_CASE("sRGB: known values of IEC 61966-2-1", "[image][color]") {
     CHECK(srgb_encode(0) == 0);
     CHECK(srgb_encode(1) == Approx(1).epsilon(1e-15));
     CHECK(srgb_decode(1) == Approx(1).epsilon(1e-15));
-    CHECK(srgb_encode(0.001) == Approx(0.01292).epsilon(1e-15));               // the straight part
-    CHECK(srgb_decode(0.5) == Approx(0.21404114048223255).epsilon(1e-14));     // 0.5555 / 1.055 to the 2.4
+    CHECK(srgb_encode(0.001) == Approx(0.01292).epsilon(1e-15));            // the straight part
+    CHECK(srgb_decode(0.5) == Approx(0.21404114048223255).epsilon(1e-14));  // 0.5555 / 1.055 to the 2.4
     CHECK(srgb_encode(0.21404114048223255) == Approx(0.5).epsilon(1e-14));
 }
 

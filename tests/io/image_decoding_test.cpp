@@ -94,14 +94,14 @@ TEST_CASE("Decoding: a JPEG is read from a file and from memory", "[io][image]")
     const std::string path = std::string(LIMN_TEST_DATA) + "/orange.jpg";  // (204, 102, 26), 8 x 8
     const std::string bytes = bytes_of(path);
     const Color orange{204 / 255.0, 102 / 255.0, 26 / 255.0};
-    for (const Image& image : {load_image(path, Encoding::raw),
-                               load_image_from_memory(std::as_bytes(std::span(bytes)), Encoding::raw)}) {
+    for (const Image& image :
+         {load_image(path, Encoding::raw), load_image_from_memory(std::as_bytes(std::span(bytes)), Encoding::raw)}) {
         REQUIRE(image.width() == 8);
         REQUIRE(image.height() == 8);
         check_near(image.at(3, 5), orange, 2 / 255.0);
     }
-    check_near(load_image(path).at(0, 0),
-               Color{srgb_decode(orange.r), srgb_decode(orange.g), srgb_decode(orange.b)}, 0.015);
+    check_near(load_image(path).at(0, 0), Color{srgb_decode(orange.r), srgb_decode(orange.g), srgb_decode(orange.b)},
+               0.015);
 }
 
 TEST_CASE("Decoding: floating-point files are linear unless told otherwise", "[io][image]") {
@@ -119,8 +119,14 @@ TEST_CASE("Decoding: broken files are refused with their name, never read in par
     const Folder folder;
     const std::string png = make_png(8, 8, PngColor::rgb, std::string(24, 'x'));
     const std::string jpeg = bytes_of(std::string(LIMN_TEST_DATA) + "/orange.jpg");
-    const std::string cases[] = {"", "x", "P", std::string(1000, '\0'), "#?RADIANCE\n", "\x76\x2f\x31\x01",
-                                 make_png(0, 8, PngColor::rgb, ""), make_png(2'000'000'000, 8, PngColor::rgb, "x")};
+    const std::string cases[] = {"",
+                                 "x",
+                                 "P",
+                                 std::string(1000, '\0'),
+                                 "#?RADIANCE\n",
+                                 "\x76\x2f\x31\x01",
+                                 make_png(0, 8, PngColor::rgb, ""),
+                                 make_png(2'000'000'000, 8, PngColor::rgb, "x")};
     for (const std::string& bytes : cases) {
         CAPTURE(bytes.size());
         CHECK_THROWS_AS(load_image(folder.write("bad.png", bytes)), FileError);

@@ -74,11 +74,14 @@ TEST_CASE("Saving: what can be known beforehand is refused by check_writable and
     folder.write("file", "");
     mkfifo(folder.path("pipe.png").c_str(), 0666);
     const Names before = folder.names();
-    const std::pair<std::string, std::string> cases[] = {
-        {folder.path("a.xyz"), "must end in"},         {folder.path("a.jpg"), ".png"},
-        {folder.path("a"), "must end in"},             {"", "must end in"},
-        {folder.path("none/a.png"), "no folder"},      {folder.path("folder.png"), "is a folder"},
-        {folder.path("file/a.png"), "is not a folder"}, {folder.path("pipe.png"), "not a regular file"}};
+    const std::pair<std::string, std::string> cases[] = {{folder.path("a.xyz"), "must end in"},
+                                                         {folder.path("a.jpg"), ".png"},
+                                                         {folder.path("a"), "must end in"},
+                                                         {"", "must end in"},
+                                                         {folder.path("none/a.png"), "no folder"},
+                                                         {folder.path("folder.png"), "is a folder"},
+                                                         {folder.path("file/a.png"), "is not a folder"},
+                                                         {folder.path("pipe.png"), "not a regular file"}};
     for (const auto& [path, reason] : cases) {
         for (const std::string& message :
              {refusal([&] { check_writable(path); }), refusal([&] { save_image(Image(2, 2), path); })}) {
@@ -123,7 +126,9 @@ TEST_CASE("Saving: values that the format cannot hold are refused with their pix
     check_mentions(refusal([&] { save_image(Image(), folder.path("a.png")); }), "no pixels");
 #ifdef LIMN_WITH_OPENIMAGEIO
     for (const double large : {65504.01, -65520.0, 1e30})
-        check_mentions(refusal([&] { save_image(Image(1, 1, Color{0, large, 0}), folder.path("a.exr"), {.half = true}); }),
+        check_mentions(refusal([&] {
+                           save_image(Image(1, 1, Color{0, large, 0}), folder.path("a.exr"), {.half = true});
+                       }),
                        "too large for half");
 #else
     check_mentions(refusal([&] { save_image(Image(1, 1, Color{0, 2e38, 0}), folder.path("a.hdr")); }), "too large");
@@ -135,9 +140,11 @@ TEST_CASE("Saving: values that the format cannot hold are refused with their pix
 
 TEST_CASE("Saving: a fact without a usable name is refused", "[io][image]") {
     const Folder folder;
-    for (const std::string& name : {std::string(), std::string("two words"), std::string("new\nline"), std::string(71, 'a')})
+    for (const std::string& name :
+         {std::string(), std::string("two words"), std::string("new\nline"), std::string(71, 'a')})
         CHECK_THROWS_AS(save_image(Image(1, 1), folder.path("a.png"), {.facts = {{name, "x"}}}), ArgumentError);
-    CHECK_THROWS_AS(save_image(Image(1, 1), folder.path("a.png"), {.facts = {{"a", std::string(1, '\0')}}}), ArgumentError);
+    CHECK_THROWS_AS(save_image(Image(1, 1), folder.path("a.png"), {.facts = {{"a", std::string(1, '\0')}}}),
+                    ArgumentError);
     CHECK(folder.names().empty());
 }
 

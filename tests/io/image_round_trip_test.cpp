@@ -67,11 +67,12 @@ TEST_CASE("Images: the suffix may be in capitals", "[io][image]") {
 
 TEST_CASE("Images: facts survive, whatever text they hold", "[io][image]") {
     const Folder folder;
-    const std::map<std::string, std::string> facts{{"scene", "fig01_bouncing_spheres"},
-                                                   {"seed", "18446744073709551615"},
-                                                   {"command_line", "limn render \"my model.obj\" -o 'b\xc3\xa4r.exr' a=b"},
-                                                   {"time", "0.1"},
-                                                   {"long", std::string(3000, 'x')}};
+    const std::map<std::string, std::string> facts{
+        {"scene", "fig01_bouncing_spheres"},
+        {"seed", "18446744073709551615"},
+        {"command_line", "limn render \"my model.obj\" -o 'b\xc3\xa4r.exr' a=b"},
+        {"time", "0.1"},
+        {"long", std::string(3000, 'x')}};
     for (const std::string& suffix : written_suffixes()) {
         save_image(noise(4, 4, 1), folder.path("a" + suffix), {.facts = {facts.begin(), facts.end()}});
         const auto loaded = load_image_facts(folder.path("a" + suffix));
@@ -96,9 +97,18 @@ TEST_CASE("Images: the same picture and facts give the same bytes", "[io][image]
 TEST_CASE("EXR: float values survive bit for bit, every kind of them", "[io][image]") {
     const Folder folder;
     using Limits = std::numeric_limits<float>;
-    std::vector<float> values{0.0f,          -0.0f,          Limits::denorm_min(), -Limits::denorm_min(), Limits::min(),
-                              Limits::max(), Limits::lowest(), Limits::infinity(),  -Limits::infinity(),
-                              1.0f / 3,      65520.0f,       Limits::quiet_NaN()};
+    std::vector<float> values{0.0f,
+                              -0.0f,
+                              Limits::denorm_min(),
+                              -Limits::denorm_min(),
+                              Limits::min(),
+                              Limits::max(),
+                              Limits::lowest(),
+                              Limits::infinity(),
+                              -Limits::infinity(),
+                              1.0f / 3,
+                              65520.0f,
+                              Limits::quiet_NaN()};
     std::mt19937 generator(7);
     while (values.size() < 3 * 200 * 100) {
         const float v = std::bit_cast<float>(static_cast<std::uint32_t>(generator()));
@@ -116,9 +126,9 @@ TEST_CASE("EXR: float values survive bit for bit, every kind of them", "[io][ima
 TEST_CASE("EXR: half is the nearest one, ties to even, infinities and NaN stay", "[io][image]") {
     const Folder folder;
     const std::vector<std::pair<float, float>> cases{
-        {1, 1},          {65504, 65504},  {-65504, -65504}, {2049, 2048},     {2051, 2052},       {-0.0f, -0.0f},
-        {0x1p-24f, 0x1p-24f}, {0x1.8p-24f, 0x1p-23f}, {0x1p-25f, 0}, {0x1.8p-25f, 0x1p-24f}, {1e-30f, 0},
-        {0.1f, 0x1.998p-4f}, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+        {1, 1},         {65504, 65504},       {-65504, -65504},       {2049, 2048},          {2051, 2052},
+        {-0.0f, -0.0f}, {0x1p-24f, 0x1p-24f}, {0x1.8p-24f, 0x1p-23f}, {0x1p-25f, 0},         {0x1.8p-25f, 0x1p-24f},
+        {1e-30f, 0},    {0.1f, 0x1.998p-4f},  {INFINITY, INFINITY},   {-INFINITY, -INFINITY}};
     Image image(static_cast<int>(cases.size()), 1);
     for (std::size_t i = 0; i < cases.size(); ++i) image.values()[3 * i] = cases[i].first;
     image.values()[1] = NAN;
@@ -161,7 +171,7 @@ TEST_CASE("HDR: values are the nearest that share the largest one's exponent", "
     image.set(0, 0, Color{1, 0.5, 0.001});   // last place 2^-7
     image.set(1, 0, Color{0.9999, 0.5, 0});  // rounds up to 1
     image.set(2, 0, Color{-2, 1e-33, 0});
-    image.set(3, 0, Color{3e5, 2e5, 1e3});   // last place 2^11
+    image.set(3, 0, Color{3e5, 2e5, 1e3});  // last place 2^11
     save_image(image, folder.path("a.hdr"));
     const Image loaded = load_image(folder.path("a.hdr"));
     CHECK(loaded.at(0, 0) == Color{1, 0.5, 0});

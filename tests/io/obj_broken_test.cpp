@@ -120,9 +120,11 @@ TEST_CASE("Broken OBJ: a missing file and a folder are refused with their name",
 
 TEST_CASE("Broken OBJ: wherever a file breaks off, it is refused or sound", "[io][obj]") {
     std::string whole = "mtllib none.mtl\nusemtl grey\n";
-    for (int i = 0; i < 40; ++i) whole += "v " + std::to_string(i % 7) + ".25 " + std::to_string(i % 5) + " 1e-1\nvt 0.5 .5\n";
+    for (int i = 0; i < 40; ++i)
+        whole += "v " + std::to_string(i % 7) + ".25 " + std::to_string(i % 5) + " 1e-1\nvt 0.5 .5\n";
     for (int i = 1; i < 38; ++i)
-        whole += "f " + std::to_string(i) + "/1 " + std::to_string(i + 1) + "/-1 " + std::to_string(i + 3) + "/2 -1/1\n";
+        whole +=
+            "f " + std::to_string(i) + "/1 " + std::to_string(i + 1) + "/-1 " + std::to_string(i + 3) + "/2 -1/1\n";
     std::size_t loaded = 0;
     for (std::size_t size = 0; size < whole.size(); ++size) loaded += is_sound(whole.substr(0, size));
     CHECK(loaded > 300);
@@ -130,7 +132,8 @@ TEST_CASE("Broken OBJ: wherever a file breaks off, it is refused or sound", "[io
 }
 
 TEST_CASE("Broken OBJ: whatever is changed in a file, it is refused or sound", "[io][obj]") {
-    const std::string whole = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng a\nusemtl x\nf 1/1/1 2//1 3/1 4\nf -1 -2 -3\n";
+    const std::string whole =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng a\nusemtl x\nf 1/1/1 2//1 3/1 4\nf -1 -2 -3\n";
     const std::string pieces = "0123456789-+./ \n\\#efvtn\t\r\"x\xff" + std::string(1, '\0');
     std::mt19937 generator(9);
     std::size_t loaded = 0;

@@ -57,11 +57,11 @@ TEST_CASE("OBJ: a plain triangle keeps the file's vertices", "[io][obj]") {
 }
 
 TEST_CASE("OBJ: byte order mark, CR LF, no final newline, continued lines and blanks change nothing", "[io][obj]") {
-    const std::string text = GENERATE(as<std::string>{}, "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-                                      "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
-                                      "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3", "v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 3",
-                                      "\tv  0\t0 0 \nv 1 0 0 # right\nv 0 1 0\n# C:\\\n  f 1  2\t3 # all",
-                                      "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    const std::string text = GENERATE(
+        as<std::string>{}, "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+        "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3", "v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 3",
+        "\tv  0\t0 0 \nv 1 0 0 # right\nv 0 1 0\n# C:\\\n  f 1  2\t3 # all", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n");
     const MeshData d = data_of(load(text));
     CHECK(d.vertices == std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     CHECK(d.triangles == std::vector<Index3>{{0, 1, 2}});
@@ -82,7 +82,8 @@ TEST_CASE("OBJ: v, v/vt, v//vn and v/vt/vn are all understood", "[io][obj]") {
 }
 
 TEST_CASE("OBJ: negative indices count back from the line they stand in", "[io][obj]") {
-    const Model model = load(kTriangle + "vt 0 0\nvt 1 1\nf -3/-2 -2/-1 -1/-1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 9 9\nf -3 -2 -1\n");
+    const Model model =
+        load(kTriangle + "vt 0 0\nvt 1 1\nf -3/-2 -2/-1 -1/-1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 9 9\nf -3 -2 -1\n");
     const MeshData d = data_of(model);
     REQUIRE(d.triangles.size() == 2);
     const auto position = [&d](std::uint32_t i) { return d.vertices[i]; };
@@ -185,7 +186,8 @@ TEST_CASE("OBJ: coordinates printed with 9 digits are read bit for bit, in any l
 }
 
 TEST_CASE("OBJ: a decimal next to the middle of two float32 goes to the nearer one", "[io][obj]") {
-    const MeshData d = data_of(load("v 1.00000005960464477539062500000000000000001 1e-60 -0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    const MeshData d =
+        data_of(load("v 1.00000005960464477539062500000000000000001 1e-60 -0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     CHECK(d.vertices[0].x == 0x1.000002p0f);
     CHECK(bits(d.vertices[0].y) == bits(0.0f));
     CHECK(bits(d.vertices[0].z) == bits(-0.0f));

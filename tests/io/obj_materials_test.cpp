@@ -144,7 +144,8 @@ TEST_CASE("MTL: a missing library, material or texture is a warning, not an erro
     CHECK(warning(bad_texture).starts_with(folder.path("bad.png") + ": "));
 
     load_one(folder, "Kd 1 1 1\n");
-    const Model odd_libraries = load_obj(folder.write("b.obj", "mtllib\nmtllib .\nmtllib a.mtl none.mtl\n" + triangles({"m"})));
+    const Model odd_libraries =
+        load_obj(folder.write("b.obj", "mtllib\nmtllib .\nmtllib a.mtl none.mtl\n" + triangles({"m"})));
     CHECK(odd_libraries.warnings.size() == 3);
     check_color(Lowered(odd_libraries).color(0), Color{1, 1, 1});
 }

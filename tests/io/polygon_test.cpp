@@ -68,8 +68,9 @@ TEST_CASE("Polygon: concave ones are covered without overlap, in any plane", "[i
     for (Float3& p : across) p = {p.y, 3, p.x};
     check_covers_all_ways(upright);
     check_covers_all_ways(across);
-    check_covers_all_ways({{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5f, 1, 0}});                             // an arrow
-    check_covers_all_ways({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});  // U
+    check_covers_all_ways({{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5f, 1, 0}});  // an arrow
+    check_covers_all_ways(
+        {{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});  // U
 }
 
 TEST_CASE("Polygon: corners within a straight edge are used, so that neighbours stay joined", "[io][polygon]") {

@@ -42,7 +42,8 @@ TEST_CASE("Lines: LF, CR LF and CR end a line, the last one needs no end", "[io]
     CHECK(lines_of("a b\n\nc") == expected);
     CHECK(lines_of("a b\r\n\r\nc\r\n") == expected);
     CHECK(lines_of("a\tb\r\r  c ") == expected);
-    CHECK(lines_of("\xef\xbb\xbf" "a b\n\nc\n") == expected);
+    CHECK(lines_of("\xef\xbb\xbf"
+                   "a b\n\nc\n") == expected);
     CHECK(lines_of("").empty());
 }
 
@@ -61,11 +62,20 @@ TEST_CASE("Lines: words end at a comment, the rest of a line does not", "[io][ob
 
 TEST_CASE("Numbers: a decimal becomes the nearest float32, ties to even", "[io][obj]") {
     const std::pair<const char*, float> cases[] = {
-        {"1", 1}, {"+1.5", 1.5f}, {"-0", -0.0f}, {".5", 0.5f}, {"5.", 5}, {"1e3", 1000}, {"1E-3", 0.001f},
-        {"1.000000059604644775390625", 1},                             // half way between 1 and its successor
+        {"1", 1},
+        {"+1.5", 1.5f},
+        {"-0", -0.0f},
+        {".5", 0.5f},
+        {"5.", 5},
+        {"1e3", 1000},
+        {"1E-3", 0.001f},
+        {"1.000000059604644775390625", 1},                               // half way between 1 and its successor
         {"1.00000005960464477539062500000000000000001", 0x1.000002p0f},  // in double, this is half way too
-        {"1.000000178813934326171875", 0x1.000004p0f},                 // half way, the even one is above
-        {"3.4028235e38", 0x1.fffffep127f}, {"1e-45", 0x1p-149f}, {"1e-60", 0}, {"-1e-400", -0.0f}};
+        {"1.000000178813934326171875", 0x1.000004p0f},                   // half way, the even one is above
+        {"3.4028235e38", 0x1.fffffep127f},
+        {"1e-45", 0x1p-149f},
+        {"1e-60", 0},
+        {"-1e-400", -0.0f}};
     for (const auto& [word, expected] : cases) {
         CAPTURE(word);
         const auto value = parse_float(word);
@@ -75,8 +85,9 @@ TEST_CASE("Numbers: a decimal becomes the nearest float32, ties to even", "[io][
 }
 
 TEST_CASE("Numbers: what is no finite float32 is none", "[io][obj]") {
-    for (const char* word : {"", "+", "-", "+-1", "--1", ".", "e5", "1e", "1,5", "0x10", "1d5", "1.0f", "1 ", " 1", "nan",
-                             "-nan", "inf", "Infinity", "1e40", "-1e40", "3.4028236e38", "1e400", "one"}) {
+    for (const char* word :
+         {"",   "+",  "-",   "+-1",  "--1", ".",        "e5",   "1e",    "1,5",          "0x10",  "1d5", "1.0f",
+          "1 ", " 1", "nan", "-nan", "inf", "Infinity", "1e40", "-1e40", "3.4028236e38", "1e400", "one"}) {
         CAPTURE(word);
         CHECK_FALSE(parse_float(word));
     }

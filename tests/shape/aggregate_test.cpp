@@ -31,18 +31,12 @@ Objects random_objects(Random& random, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const Point3 p = Point3{} + random.in_cube(5);
         switch (random.index(4)) {
-            case 0:
-                objects.push_back(std::make_shared<Sphere>(p, random.uniform(0.1, 1), nullptr));
-                break;
-            case 1:
-                objects.push_back(std::make_shared<Sphere>(p, p + random.in_cube(2), 0.4, nullptr));
-                break;
+            case 0: objects.push_back(std::make_shared<Sphere>(p, random.uniform(0.1, 1), nullptr)); break;
+            case 1: objects.push_back(std::make_shared<Sphere>(p, p + random.in_cube(2), 0.4, nullptr)); break;
             case 2:
                 objects.push_back(std::make_shared<Triangle>(p, p + random.in_cube(2), p + random.in_cube(2), nullptr));
                 break;
-            default:
-                objects.push_back(std::make_shared<Quad>(p, random.in_cube(2), random.in_cube(2), nullptr));
-                break;
+            default: objects.push_back(std::make_shared<Quad>(p, random.in_cube(2), random.in_cube(2), nullptr)); break;
         }
         if (random.chance(0.1)) objects.push_back(objects[random.index(objects.size())]);  // exact duplicates
     }

@@ -59,11 +59,8 @@ inline Ray random_ray(Random& random, const Targets& targets) {
 
     Ray ray{.origin = random.in_box(around), .direction = random.unit()};
     switch (random.index(10)) {
-        case 0:
-            break;
-        case 1:
-            ray.direction = target() - ray.origin;
-            break;
+        case 0: break;
+        case 1: ray.direction = target() - ray.origin; break;
         case 2: {  // parallel to an axis, through a target
             const std::size_t axis = random.index(3);
             const Point3 p = target();
@@ -85,9 +82,7 @@ inline Ray random_ray(Random& random, const Targets& targets) {
             ray.direction[axis] = zero();
             break;
         }
-        case 4:
-            ray.origin = target();
-            break;
+        case 4: ray.origin = target(); break;
         case 5: {  // from one target to another: along edges and diagonals
             const Point3 from = target(), to = target();
             ray.direction = to - from;
@@ -110,42 +105,26 @@ inline Ray random_ray(Random& random, const Targets& targets) {
             ray.direction = random.uniform(0.5, 2) * (p - ray.origin);
             break;
         }
-        default:
-            ray.direction = random.in_box(targets.region) - ray.origin;
-            break;
+        default: ray.direction = random.in_box(targets.region) - ray.origin; break;
     }
     if (ray.direction == Vec3{}) ray.direction = {0, 0, 1};
 
     const double to_region =
         reach / std::max({std::abs(ray.direction.x), std::abs(ray.direction.y), std::abs(ray.direction.z)});
     switch (random.index(8)) {
-        case 0:
-            ray.t_max = random.uniform(0, 3) * to_region;
-            break;
-        case 1:
-            ray.t_min = random.uniform(0, 2) * to_region;
-            break;
-        case 2:
-            ray.t_min = -random.uniform(0, 2) * to_region;
-            break;
+        case 0: ray.t_max = random.uniform(0, 3) * to_region; break;
+        case 1: ray.t_min = random.uniform(0, 2) * to_region; break;
+        case 2: ray.t_min = -random.uniform(0, 2) * to_region; break;
         case 3:
             if (random.chance(0.2)) ray.t_min = -kInfinity;
             break;
-        default:
-            break;
+        default: break;
     }
     switch (random.index(6)) {
-        case 0:
-            ray.time = 1;
-            break;
-        case 1:
-            ray.time = random.chance(0.5) ? -0.5 : 1.5;
-            break;
-        case 2:
-            break;
-        default:
-            ray.time = random.uniform();
-            break;
+        case 0: ray.time = 1; break;
+        case 1: ray.time = random.chance(0.5) ? -0.5 : 1.5; break;
+        case 2: break;
+        default: ray.time = random.uniform(); break;
     }
     return ray;
 }

@@ -49,16 +49,11 @@ inline Object ball(const Point3& c, double r) { return std::make_shared<Sphere>(
 inline Object random_shape(Random& random, std::size_t kind, double spread = 5) {
     const Point3 p = Point3{} + random.in_cube(spread);
     switch (kind) {
-        case 0:
-            return ball(p, random.sign() * random.uniform(0.1, 1.5));
-        case 1:
-            return std::make_shared<Sphere>(p, p + random.in_cube(2), random.uniform(0.1, 1), nullptr);
-        case 2:
-            return std::make_shared<Triangle>(p, p + random.in_cube(3), p + random.in_cube(3), nullptr);
-        case 3:
-            return std::make_shared<Quad>(p, random.in_cube(3), random.in_cube(3), nullptr);
-        default:
-            return std::make_shared<Mesh>(icosphere(1, random.uniform(0.2, 2), p - Point3{}), nullptr);
+        case 0: return ball(p, random.sign() * random.uniform(0.1, 1.5));
+        case 1: return std::make_shared<Sphere>(p, p + random.in_cube(2), random.uniform(0.1, 1), nullptr);
+        case 2: return std::make_shared<Triangle>(p, p + random.in_cube(3), p + random.in_cube(3), nullptr);
+        case 3: return std::make_shared<Quad>(p, random.in_cube(3), random.in_cube(3), nullptr);
+        default: return std::make_shared<Mesh>(icosphere(1, random.uniform(0.2, 2), p - Point3{}), nullptr);
     }
 }
 
@@ -123,15 +118,9 @@ inline ZooScene zoo_of_kind(const std::string& name, std::size_t kind, std::size
         const Point3 p = Point3{} + random.in_cube(5);
         const Vec3 e = random.in_cube(3), f = random.in_cube(3);
         switch (kind) {
-            case 2:
-                objects.push_back(std::make_shared<Triangle>(p, p + e, p + f, nullptr));
-                break;
-            case 3:
-                objects.push_back(std::make_shared<Quad>(p, e, f, nullptr));
-                break;
-            default:
-                objects.push_back(random_shape(random, kind));
-                break;
+            case 2: objects.push_back(std::make_shared<Triangle>(p, p + e, p + f, nullptr)); break;
+            case 3: objects.push_back(std::make_shared<Quad>(p, e, f, nullptr)); break;
+            default: objects.push_back(random_shape(random, kind)); break;
         }
         if (kind == 2 || kind == 3) points.insert(points.end(), {p, p + e, p + f, p + 0.5 * e, p + e + f});
         if (i % 10 == 9) objects.push_back(objects[i / 2]);

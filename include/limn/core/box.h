@@ -36,7 +36,10 @@ struct Box {
 };
 
 /// The smallest box around both.
-constexpr Box merge(Box a, const Box& b) { a.extend(b); return a; }
+constexpr Box merge(Box a, const Box& b) {
+    a.extend(b);
+    return a;
+}
 
 /// Twice the half area; 0 for an empty box. Only ratios of it are used.
 constexpr double surface_area(const Box& b) {

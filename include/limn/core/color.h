@@ -13,8 +13,14 @@ struct Color {
     constexpr Color(double r_, double g_, double b_) : r(r_), g(g_), b(b_) {}
     constexpr bool operator==(const Color&) const = default;
 
-    constexpr Color& operator+=(const Color& c) { r += c.r, g += c.g, b += c.b; return *this; }
-    constexpr Color& operator*=(const Color& c) { r *= c.r, g *= c.g, b *= c.b; return *this; }
+    constexpr Color& operator+=(const Color& c) {
+        r += c.r, g += c.g, b += c.b;
+        return *this;
+    }
+    constexpr Color& operator*=(const Color& c) {
+        r *= c.r, g *= c.g, b *= c.b;
+        return *this;
+    }
 };
 
 constexpr Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }

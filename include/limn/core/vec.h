@@ -104,9 +104,7 @@ inline Vec3 normalize(const Vec3& a) {
     return scaled / std::sqrt(dot(scaled, scaled));
 }
 
-constexpr Vec3 abs(const Vec3& a) {
-    return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z};
-}
+constexpr Vec3 abs(const Vec3& a) { return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z}; }
 
 /// The largest magnitude of a coordinate.
 inline double max_abs(const Vec3& a) { return std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))); }

@@ -19,26 +19,33 @@ enum class Encoding { automatic, srgb, raw };
 
 struct SaveOptions {
     bool half = false;  ///< EXR: half instead of float; \throws FileError if a value is too large for it
-    /// Facts about the picture, written as text: EXR attributes, PNG text. Names as in the `--report`.
+    /// Facts about the picture, written as text: EXR attributes and PNG text named `limn:NAME`, HDR comments. NAME as
+    /// in the `--report`, 1 to 70 printable characters. EXR does not keep an empty text, HDR no line breaks.
     std::vector<std::pair<std::string, std::string>> facts{};
 };
 
-/// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]. The file appears whole or not at all: a
-/// temporary file beside it is written, read back and compared, flushed to disk and renamed.
-/// \throws FileError naming the file: unknown suffix, unwritable, disk full, non-finite values for PNG
+/// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
+/// BT.709 stated. The file appears whole or not at all: a temporary file beside it (`.limn-*.tmp`, left over only if
+/// the process is killed) is written, read back and compared, flushed to disk and renamed. A file that is replaced
+/// keeps its permissions; a link is followed.
+///
+/// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
+///
+/// \throws ArgumentError if a fact's name cannot be written
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
 /// Throws what save_image would throw for a reason that can be known beforehand: suffix, folder, permissions.
 void check_writable(const std::string& path);
 
-/// Reads the first three channels (a single one as grey). \throws FileError naming the file
+/// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey.
+/// \throws FileError naming the file: missing, no picture, broken off
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
 /// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file. \param name for messages
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
-/// The text facts in a picture's header, in no particular order.
+/// The text facts in the header of a picture that save_image wrote, in no particular order.
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn

@@ -12,11 +12,13 @@ namespace limn {
 
 /// What was read from a model file.
 struct Model {
-    std::vector<std::shared_ptr<const Mesh>> meshes;  ///< an OBJ gives one; `Mesh::face` numbers its faces in file order
-    std::size_t faces = 0;               ///< in the file
-    std::size_t dropped_faces = 0;       ///< fewer than three corners, or no area
+    /// An OBJ gives one; `Mesh::face` numbers its faces in file order.
+    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::size_t faces = 0;          ///< in the file
+    std::size_t dropped_faces = 0;  ///< fewer than three corners, or no area
     std::size_t degenerate_triangles = 0;
-    std::vector<std::string> warnings;   ///< a missing MTL or texture file, an unknown material, lines that were passed over
+    /// A missing MTL or texture file, an unknown material, lines that were passed over.
+    std::vector<std::string> warnings;
 
     Box bounds() const;
 };
@@ -26,7 +28,10 @@ struct ObjOptions {
     std::shared_ptr<const Material> default_material;
 };
 
-/// Reads a Wavefront OBJ and its MTL. Decimals become the nearest float32. Polygons are cut by ear clipping. Materials:
+/// Reads a Wavefront OBJ and its MTL, in any locale. Decimals become the nearest float32. Polygons are cut by ear
+/// clipping; one of many thousand corners that takes too long is dropped with a warning. Vertices are those of the file
+/// unless faces name normals or texture coordinates: then one for each combination, and a corner without a normal, or
+/// with one of length zero, gets its face's, one without a texture coordinate (0, 0). Materials:
 ///
 /// | MTL | material |
 /// |---|---|
@@ -36,8 +41,10 @@ struct ObjOptions {
 /// | else map_Kd | Lambertian(image), decoded from sRGB by metadata, v upward, repeated |
 /// | else | Lambertian(Kd) |
 ///
-/// \throws FileError naming file and line: unreadable, no usable face, an index out of range, a coordinate that is not a
-/// finite float32, a malformed number
+/// Colours are clamped to what the material may have. mtllib is relative to the OBJ, map_Kd to the MTL.
+///
+/// \throws FileError naming file and line: unreadable, no usable face, an index out of range, a coordinate that is not
+/// a finite float32, a malformed number
 Model load_obj(const std::string& path, const ObjOptions& options = {});
 
 }  // namespace limn

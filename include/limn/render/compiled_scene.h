@@ -20,21 +20,23 @@ struct Scene;
 
 /// The nearest hit of a ray in a compiled scene.
 struct RayHit {
-    double t = kInfinity;         ///< in units of the ray's direction; kInfinity: a miss
-    std::uint32_t object = 0;     ///< in the order of Scene::add
-    std::uint64_t element = 0;    ///< the primitive's number within the object: the triangle of a mesh, the place in a list
-    double u = 0, v = 0;          ///< triangle: weights of the second and third vertex; quad: along its edges; foreign: its own; sphere: 0
+    double t = kInfinity;      ///< in units of the ray's direction; kInfinity: a miss
+    std::uint32_t object = 0;  ///< in the order of Scene::add
+    std::uint64_t element =
+        0;                ///< the primitive's number within the object: the triangle of a mesh, the place in a list
+    double u = 0, v = 0;  ///< triangle: weights of the second and third vertex; quad: along its edges; foreign: its
+                          ///< own; sphere: 0
     bool index_matched = false;   ///< the boundary of a medium
     std::uint64_t primitive = 0;  ///< the primitive's number within the scene
 };
 
 struct SceneStats {
-    std::size_t memory_bytes = 0;    ///< of the compiled scene, mesh arrays that it shares with the description included
-    std::uint64_t primitives = 0;    ///< instanced ones counted once an instance
+    std::size_t memory_bytes = 0;  ///< of the compiled scene, mesh arrays that it shares with the description included
+    std::uint64_t primitives = 0;  ///< instanced ones counted once an instance
     std::uint64_t stored_primitives = 0;  ///< instanced ones counted once
-    std::uint64_t degenerate = 0;    ///< stored triangles of exactly zero area, which nothing can hit
-    std::uint64_t lights = 0;        ///< emitters that can be sampled
-    double seconds = 0;              ///< that compiling took
+    std::uint64_t degenerate = 0;         ///< stored triangles of exactly zero area, which nothing can hit
+    std::uint64_t lights = 0;             ///< emitters that can be sampled
+    double seconds = 0;                   ///< that compiling took
 };
 
 /// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
@@ -46,8 +48,8 @@ public:
     CompiledScene& operator=(CompiledScene&&) noexcept;
     ~CompiledScene();
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries of
-    /// media count, flagged. An unusable ray misses. Never throws.
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
+    /// of media count, flagged. An unusable ray misses. Never throws.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;

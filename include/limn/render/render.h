@@ -15,17 +15,18 @@ namespace limn {
 /// replicates. The denominator is taken from the pixel itself and from the 5x5 mean around it; the larger estimate
 /// counts. Light that no path has found yet cannot be seen.
 struct ErrorEstimate {
-    double estimate = 0;              ///< NaN where there is none
+    double estimate = 0;                 ///< NaN where there is none
     double ci95_low = 0, ci95_high = 0;  ///< from the spread over blocks of pixels; NaN where there is none
-    double max_sample_share = 0;      ///< 99.9th percentile over pixels of the largest share that one sample has of its pixel
-    std::string reason;               ///< why there is no estimate; empty where there is one
+    double max_sample_share =
+        0;               ///< 99.9th percentile over pixels of the largest share that one sample has of its pixel
+    std::string reason;  ///< why there is no estimate; empty where there is one
 };
 
 struct RenderReport {
     std::string scene;
     int width = 0, height = 0;
     std::uint64_t seed = 0;
-    int threads = 0;              ///< that the render had
+    int threads = 0;  ///< that the render had
     int max_depth = 0;
     double samples_per_pixel = 0;  ///< mean over pixels; less than asked for if it was stopped
     double compile_seconds = 0, render_seconds = 0;

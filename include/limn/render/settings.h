@@ -25,7 +25,7 @@ struct RenderSettings {
     int samples_per_pixel = 64;
     int max_depth = 10;  ///< ray segments a path; kUnlimitedDepth: paths end by Russian roulette alone
     std::uint64_t seed = 0;
-    int threads = 0;     ///< 0: as many as the caller's TBB arena has. The picture does not depend on it.
+    int threads = 0;        ///< 0: as many as the caller's TBB arena has. The picture does not depend on it.
     bool antialias = true;  ///< box filter over the pixel; false: every sample goes through the pixel's centre
     Estimator estimator = Estimator::path;
     /// Called now and then, never by two threads at once; return false to stop with what has been done.

@@ -14,10 +14,11 @@ struct Camera {
     Point3 look_from{0, 0, 1};
     Point3 look_at{0, 0, 0};
     Vec3 up{0, 1, 0};
-    double vertical_fov = 40;            ///< full angle between the top and the bottom edge of the picture
-    std::optional<double> aspect_ratio{};///< width over height of the picture's frame; by default that of its pixels
-    double aperture_angle = 0;           ///< full angle of the cone that the lens fills, seen from the focus plane; 0: pinhole
-    std::optional<double> focus_distance{};///< to the plane in focus, along the view axis; by default |look_at - look_from|
+    double vertical_fov = 40;              ///< full angle between the top and the bottom edge of the picture
+    std::optional<double> aspect_ratio{};  ///< width over height of the picture's frame; by default that of its pixels
+    double aperture_angle = 0;  ///< full angle of the cone that the lens fills, seen from the focus plane; 0: pinhole
+    std::optional<double>
+        focus_distance{};  ///< to the plane in focus, along the view axis; by default |look_at - look_from|
     double shutter_open = 0;
     double shutter_close = 1;
 };
@@ -25,8 +26,8 @@ struct Camera {
 /// A camera for a picture of a given size, ready to make rays. Immutable, thread-safe.
 class CameraRays {
 public:
-    /// \throws ArgumentError for an impossible camera: eye equal to target, up along the view, an angle outside (0, 180)
-    /// (aperture [0, 180)), a focus distance or size that is not positive, a shutter outside [0, 1], anything NaN
+    /// \throws ArgumentError for an impossible camera: eye equal to target, up along the view, an angle outside (0,
+    /// 180) (aperture [0, 180)), a focus distance or size that is not positive, a shutter outside [0, 1], anything NaN
     CameraRays(const Camera& camera, int width, int height);
 
     /// The ray through a point of the picture.
@@ -39,7 +40,7 @@ public:
 
 private:
     Point3 eye_;
-    Vec3 right_, up_, forward_;  // unit
+    Vec3 right_, up_, forward_;        // unit
     double half_width_, half_height_;  // of the frame at distance 1
     double width_, height_;            // in pixels
     double lens_radius_, focus_distance_;

@@ -12,9 +12,9 @@ namespace limn {
 /// reports its crossing as `index_matched`; the path loop draws the free flight.
 class ConstantMedium final : public Hittable {
 public:
-    /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is inside,
-    /// so nested closed surfaces make shells.
-    /// \throws ArgumentError if the boundary is null, the density is negative or not finite, the albedo outside [0, 1]
+    /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is
+    /// inside, so nested closed surfaces make shells. \throws ArgumentError if the boundary is null, the density is
+    /// negative or not finite, the albedo outside [0, 1]
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, const Color& albedo);
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, std::shared_ptr<const Texture> albedo);
     Box bounds() const override { return boundary_->bounds(); }

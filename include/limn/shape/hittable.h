@@ -21,8 +21,8 @@ struct Hit {
     std::uint64_t element = 0;           ///< the primitive's number within the object
     Normal3 shading_normal{};            ///< interpolated, unit; zero: same as normal
     std::optional<Uv> uv{};              ///< texture coordinates where they differ from u, v
-    Vec3 position_error{};               ///< bound on the hit point's error along each axis, beyond the rounding of ray.at(t)
-    bool index_matched = false;          ///< the boundary of a medium: light passes straight through
+    Vec3 position_error{};       ///< bound on the hit point's error along each axis, beyond the rounding of ray.at(t)
+    bool index_matched = false;  ///< the boundary of a medium: light passes straight through
 };
 
 /// What a ray can hit. A subclass needs `bounds` and `hit`; it then works everywhere, through the same BVH as the

@@ -11,7 +11,8 @@ namespace limn {
 /// Instances nest. A mirroring transform keeps outside outside.
 class Instance final : public Hittable {
 public:
-    /// \throws ArgumentError if the object is null, a matrix is not finite, or it is singular at some time of the shutter
+    /// \throws ArgumentError if the object is null, a matrix is not finite, or it is singular at some time of the
+    /// shutter
     Instance(std::shared_ptr<const Hittable> object, const Transform& world_from_object);
     Instance(std::shared_ptr<const Hittable> object, const Transform& at_time0, const Transform& at_time1);
     Box bounds() const override;

@@ -11,8 +11,8 @@ namespace limn {
 struct MeshData {
     std::vector<Float3> vertices;  ///< stored as given
     std::vector<Index3> triangles;
-    std::vector<Float3> normals;   ///< per vertex, of any length but zero; or empty: flat shading
-    std::vector<Float2> uvs;       ///< texture coordinates per vertex; or empty: the weights of vertices b and c
+    std::vector<Float3> normals;  ///< per vertex, of any length but zero; or empty: flat shading
+    std::vector<Float2> uvs;      ///< texture coordinates per vertex; or empty: the weights of vertices b and c
     std::vector<std::uint32_t> material_slots;  ///< per triangle, which of the mesh's materials; or empty: the first
     std::vector<std::uint32_t> faces;  ///< per triangle, the number of the polygon it was cut from; or empty: its own
 };

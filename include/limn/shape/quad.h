@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// A parallelogram: corner + u edge_u + v edge_v, u and v in [0, 1]. The outward normal is edge_u x edge_v. A ray in the
-/// quad's own plane misses.
+/// A parallelogram: corner + u edge_u + v edge_v, u and v in [0, 1]. The outward normal is edge_u x edge_v. A ray in
+/// the quad's own plane misses.
 class Quad final : public Hittable {
 public:
     /// \throws ArgumentError if anything is not finite, an edge is zero, or the edges are parallel
