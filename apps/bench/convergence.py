@@ -136,7 +136,7 @@ def main():
     parser.add_argument("--full", action="store_true", help="400x400 instead of 100x100, longer references")
     full = parser.parse_args().full
     size = 400 if full else 100
-    reference_spp = {"path": 4096, "naive": 16384} if full else {"path": 2048, "naive": 4096}
+    reference_spp = {"path": 4096, "naive": 16384} if full else {"path": 1024, "naive": 2048}
     RAW.mkdir(parents=True, exist_ok=True)
 
     results = {}
