@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "limn/records.h"
 
@@ -34,6 +35,10 @@ public:
     /// \throws ArgumentError if an object contains itself
     GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
 
+    /// Around the description of an object that contains others. \throws ArgumentError if it is being described already
+    void enter(const void* object);
+    void leave(const void* object);
+
     /// Keeps the owner of something that a record points to alive as long as the records.
     void keep(const std::shared_ptr<const void>& owner);
 
@@ -55,6 +60,7 @@ private:
         bool open;
     };
     std::unordered_map<const void*, GroupState> groups_;
+    std::unordered_set<const void*> entered_;
 };
 
 }  // namespace limn

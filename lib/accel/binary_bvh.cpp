@@ -29,28 +29,44 @@ public:
     explicit Builder(std::span<const Box> boxes) : boxes_(boxes), centers_(boxes.size()) {
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
             if (boxes[i].is_empty()) continue;
-            centers_[i] = finite_center(boxes[i]);
             bvh_.extent = std::max(bvh_.extent, finite_extent(boxes[i]));
+            if (!is_finite(boxes[i].lower) || !is_finite(boxes[i].upper)) {
+                unbounded_.push_back(i);
+                continue;
+            }
+            centers_[i] = boxes[i].center();
             bvh_.ids.push_back(i);
         }
     }
 
     BinaryBvh build() && {
-        if (bvh_.ids.empty()) return std::move(bvh_);
-        bvh_.nodes.reserve(bvh_.ids.size());
-        bvh_.nodes.emplace_back();
-        build(0, 0, static_cast<std::uint32_t>(bvh_.ids.size()), 0);
+        const auto bounded = static_cast<std::uint32_t>(bvh_.ids.size());
+        bvh_.nodes.reserve(bounded + 3);
+        if (unbounded_.empty()) {
+            if (bounded == 0) return std::move(bvh_);
+            bvh_.nodes.emplace_back();
+            build(0, 0, bounded, 0);
+            return std::move(bvh_);
+        }
+        // No split can part unbounded boxes from the rest by area: they get a leaf beside the root of the others.
+        BinaryNode leaf;
+        leaf.first = bounded;
+        leaf.count = static_cast<std::uint32_t>(unbounded_.size());
+        for (const std::uint32_t i : unbounded_) leaf.bounds.extend(boxes_[i]);
+        bvh_.ids.insert(bvh_.ids.end(), unbounded_.begin(), unbounded_.end());
+        if (bounded == 0) {
+            bvh_.nodes.push_back(leaf);
+            return std::move(bvh_);
+        }
+        BinaryNode root;
+        root.first = 1;
+        bvh_.nodes = {root, BinaryNode{}, leaf};
+        build(1, 0, bounded, 1);
+        bvh_.nodes[0].bounds = merge(bvh_.nodes[1].bounds, leaf.bounds);
         return std::move(bvh_);
     }
 
 private:
-    // Unbounded boxes have no centre: they count as being at the edge of the range.
-    static Point3 finite_center(const Box& b) {
-        Point3 c = b.center();
-        for (std::size_t a = 0; a < 3; ++a) c[a] = std::isfinite(c[a]) ? c[a] : 0;
-        return c;
-    }
-
     void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, int depth) {
         Box bounds, center_bounds;
         for (std::uint32_t i = begin; i < end; ++i) {
@@ -125,6 +141,7 @@ private:
 
     std::span<const Box> boxes_;
     std::vector<Point3> centers_;
+    std::vector<std::uint32_t> unbounded_;
     BinaryBvh bvh_;
 };
 

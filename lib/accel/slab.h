@@ -13,11 +13,12 @@ namespace limn::accel {
 
 // Traversal compares where a ray enters a box with the t of hits found elsewhere, and a hit's t carries a rounding of
 // its own: relative to the coordinates that it was computed from, not to t. So t_min and t_max count as wider by this
-// much of the largest coordinate, in units of t. It only costs a visit now and then.
-inline constexpr double kSlack = 0x1p-44;
+// much of the largest coordinate, in units of t; and since the edges of primitives are decided by numbers rounded
+// likewise, boxes count as larger by as much, in units of length. It only costs a visit now and then.
+inline constexpr double kSlack = 0x1p-42;
 
 struct SlabRay {
-    double origin[3];
+    double origin_near[3], origin_far[3];  // moved so that boxes seem larger
     double inverse[3];
     bool negative[3];
     double slack;
@@ -26,8 +27,11 @@ struct SlabRay {
     // `extent`: the largest finite coordinate of the boxes to come.
     SlabRay(const Ray& ray, double extent)
         : slack(kSlack * (max_abs(ray.origin) + extent) / max_abs(ray.direction)), t_min(ray.t_min - slack) {
+        const double wider = kSlack * (max_abs(ray.origin) + extent);
         for (std::size_t a = 0; a < 3; ++a) {
-            origin[a] = ray.origin[a];
+            const double step = std::signbit(ray.direction[a]) ? -wider : wider;
+            origin_near[a] = ray.origin[a] + step;
+            origin_far[a] = ray.origin[a] - step;
             inverse[a] = 1 / ray.direction[a];
             negative[a] = std::signbit(ray.direction[a]);
         }
@@ -42,8 +46,9 @@ struct SlabRay {
     bool meets(const Real* lower, const Real* upper, double t_max, double& near) const {
         double enter = t_min, leave = t_max + slack;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double to_near = (static_cast<double>(negative[a] ? upper[a] : lower[a]) - origin[a]) * inverse[a];
-            double to_far = (static_cast<double>(negative[a] ? lower[a] : upper[a]) - origin[a]) * inverse[a];
+            const double to_near =
+                (static_cast<double>(negative[a] ? upper[a] : lower[a]) - origin_near[a]) * inverse[a];
+            double to_far = (static_cast<double>(negative[a] ? lower[a] : upper[a]) - origin_far[a]) * inverse[a];
             to_far *= to_far > 0 ? 1 + 0x1p-51 : 1 - 0x1p-51;
             enter = to_near > enter ? to_near : enter;
             leave = to_far < leave ? to_far : leave;

@@ -1,5 +1,6 @@
 #include "compile/groups.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,32 +27,40 @@ float round_up(double x) {
 
 class TreeBuilder {
 public:
-    explicit TreeBuilder(flat::Scene& scene) : scene_(scene), built_(scene.groups.size(), false) {}
+    explicit TreeBuilder(flat::Scene& scene)
+        : scene_(scene), height_(scene.groups.size(), kUnbuilt), holds_media_(scene.groups.size(), false) {}
 
-    // Inner groups first: an instance needs the bounds of its group.
-    void build(GroupId id, std::uint32_t depth, bool boundary) {
-        if (depth > flat::kMaxNesting)
-            throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
+    // Inner groups first: an instance needs the bounds of its group. Returns how many instances nest below.
+    std::uint32_t build(GroupId id) {
         const auto index = static_cast<std::size_t>(id);
+        if (height_[index] != kUnbuilt) return height_[index];
+        std::uint32_t height = 0;
         std::vector<Box> boxes;
         std::vector<flat::Reference> references;
         for (std::uint32_t i = 0; i < scene_.groups[index].range_count; ++i) {
             const std::uint32_t row = scene_.groups[index].first_range + i;
             const PrimitiveRange range = scene_.ranges[row];
             if (range.kind == PrimitiveKind::instance) {
-                build(scene_.instances[range.first_row].group, depth + 1, boundary);
+                const GroupId inner = scene_.instances[range.first_row].group;
+                height = std::max(height, 1 + build(inner));
+                if (holds_media_[static_cast<std::size_t>(inner)]) holds_media_[index] = true;
             } else if (range.kind == PrimitiveKind::medium) {
-                if (boundary) throw ArgumentError("scene: the boundary of a medium contains a medium");
-                build(scene_.medium_shapes[range.first_row].boundary, depth, true);
+                const GroupId boundary = scene_.medium_shapes[range.first_row].boundary;
+                height = std::max(height, build(boundary));
+                if (holds_media_[static_cast<std::size_t>(boundary)])
+                    throw ArgumentError("scene: the boundary of a medium contains a medium");
+                holds_media_[index] = true;
             }
-            if (!built_[index]) add(range, row, boxes, references);
+            add(range, row, boxes, references);
         }
-        if (built_[index]) return;  // again only for the depth and the media
-        built_[index] = true;
+        if (height > flat::kMaxNesting)
+            throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
+        height_[index] = height;
         const accel::BinaryBvh bvh = accel::build_binary_bvh(boxes);
         scene_.groups[index].bounds = bvh.bounds();
         scene_.groups[index].extent = bvh.extent;
         scene_.groups[index].root = pack(bvh, references);
+        return height;
     }
 
 private:
@@ -157,8 +166,11 @@ private:
         node.child[side] = child.count > 0 ? first_reference + child.first : row;
     }
 
+    static constexpr std::uint32_t kUnbuilt = 0xffffffff;
+
     flat::Scene& scene_;
-    std::vector<bool> built_;
+    std::vector<std::uint32_t> height_;  // by group
+    std::vector<bool> holds_media_;      // by group
 };
 
 // Walks every path of instances that leads to a medium.
@@ -210,7 +222,7 @@ private:
 
 }  // namespace
 
-void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(GroupId::root, 0, false); }
+void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(GroupId::root); }
 
 void place_media(flat::Scene& scene) { MediumPlacer{scene}; }
 

@@ -12,8 +12,14 @@ namespace limn::compiler {
 
 namespace {
 
-// A brightness that stands for the whole texture when lights are weighed against each other. Zero only where all is
-// black; a wrong guess costs noise, not bias.
+bool is_foreign(const flat::Scene& scene, TextureId id) {
+    const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
+    return t.kind == TextureKind::foreign ||
+           (t.kind == TextureKind::checker && (is_foreign(scene, t.even) || is_foreign(scene, t.odd)));
+}
+
+// A brightness that stands for the whole texture when lights are weighed against each other; a wrong guess costs noise,
+// not bias. Zero where all is black, and for textures that cannot be sampled.
 double typical_brightness(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     switch (t.kind) {
@@ -28,7 +34,7 @@ double typical_brightness(const flat::Scene& scene, TextureId id) {
         case TextureKind::noise:
         case TextureKind::turbulence:
         case TextureKind::marble: return max_component(t.color) / 2;
-        case TextureKind::foreign: return 1;
+        case TextureKind::foreign: return 0;  // may ask for what only a traced hit knows
     }
     return 1;
 }
@@ -49,6 +55,9 @@ bool is_rectangle(const flat::Light& light) {
     return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
 }
 
+// Of an emitter in instances of instances of instances more copies than these are left to scattering.
+constexpr std::size_t kMaxLights = std::size_t{1} << 22;
+
 class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
@@ -64,6 +73,11 @@ private:
         return id == MaterialId::none ? 0 : brightness_[static_cast<std::size_t>(id)];
     }
 
+    bool is_solid(MaterialId id) const {
+        const TextureId texture = scene_.materials[static_cast<std::size_t>(id)].texture;
+        return scene_.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
+    }
+
     bool any_emits(const PrimitiveRange& range) const {
         if (range.kind == PrimitiveKind::mesh) {
             const auto& ids = scene_.meshes[range.first_row].materials;
@@ -75,7 +89,7 @@ private:
     }
 
     void visit(GroupId id, std::uint64_t first_number, const Transform& world_from_group) {
-        if (!emits_[static_cast<std::size_t>(id)]) return;
+        if (!emits_[static_cast<std::size_t>(id)] || scene_.lights.size() >= kMaxLights) return;
         const flat::Group group = flat::group_at(scene_, id);
         for (std::uint32_t i = 0; i < group.range_count; ++i) {
             const PrimitiveRange range = scene_.ranges[group.first_range + i];
@@ -95,14 +109,20 @@ private:
         light.material = material_of(scene_, range, element);
         if (!(brightness(light.material) > 0)) return;
         const auto row = range.first_row + element;
+        const Transform inv = inverse(m);
         const auto sphere = [&](const Point3& center, const Vec3& motion, double radius) {
             const std::optional<double> scale = uniform_scale(m);
-            if (!scale) return false;
+            // Texture coordinates belong to the object's own axes and side.
+            const bool own_axes = m == Transform{} && radius > 0;
+            if (!scale || (!own_axes && !is_solid(light.material))) return false;
             light.kind = flat::LightKind::sphere;
             light.origin = transform_point(m, center);
             light.edge_u = transform_vector(m, motion);
             light.radius = *scale * std::abs(radius);
-            light.position_error = sphere_error(light.origin, light.radius);
+            const double reach = std::max(max_abs(light.origin), max_abs(light.origin + light.edge_u)) + light.radius;
+            const double own_reach = std::max(max_abs(center), max_abs(center + motion));
+            light.position_error = transformed_error(m, inv, Point3{reach, reach, reach},
+                                                     along_every_axis(gamma(16) * (own_reach + std::abs(radius))));
             return true;
         };
         const auto planar = [&](flat::LightKind kind, const Point3& origin, const Vec3& u, const Vec3& v) {
@@ -110,7 +130,8 @@ private:
             light.origin = transform_point(m, origin);
             light.edge_u = transform_vector(m, u);
             light.edge_v = transform_vector(m, v);
-            light.position_error = planar_error(light.origin, light.edge_u, light.edge_v);
+            const double reach = max_abs(light.origin) + max_abs(light.edge_u) + max_abs(light.edge_v);
+            light.position_error = transformed_error(m, inv, Point3{reach, reach, reach}, planar_error(origin, u, v));
             return length_squared(cross(light.edge_u, light.edge_v)) > 0;
         };
         bool usable = false;
@@ -131,10 +152,7 @@ private:
             const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
             usable = !is_degenerate(v) && planar(flat::LightKind::triangle, v.a, v.b - v.a, v.c - v.a);
         }
-        if (!usable) return;
-        // An object-space bound and the composition of the matrices, seen in world space.
-        light.position_error = transformed_error(m, inverse(m), light.origin, light.position_error);
-        scene_.lights.push_back(light);
+        if (usable) scene_.lights.push_back(light);
     }
 
     static double area(const flat::Light& light) {

@@ -45,7 +45,7 @@ inline bool intersect_sphere(const Point3& center, double radius, const Ray& ray
     const SphereRoots roots = sphere_roots(center, radius, ray);
     if (!roots.any) return false;
     t = roots.near > ray.t_min ? roots.near : roots.far;
-    return t > ray.t_min && t <= t_max;
+    return t > ray.t_min && t <= t_max && t < kInfinity;
 }
 
 }  // namespace limn

@@ -48,7 +48,7 @@ inline bool intersect_triangle(const Point3& a, const Point3& b, const Point3& c
     const double det = wa + wb + wc;
     if (!(std::abs(det) > 0)) return false;
     const double t = (wa * pa.z + wb * pb.z + wc * pc.z) / det / ray.direction_z;
-    if (!(t > t_min && t <= t_max)) return false;
+    if (!(t > t_min && t <= t_max && t < kInfinity)) return false;
     hit = {t, wb / det, wc / det};
     return true;
 }
@@ -69,7 +69,7 @@ inline bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3&
     if (!(wu >= -slack_u && wu <= det + slack_u && wv >= -slack_v && wv <= det + slack_v && det > 0)) return false;
     const double u = std::clamp(wu / det, 0.0, 1.0), v = std::clamp(wv / det, 0.0, 1.0);
     const double t = (q.z + u * eu.z + v * ev.z) / ray.direction_z;
-    if (!(t > t_min && t <= t_max)) return false;
+    if (!(t > t_min && t <= t_max && t < kInfinity)) return false;
     hit = {t, u, v};
     return true;
 }
@@ -79,7 +79,7 @@ inline Vec3 to_vec(const Float3& v) { return {v.x, v.y, v.z}; }
 
 // The vertices of a mesh triangle are float32: differences in double are exact but for far-apart magnitudes.
 inline Normal3 triangle_normal(const Point3& a, const Point3& b, const Point3& c) {
-    return Normal3(normalize(cross(b - a, c - a)));
+    return Normal3(unit_cross(b - a, c - a));
 }
 
 }  // namespace limn

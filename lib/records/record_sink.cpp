@@ -116,6 +116,12 @@ GroupId RecordSink::group(const std::shared_ptr<const void>& object, const std::
     return id;
 }
 
+void RecordSink::enter(const void* object) {
+    if (!entered_.insert(object).second) throw ArgumentError("scene: an object contains itself");
+}
+
+void RecordSink::leave(const void* object) { entered_.erase(object); }
+
 void RecordSink::keep(const std::shared_ptr<const void>& owner) { records_.kept.push_back(owner); }
 
 void RecordSink::append(PrimitiveKind kind, std::size_t row, std::uint64_t count) {

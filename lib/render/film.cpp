@@ -56,8 +56,9 @@ double Film::mean_samples() const {
     return sum / static_cast<double>(pixels_.size());
 }
 
-// relMSE of the mean: its numerator is the variance of the mean of four independent replicates, (1 / (4 * 3)) sum of
-// (replicate mean - mean)^2. The denominator r^2 + 0.01 is taken twice, from the pixel and from the 5x5 mean around it.
+// relMSE of the mean: its numerator is the variance of the mean of N samples in R = 4 independent replicates of n_r
+// each, sum of n_r (replicate mean - mean)^2 / ((R - 1) N), unbiased for unequal n_r too. The denominator r^2 + 0.01 is
+// taken twice, from the pixel and from the 5x5 mean around it.
 ErrorEstimate Film::error() const {
     ErrorEstimate e;
     std::vector<double> shares;
@@ -100,12 +101,12 @@ ErrorEstimate Film::error() const {
             for (std::uint32_t r = 0; r < kReplicates; ++r) {
                 const std::uint32_t count = p.samples / kReplicates + (r < p.samples % kReplicates ? 1 : 0);
                 const auto replicate = channels(p.sums[r] / count);
-                for (std::size_t c = 0; c < 3; ++c) variance[c] += std::pow(replicate[c] - here[c], 2);
+                for (std::size_t c = 0; c < 3; ++c) variance[c] += count * std::pow(replicate[c] - here[c], 2);
             }
             Block& b = blocks[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) +
                               static_cast<std::size_t>(x / block)];
             for (std::size_t c = 0; c < 3; ++c) {
-                const double of_mean = variance[c] / (kReplicates * (kReplicates - 1));
+                const double of_mean = variance[c] / ((kReplicates - 1.0) * p.samples);
                 b.by_pixel += of_mean / (here[c] * here[c] + kDarkness);
                 b.by_surround += of_mean / (around[c] * around[c] + kDarkness);
             }

@@ -53,9 +53,15 @@ void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium
 }
 
 double MediaAlongRay::transmittance() const {
-    double depth = 0;
-    for (const Step& step : steps_) depth -= step.extinction * step.t;
-    return std::exp(-std::max(depth, 0.0));
+    double depth = 0, extinction = 0, t = 0;
+    int inside = 0;
+    for (const Step& step : steps_) {
+        if (inside > 0) depth += extinction * (step.t - t);
+        t = step.t;
+        inside += step.extinction > 0 ? 1 : -1;
+        extinction = inside == 0 ? 0 : extinction + step.extinction;
+    }
+    return std::exp(-depth);
 }
 
 std::optional<FreeFlight> MediaAlongRay::sample(double random, double choose) const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <mutex>
 
 #include "flat/scene.h"
 #include "limn/core/error.h"
@@ -21,6 +20,7 @@ namespace {
 constexpr int kTile = 16;         // pixels a side: some thousand paths, enough work to hide the cost of a task
 constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
 constexpr int kMaxSide = 1 << 20;
+constexpr int kMaxThreads = 1024;
 
 void check(const CompiledScene& scene, const RenderSettings& s) {
     const auto require = [](bool holds, const char* what) {
@@ -30,7 +30,7 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
             "width and height must lie in 1 to 1048576");
     require(s.samples_per_pixel > 0, "samples per pixel must be at least 1");
     require(s.max_depth > 0, "the depth limit must be at least 1");
-    require(s.threads >= 0, "threads must not be negative");
+    require(s.threads >= 0 && s.threads <= kMaxThreads, "threads must lie in 0 to 1024");
     if (scene.flat().unassigned > 0)
         throw Error("render: " + std::to_string(scene.flat().unassigned) + " shapes of the scene have no material");
 }
@@ -59,6 +59,7 @@ public:
                 render_tile(static_cast<int>(tile % across) * kTile, static_cast<int>(tile / across) * kTile, target);
                 report(false);
             });
+            if (context_.is_group_execution_cancelled()) stop_ = true;  // by us, or by the caller's own task group
             done = target;
         }
         if (!stop_) report(true);
@@ -78,7 +79,7 @@ public:
         r.report.nonfinite_samples = nonfinite_;
         r.report.features = scene.features();
         r.report.memory_bytes = scene.stats().memory_bytes + film_.memory_bytes();
-        r.report.complete = !stop_;
+        r.report.complete = samples_done_ == all_samples();
         return r;
     }
 
@@ -112,8 +113,11 @@ private:
     // Tells the caller how far things are; at most every 50 ms, unless `always`.
     void report(bool always) {
         if (!settings_.progress) return;
-        const std::unique_lock lock(report_mutex_, std::try_to_lock);
-        if (!lock || stop_) return;
+        if (stop_ || reporting_.test_and_set(std::memory_order_acquire)) return;
+        struct Finish {
+            std::atomic_flag& flag;
+            ~Finish() { flag.clear(std::memory_order_release); }
+        } const finish{reporting_};
         const double now = seconds();
         if (!always && now - last_report_ < 0.05) return;
         last_report_ = now;
@@ -123,10 +127,11 @@ private:
         }
     }
 
-    double fraction() const {
-        const double all = static_cast<double>(settings_.width) * settings_.height;
-        return std::min(1.0, static_cast<double>(samples_done_) / (all * settings_.samples_per_pixel));
+    std::uint64_t all_samples() const {
+        return static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height) *
+               static_cast<std::uint64_t>(settings_.samples_per_pixel);
     }
+    double fraction() const { return static_cast<double>(samples_done_) / static_cast<double>(all_samples()); }
 
     const flat::Scene& scene_;
     const CameraRays camera_;
@@ -135,7 +140,7 @@ private:
     tbb::task_group_context context_;
     std::atomic<bool> stop_ = false;
     std::atomic<std::uint64_t> rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
-    std::mutex report_mutex_;
+    std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
     double last_report_ = 0;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -34,7 +34,7 @@ LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, 
     LocalHit hit;
     hit.position = corner + (planar.u * edge_u + planar.v * edge_v);
     hit.position_error = planar_error(corner, edge_u, edge_v);
-    hit.normal = hit.shading_normal = Normal3(normalize(cross(edge_u, edge_v)));
+    hit.normal = hit.shading_normal = Normal3(unit_cross(edge_u, edge_v));
     hit.u = planar.u, hit.v = planar.v;
     hit.uv = {planar.u, planar.v};
     return hit;

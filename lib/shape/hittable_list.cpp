@@ -31,7 +31,9 @@ std::optional<Hit> HittableList::hit(const Ray& ray) const {
 }
 
 void HittableList::lower(RecordSink& sink) const {
+    sink.enter(this);
     for (const auto& object : objects_) object->lower(sink);
+    sink.leave(this);
 }
 
 std::uint64_t count_elements(const Hittable& object) {

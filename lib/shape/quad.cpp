@@ -12,7 +12,7 @@ Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::sh
     require_finite(corner, "Quad", "the corner");
     require_finite(edge_u, "Quad", "edge u");
     require_finite(edge_v, "Quad", "edge v");
-    if (!is_finite(normalize(cross(edge_u, edge_v))))
+    if (!is_finite(unit_cross(edge_u, edge_v)))
         throw ArgumentError("Quad: the edges must not be zero or parallel");
 }
 
@@ -23,7 +23,7 @@ std::optional<Hit> Quad::hit(const Ray& ray) const {
     if (!is_usable(ray) || !intersect_quad(corner_, edge_u_, edge_v_, ShearedRay(ray), ray.t_min, ray.t_max, hit))
         return std::nullopt;
     return Hit{.t = hit.t,
-               .normal = Normal3(normalize(cross(edge_u_, edge_v_))),
+               .normal = Normal3(unit_cross(edge_u_, edge_v_)),
                .u = hit.u,
                .v = hit.v,
                .material = material_.get(),

@@ -104,6 +104,14 @@ inline Vec3 normalize(const Vec3& a) {
     return scaled / std::sqrt(dot(scaled, scaled));
 }
 
+/// The unit vector along cross(a, b), right for edges of any finite size; NaN where they are parallel.
+inline Vec3 unit_cross(const Vec3& a, const Vec3& b) {
+    const Vec3 c = cross(a, b);
+    const double squared = dot(c, c);
+    if (squared > 1e-200 && squared < 1e200) return c / std::sqrt(squared);
+    return normalize(cross(normalize(a), normalize(b)));
+}
+
 constexpr Vec3 abs(const Vec3& a) { return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z}; }
 
 /// The largest magnitude of a coordinate.

@@ -49,7 +49,8 @@ public:
     ~CompiledScene();
 
     /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
-    /// of media count, flagged. An unusable ray misses. Never throws.
+    /// of media count, flagged. An unusable ray misses. Throws only what a foreign
+    /// object throws.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;
