@@ -1,0 +1,55 @@
+// Scenes that nest, repeat and reach without end.
+#include "catch.h"
+#include "limn/core/error.h"
+#include "limn/render/compiled_scene.h"
+#include "limn/shape/hittable_list.h"
+#include "limn/shape/instance.h"
+#include "limn/shape/quad.h"
+#include "limn/shape/sphere.h"
+
+using namespace limn;
+
+namespace {
+
+std::shared_ptr<Sphere> ball(const Point3& center) { return std::make_shared<Sphere>(center, 1.0, nullptr); }
+
+}  // namespace
+
+TEST_CASE("compile: a list that contains itself is refused", "[compile]") {
+    const auto a = std::make_shared<HittableList>(), b = std::make_shared<HittableList>();
+    a->add(b);
+    b->add(a);
+    Scene scene;
+    scene.add(a);
+    CHECK_THROWS_AS(compile(scene), ArgumentError);
+}
+
+TEST_CASE("compile: instances of instances cost what is stored, not what is seen", "[compile]") {
+    std::shared_ptr<const Hittable> object = ball({0, 0, 0});
+    for (int level = 0; level < 8; ++level) {
+        const auto copies = std::make_shared<HittableList>();
+        for (int i = 0; i < 30; ++i)
+            copies->add(std::make_shared<Instance>(object, Transform::translate({3.0 * i, 0, 0})));
+        object = copies;
+    }
+    Scene scene;
+    scene.add(object);
+    const CompiledScene compiled = compile(scene);
+    CHECK(compiled.stats().primitives == 656'100'000'000u);
+    CHECK(compiled.stats().stored_primitives == 1);
+    const auto hit = compiled.closest_hit({.origin = {0, 0, 5}, .direction = {0, 0, -1}});
+    REQUIRE(hit);
+    CHECK(hit->t == 4);
+    CHECK(hit->element == 0);
+}
+
+TEST_CASE("compile: a hit endlessly far away is a miss", "[compile]") {
+    const Ray ray{.origin = {0, 0, 0}, .direction = {0, 0, 1e-300}};
+    Scene scene;
+    scene.add(ball({0, 0, 1e10}));
+    scene.add(std::make_shared<Quad>(Point3{-1e10, -1e10, 1e10}, Vec3{2e10, 0, 0}, Vec3{0, 2e10, 0}, nullptr));
+    for (const auto& object : scene.objects()) CHECK_FALSE(object->hit(ray));
+    const CompiledScene compiled = compile(scene);
+    CHECK_FALSE(compiled.closest_hit(ray));
+    CHECK_FALSE(compiled.any_hit(ray));
+}
