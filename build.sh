@@ -59,7 +59,9 @@ figures() {
         if "$program" --quiet -o "$out/$name.exr" -o "$out/$name.png" --report "$out/$name.json" </dev/null; then
             awk -v n="$name" -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%-28s %7.1f s\n", n, b - a }'
         else
-            echo "$name failed, exit status $?" >&2
+            local status=$?
+            echo "$name failed, exit status $status" >&2
+            [[ $status -lt 128 ]] || exit "$status"  # interrupted: so is the whole
             failed=1
         fi
     done

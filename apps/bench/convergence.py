@@ -45,10 +45,10 @@ def program(figure):
 
 
 def render(figure, size, spp, seed, estimator="path"):
-    """Renders once and keeps the result: the same call costs nothing the next time."""
+    """Renders once and keeps the result as long as the program stays the same."""
     name = f"{figure}_{size}_{estimator}_{spp}_{seed}"
     exr, report = RAW / f"{name}.exr", RAW / f"{name}.json"
-    if not report.exists():
+    if not report.exists() or report.stat().st_mtime < program(figure).stat().st_mtime:
         subprocess.run(
             [program(figure), "--quiet", "-o", exr, "--report", report, "--size", f"{size}x{size}", "--spp", str(spp),
              "--seed", str(seed), "--estimator", estimator],
@@ -144,7 +144,7 @@ def main():
         print(f"{figure} ...", file=sys.stderr, flush=True)
         results[figure] = measure(figure, size, reference_spp)
 
-    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True).stdout.strip()
     threads = render(next(iter(FIGURES)), size, SAMPLES[0], SEEDS[0])[1]["threads"]
     plot(results, ROOT / "docs/speed-against-error.png")
     lines = ["# Speed against error", "",

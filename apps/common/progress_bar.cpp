@@ -27,8 +27,10 @@ void ProgressBar::update(const Progress& progress) {
     const int full = static_cast<int>(kCells * fraction);
     std::string left;
     if (fraction > 0) left = fmt::format(", {} left", duration(progress.seconds * (1 - fraction) / fraction));
-    fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %  {}{}\033[K", "", full, "", kCells - full, 100 * fraction,
-               duration(progress.seconds), left);
+    const std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %  {}{}\033[K", "", full, "", kCells - full,
+                                         100 * fraction, duration(progress.seconds), left);
+    // A terminal may go away while the render goes on: what cannot be written is not worth a picture.
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
     drawn_ = true;
     drawn_at_ = progress.seconds;

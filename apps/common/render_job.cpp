@@ -36,13 +36,27 @@ auto from_files(const Step& step) {
     }
 }
 
+// A lamp brighter than half can hold must not cost the picture.
+Image clamped_to_half(Image image, const Console& console) {
+    constexpr float kLargestHalf = 65504;
+    std::size_t clamped = 0;
+    for (float& value : image.values()) {
+        if (value <= kLargestHalf) continue;
+        value = kLargestHalf;
+        ++clamped;
+    }
+    if (clamped > 0) console.error(fmt::format("--half: {} values above 65504 were saved as 65504", clamped));
+    return image;
+}
+
 // Saves each output whatever becomes of the others: hours of rendering may be in them. Returns whether all were saved.
 bool save_all(const RenderResult& result, const RenderSettings& settings, const RenderOptions& options,
               const Console& console) {
     const SaveOptions save{.half = options.half, .facts = picture_facts(result, settings, options.command_line)};
+    const Image image = options.half ? clamped_to_half(result.image, console) : result.image;
     bool all = true;
     for (const std::string& path : options.outputs) try {
-            save_image(result.image, path, save);
+            save_image(image, path, save);
         } catch (const Error& e) {
             console.error(e.what());
             all = false;
@@ -82,7 +96,7 @@ int run_render_job(const RenderJob& job, const RenderOptions& options, const Con
     const RenderResult result = render(scene, figure.camera, figure.settings);
     bar.clear();
     if (result.report.samples_per_pixel == 0) {
-        console.note("interrupted before the first sample: nothing was saved");
+        console.error("interrupted before the first sample: nothing was saved");
         return interrupted_status();
     }
 

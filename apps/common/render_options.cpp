@@ -76,9 +76,12 @@ void add_camera(CLI::App& app, CameraOptions& o) {
 // Names that later versions will give a meaning to. Refused, so that no script comes to rely on their absence.
 void add_reserved(CLI::App& app) {
     for (const char* name : {"--error", "--time-limit", "--shard", "--checkpoint", "--resume"})
-        add(app, name, "X", "", [name](const std::string& s) {
-            refuse(name, s, "this option is reserved and not available in this version");
-        })->group("");
+        add(app, name, "X", "",
+            [name](const std::string& s) {
+                refuse(name, s, "this option is reserved and not available in this version");
+            })
+            ->expected(0, 1)
+            ->group("");
 }
 
 template <class Target, class Value>
@@ -104,8 +107,11 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     add_numbers(app, o);
     app.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
     app.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
-    app.add_option("--report", o.report, "Write what was done and how well as JSON; - for standard output")
-        ->type_name("FILE.json");
+    add(app, "--report", "FILE.json", "Write what was done and how well as JSON; - for standard output",
+        [&o](const std::string& s) {
+            if (s.empty()) refuse("--report", s, "is not the name of a file");
+            o.report = s;
+        });
     app.add_flag("--quiet", o.quiet, "Say nothing but errors");
     add_camera(app, o.camera);
     add_reserved(app);

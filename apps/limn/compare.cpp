@@ -8,6 +8,7 @@
 #include "limn/core/error.h"
 #include "limn/image/compare.h"
 #include "limn/io/image_io.h"
+#include "parse.h"
 #include "program.h"
 #include "text_file.h"
 
@@ -92,6 +93,7 @@ int compare_command(int argc, const char* const* argv) {
     cli.add_option("REF_B", a.reference_b, "The other half of the reference");
     cli.add_option("--json", a.json, "Write JSON too; - for standard output, in place of the table")->type_name("FILE");
     if (!parse_arguments(cli, argc, argv)) return kDone;
+    if (cli.count("--json") > 0 && a.json.empty()) refuse("--json", a.json, "is not the name of a file");
     check_distinct({a.json}, {a.test, a.reference, a.reference_b});
     if (!a.json.empty()) check_text_path(a.json);
 

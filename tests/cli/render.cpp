@@ -66,6 +66,19 @@ TEST_CASE("limn render: writes every output and the report, and only those", "[c
     CHECK(report["version"] == version());
 }
 
+TEST_CASE("limn render: a lamp too bright for half is clamped, with a warning, and costs no picture", "[cli]") {
+    const Folder folder;
+    folder.write("lamp.mtl", "newmtl lamp\nKe 1e6 1e6 1e6\n");
+    const std::string model =
+        folder.write("lamp.obj", "mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Outcome outcome = limn(
+        {"render", model, "-o", folder.path("a.exr"), "--half", "--size", "16x16", "--spp", "4", "--no-antialias"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.find("65504") != std::string::npos);
+    const Image image = load_image(folder.path("a.exr"));
+    CHECK(*std::max_element(image.values().begin(), image.values().end()) == 65504.0F);
+}
+
 TEST_CASE("limn render: the report goes to stdout alone for -", "[cli]") {
     const Folder folder;
     const std::string model = folder.write("house.obj", house_obj());
