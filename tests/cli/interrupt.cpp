@@ -24,6 +24,7 @@ void check_partial_picture(int signal, int status) {
     OnTerminal program(LIMN_PROGRAM, {"render", model, "-o", folder.path("a.exr"), "--size", "16x12", "--spp", kEndless,
                                       "--report", folder.path("r.json")});
     REQUIRE(program.wait_for(" %"));  // the bar: rendering has begun
+    REQUIRE(program.wait_for(" %"));  // drawn anew: a part of the picture is done
     program.send(signal);
     CHECK(program.finish().status == status);
     CHECK(folder.names() == Names{"a.exr", "house.obj", "r.json"});

@@ -82,9 +82,14 @@ bool OnTerminal::read_some() {
 }
 
 bool OnTerminal::wait_for(const std::string& text) {
-    while (seen_.find(text) == std::string::npos)
+    for (;;) {
+        const std::size_t found = seen_.find(text, waited_to_);
+        if (found != std::string::npos) {
+            waited_to_ = found + text.size();
+            return true;
+        }
         if (!read_some()) return false;
-    return true;
+    }
 }
 
 void OnTerminal::send(int signal) const { kill(process_, signal); }

@@ -28,7 +28,7 @@ public:
     OnTerminal(const OnTerminal&) = delete;
     OnTerminal& operator=(const OnTerminal&) = delete;
 
-    /// Reads the terminal until `text` has appeared; false if the program ended before.
+    /// Reads the terminal until `text` has appeared once more; false if the program ended before.
     bool wait_for(const std::string& text);
     void send(int signal) const;
     /// Waits for the end.
@@ -40,6 +40,7 @@ private:
     pid_t process_ = -1;
     int terminal_ = -1;
     std::string seen_;
+    std::size_t waited_to_ = 0;  // in seen_
 };
 
 }  // namespace limn::test
