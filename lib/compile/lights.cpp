@@ -6,7 +6,6 @@
 #include "compile/reach.h"
 #include "core/hit_error.h"
 #include "core/mesh_triangle.h"
-#include "core/object_ray.h"
 
 namespace limn::compiler {
 

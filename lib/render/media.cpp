@@ -52,47 +52,56 @@ void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium
     for (; i + 1 < count; i += 2) add(crossings_[i].t, crossings_[i + 1].t);
 }
 
-double MediaAlongRay::transmittance() const {
-    double depth = 0, extinction = 0, t = 0;
+template <class Visit>
+void MediaAlongRay::for_each_stretch(const Visit& visit) const {
+    double extinction = 0, t = 0;
     int inside = 0;
-    for (const Step& step : steps_) {
-        if (inside > 0) depth += extinction * (step.t - t);
-        t = step.t;
-        inside += step.extinction > 0 ? 1 : -1;
-        extinction = inside == 0 ? 0 : extinction + step.extinction;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+        if (inside > 0 && !visit(i, t, extinction)) return;
+        t = steps_[i].t;
+        inside += steps_[i].extinction > 0 ? 1 : -1;
+        extinction = inside == 0 ? 0 : extinction + steps_[i].extinction;  // no remainder of rounding outside
     }
+}
+
+double MediaAlongRay::transmittance() const {
+    double depth = 0;
+    for_each_stretch([&](std::size_t end, double t, double extinction) {
+        depth += extinction * (steps_[end].t - t);
+        return true;
+    });
     return std::exp(-depth);
+}
+
+// Of the media entered and not yet left before step `end`, one in proportion to its extinction.
+const MediaAlongRay::Step& MediaAlongRay::choose_medium(std::size_t end, double pick) const {
+    const auto last = steps_.begin() + static_cast<std::ptrdiff_t>(end);
+    const Step* chosen = nullptr;
+    for (auto entered = steps_.begin(); entered != last; ++entered) {
+        if (entered->extinction < 0) continue;
+        const bool left = std::any_of(entered + 1, last,
+                                      [&](const Step& s) { return s.medium == entered->medium && s.extinction < 0; });
+        if (left) continue;
+        chosen = &*entered;
+        if ((pick -= entered->extinction) < 0) break;
+    }
+    return *chosen;
 }
 
 std::optional<FreeFlight> MediaAlongRay::sample(double random, double choose) const {
     double depth = -std::log1p(-random);  // 53 bits: up to 36.7 mean free paths
-    double extinction = 0, t = 0;
-    int inside = 0;
-    for (std::size_t i = 0; i < steps_.size(); ++i) {
-        const double stretch = inside > 0 ? extinction * (steps_[i].t - t) : 0;
+    std::optional<FreeFlight> flight;
+    for_each_stretch([&](std::size_t end, double t, double extinction) {
+        const double stretch = extinction * (steps_[end].t - t);
         if (stretch > depth) {
-            // The media entered and not yet left are those whose changes so far do not cancel.
-            double pick = choose * extinction;
-            const Step* chosen = nullptr;
-            for (std::size_t j = 0; j < i; ++j) {
-                if (steps_[j].extinction < 0) continue;
-                const bool left = std::any_of(steps_.begin() + static_cast<std::ptrdiff_t>(j) + 1,
-                                              steps_.begin() + static_cast<std::ptrdiff_t>(i), [&](const Step& s) {
-                                                  return s.medium == steps_[j].medium && s.extinction < 0;
-                                              });
-                if (left) continue;
-                chosen = &steps_[j];
-                if ((pick -= steps_[j].extinction) < 0) break;
-            }
-            const MediumRecord& shape = scene_->medium_shapes[scene_->media[chosen->medium].shape];
-            return FreeFlight{t + depth / extinction, shape.phase};
+            const Step& medium = choose_medium(end, choose * extinction);
+            flight = {t + depth / extinction, scene_->medium_shapes[scene_->media[medium.medium].shape].phase};
+            return false;
         }
         depth -= stretch;
-        t = steps_[i].t;
-        inside += steps_[i].extinction > 0 ? 1 : -1;
-        extinction = inside == 0 ? 0 : extinction + steps_[i].extinction;
-    }
-    return std::nullopt;
+        return true;
+    });
+    return flight;
 }
 
 }  // namespace limn::tracing

@@ -39,6 +39,10 @@ private:
         std::uint32_t medium;
     };
     void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);
+    // visit(end, t, extinction) for each stretch inside media, from t to step `end`, until it returns false.
+    template <class Visit>
+    void for_each_stretch(const Visit& visit) const;
+    const Step& choose_medium(std::size_t end, double pick) const;
 
     const flat::Scene* scene_ = nullptr;
     double t_max_ = 0;

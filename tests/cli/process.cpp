@@ -1,4 +1,5 @@
 #include "process.h"
+#include "support/folder.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -7,8 +8,6 @@
 #include <unistd.h>
 
 #include <stdexcept>
-
-#include "folder.h"
 
 namespace limn::test {
 

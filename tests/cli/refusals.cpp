@@ -2,8 +2,9 @@
 #include <cstdio>
 
 #include "catch.h"
-#include "folder.h"
+#include "house.h"
 #include "process.h"
+#include "support/folder.h"
 
 namespace limn::test {
 namespace {

@@ -4,10 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
-#include "folder.h"
+#include "house.h"
 #include "limn/io/image_io.h"
 #include "limn/render/render.h"
 #include "process.h"
+#include "support/folder.h"
 
 namespace limn::test {
 namespace {

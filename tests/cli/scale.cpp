@@ -1,9 +1,10 @@
 // A model in other units gives the same picture.
 #include "catch.h"
-#include "folder.h"
+#include "house.h"
 #include "limn/image/compare.h"
 #include "limn/io/image_io.h"
 #include "process.h"
+#include "support/folder.h"
 
 namespace limn::test {
 namespace {
