@@ -43,7 +43,7 @@ build() {
         g++ cmake ninja-build pkg-config \
         libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev librandom123-dev \
         libcli11-dev libfmt-dev nlohmann-json3-dev \
-        catch2 libboost-dev xplanet-images
+        catch2 librapidcheck-dev libboost-dev xplanet-images
     cmake --preset release
     cmake --build --preset release
 }

@@ -7,9 +7,5 @@ find_path(LIMN_STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 find_path(LIMN_RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 
 if(LIMN_WITH_OPENIMAGEIO)
-    find_package(OpenImageIO REQUIRED CONFIG)
-    # Debian's package names include folders that it does not install.
-    include(LimnFilterIncludes)
-    limn_filter_includes(OpenImageIO::OpenImageIO)
-    limn_filter_includes(OpenImageIO::OpenImageIO_Util)
+    find_package(LimnOpenImageIO REQUIRED MODULE)
 endif()

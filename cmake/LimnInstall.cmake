@@ -16,7 +16,7 @@ configure_package_config_file(
     INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/limn-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/limn-config-version.cmake"
-              "${PROJECT_SOURCE_DIR}/cmake/LimnFilterIncludes.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindLimnOpenImageIO.cmake"
         DESTINATION "${package_dir}")
 
 # pkg-config finds the prefix from where limn.pc stands.

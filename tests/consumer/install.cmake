@@ -5,7 +5,7 @@ execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FIRS
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 set(files include/limn/limn.h lib/liblimn_core.a lib/liblimn_io.a lib/pkgconfig/limn.pc
     lib/cmake/limn/limn-config.cmake lib/cmake/limn/limn-config-version.cmake lib/cmake/limn/limn-targets.cmake
-    lib/cmake/limn/LimnFilterIncludes.cmake)
+    lib/cmake/limn/FindLimnOpenImageIO.cmake)
 if(APPS)
     list(APPEND files bin/limn)
 endif()

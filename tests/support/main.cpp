@@ -1,4 +1,9 @@
 #define CATCH_CONFIG_RUNNER
 #include "../catch.h"
 
-int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }
+#include <cstdlib>
+
+int main(int argc, char** argv) {
+    setenv("RC_PARAMS", "seed=20260101", /*overwrite*/ 0);  // see property.h
+    return Catch::Session().run(argc, argv);
+}
