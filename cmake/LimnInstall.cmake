@@ -5,7 +5,9 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/limn")
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/limn" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-install(TARGETS limn_core limn_io limn_limn EXPORT limn ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS limn_core limn_io limn_limn EXPORT limn
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT limn NAMESPACE limn:: FILE limn-targets.cmake DESTINATION "${package_dir}")
 if(LIMN_BUILD_APPS)
     install(TARGETS limn RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
@@ -22,9 +24,9 @@ install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/l
 # pkg-config finds the prefix from where limn.pc stands.
 file(RELATIVE_PATH prefix_from_pc "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
-set(requires_private "tbb")
+set(requires "tbb")
 if(LIMN_WITH_OPENIMAGEIO)
-    string(APPEND requires_private " OpenImageIO")
+    string(APPEND requires " OpenImageIO")
 endif()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/limn.pc.in" "${PROJECT_BINARY_DIR}/limn.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/limn.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
