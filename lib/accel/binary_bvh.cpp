@@ -96,7 +96,7 @@ private:
         if (!(best.cost < count) && count <= kMaxLeaf) return begin;
         if (!(best.cost < kInfinity)) return begin + count / 2;  // one centre, or unbounded boxes
         const auto first = bvh_.ids.begin();
-        const auto middle = std::stable_partition(first + begin, first + end, [&](std::uint32_t id) {
+        const auto middle = std::partition(first + begin, first + end, [&](std::uint32_t id) {
             return bin_of(centers_[id], centers, best.axis) < best.bin;
         });
         return static_cast<std::uint32_t>(middle - first);

@@ -11,6 +11,7 @@ namespace limn::compiler {
 
 namespace {
 
+// A foreign texture may ask for what only a traced hit knows, so a light that shows one is not sampled.
 bool is_foreign(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     return t.kind == TextureKind::foreign ||
@@ -18,7 +19,7 @@ bool is_foreign(const flat::Scene& scene, TextureId id) {
 }
 
 // A brightness that stands for the whole texture when lights are weighed against each other; a wrong guess costs noise,
-// not bias. Zero where all is black, and for textures that cannot be sampled.
+// not bias. Zero only where all is black.
 double typical_brightness(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     switch (t.kind) {
@@ -33,7 +34,7 @@ double typical_brightness(const flat::Scene& scene, TextureId id) {
         case TextureKind::noise:
         case TextureKind::turbulence:
         case TextureKind::marble: return max_component(t.color) / 2;
-        case TextureKind::foreign: return 0;  // may ask for what only a traced hit knows
+        case TextureKind::foreign: break;
     }
     return 1;
 }
@@ -60,8 +61,10 @@ constexpr std::size_t kMaxLights = std::size_t{1} << 22;
 class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
-        for (const MaterialRecord& m : scene.materials)
-            brightness_.push_back(m.kind == MaterialKind::diffuse_light ? typical_brightness(scene, m.texture) : 0);
+        for (const MaterialRecord& m : scene.materials) {
+            const bool is_sampled = m.kind == MaterialKind::diffuse_light && !is_foreign(scene, m.texture);
+            brightness_.push_back(is_sampled ? typical_brightness(scene, m.texture) : 0);
+        }
         emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
         visit(GroupId::root, 0, Transform{});
         weigh();
@@ -176,7 +179,7 @@ private:
     }
 
     flat::Scene& scene_;
-    std::vector<double> brightness_;  // by material; 0: does not emit
+    std::vector<double> brightness_;  // by material; 0: does not emit, or is not sampled
     std::vector<bool> emits_;         // by group
 };
 

@@ -2,7 +2,9 @@
 #include "catch.h"
 #include "limn/shape/constant_medium.h"
 #include "limn/shape/instance.h"
+#include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
+#include "limn/texture/solid.h"
 #include "support/pictures.h"
 
 using namespace limn;
@@ -38,15 +40,19 @@ TEST_CASE("Lamps: a textured ball shines alike by both estimators, turned or ins
     }
 }
 
-TEST_CASE("Lamps: one that tells its sides apart shines on one side only", "[render]") {
-    const auto lamp_of = [&](const Vec3& u, const Vec3& v) {
-        const CompiledScene scene = compile_with(
-            sky(0),
-            {floor_of(5), quad({-0.5, 1, -0.5}, u, v, std::make_shared<DiffuseLight>(std::make_shared<FrontOnly>()))});
-        return measure(scene, camera_at({0, 0.5, 0}, {0, 0, 0}, 10), square(4, 256, 2));
+TEST_CASE("Lamps: one that tells its sides apart shines on one side only, as a square of a checker too", "[render]") {
+    const auto front_only = std::make_shared<FrontOnly>();
+    const auto one_square = std::make_shared<Checker>(100.0, front_only, std::make_shared<SolidColor>(Color{3, 3, 3}));
+    const auto lamp_of = [&](const std::shared_ptr<const Texture>& texture, const Vec3& u, const Vec3& v) {
+        const CompiledScene scene =
+            compile_with(sky(0), {floor_of(5), quad({0.5, 1, 0.5}, u, v, std::make_shared<DiffuseLight>(texture))});
+        return measure(scene, camera_at({1, 0.5, 1}, {1, 0, 1}, 10), square(4, 256, 2));
     };
-    CHECK(lamp_of({0, 0, 1}, {1, 0, 0}).mean == 0);  // faces up
-    CHECK(lamp_of({1, 0, 0}, {0, 0, 1}).mean > 0.1);
+    for (const std::shared_ptr<const Texture>& texture :
+         {std::shared_ptr<const Texture>(front_only), std::shared_ptr<const Texture>(one_square)}) {
+        CHECK(lamp_of(texture, {0, 0, 1}, {1, 0, 0}).mean == 0);  // faces up
+        CHECK(lamp_of(texture, {1, 0, 0}, {0, 0, 1}).mean > 0.1);
+    }
 }
 
 TEST_CASE("Lamps: close to one that an instance has shrunk or grown, no light is lost", "[render]") {
