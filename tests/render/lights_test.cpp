@@ -4,6 +4,7 @@
 #include "limn/material/metal.h"
 #include "limn/texture/checker.h"
 #include "support/pictures.h"
+#include "support/solid_angle.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -14,17 +15,8 @@ constexpr double kAlbedo = 0.6, kRadiance = 7;
 
 Object floor_of(MaterialPtr m) { return quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, std::move(m)); }
 
-// Irradiance at the origin, normal +y, from a polygon of radiance 1 wholly above the floor: half the sum over edges of
-// the angle seen times the cosine of the edge plane's tilt (Lambert, Photometria, 1760).
-double irradiance_of_polygon(const std::vector<Point3>& corners) {
-    double sum = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec3 a = normalize(corners[i] - Point3{}), b = normalize(corners[(i + 1) % corners.size()] - Point3{});
-        const Vec3 c = cross(a, b);
-        sum += std::atan2(length(c), dot(a, b)) * normalize(c).y;
-    }
-    return std::abs(sum) / 2;
-}
+// Irradiance at the origin, normal +y, from a polygon of radiance 1 wholly above the floor.
+double irradiance_of_polygon(const std::vector<Point3>& corners) { return std::abs(vector_irradiance(corners, {}).y); }
 
 // The floor at the origin from half a unit above it.
 const Camera kLow = camera_at({0, 0.5, 0}, {0, 0, 0}, 0.01);

@@ -1,0 +1,151 @@
+// The extinction along one ray, from boundaries whose stretches are known.
+#include "render/media.h"
+
+#include <map>
+
+#include "property.h"
+#include "support/pictures.h"
+
+using namespace limn;
+using namespace limn::test;
+using tracing::FreeFlight;
+using tracing::MediaAlongRay;
+
+namespace {
+
+// A medium from x0 to x1, wide enough to hold every ray below.
+struct Slab {
+    double x0, x1, density;
+};
+
+Object medium_of(const Slab& s, double albedo = 0) {
+    return std::make_shared<ConstantMedium>(make_box({s.x0, -100, -100}, {s.x1, 100, 100}, nullptr), s.density,
+                                            Color{albedo, albedo, albedo});
+}
+
+struct Case {
+    std::vector<Slab> slabs;
+    CompiledScene scene;
+    Ray ray;
+
+    // In units of x: t of the ray times its direction's x.
+    double begin() const { return ray.origin.x + ray.t_min * ray.direction.x; }
+    double end() const { return ray.t_max == kInfinity ? kInfinity : ray.origin.x + ray.t_max * ray.direction.x; }
+
+    // Optical depth from the ray's begin to x.
+    double depth_to(double x) const {
+        const double slant = length(ray.direction) / ray.direction.x;
+        double depth = 0;
+        for (const Slab& s : slabs)
+            depth += s.density * slant * std::max(0.0, std::min({x, s.x1, end()}) - std::max(begin(), s.x0));
+        return depth;
+    }
+};
+
+// Up to four slabs, beside, within and across each other, seen from anywhere; the phase function of slab i has row i.
+Case random_case(std::uint64_t seed) {
+    Random random(seed);
+    std::vector<Slab> slabs;
+    std::vector<Object> objects;
+    for (std::size_t i = 0; i < 1 + random.index(4); ++i) {
+        const double x0 = random.uniform(0, 4);
+        slabs.push_back({x0, x0 + random.uniform(0.1, 4), random.uniform(0.1, 0.8)});
+        objects.push_back(medium_of(slabs.back(), 0.1 * static_cast<double>(i + 1)));
+    }
+    Ray ray{.origin = {random.uniform(-2, 6), random.uniform(-1, 1), random.uniform(-1, 1)},
+            .direction = random.log_uniform(0.1, 10) * Vec3{1, random.uniform(-1, 1), random.uniform(-1, 1)}};
+    if (random.chance(0.3)) ray.t_min = random.uniform(0, 2) / ray.direction.x;
+    if (random.chance(0.5)) ray.t_max = ray.t_min + random.uniform(0, 6) / ray.direction.x;
+    return {slabs, compile_with(sky(0), objects), ray};
+}
+
+}  // namespace
+
+TEST_CASE("Media along a ray: the transmittance is exp(- the sum of density times length)", "[render][media]") {
+    holds([](std::uint64_t seed) {
+        const Case c = random_case(seed);
+        MediaAlongRay media;
+        media.trace(c.scene.flat(), c.ray);
+        const double truth = std::exp(-c.depth_to(kInfinity));
+        RC_ASSERT(std::abs(media.transmittance() - truth) <= 1e-12);
+        media.trace(c.scene.flat(), c.ray);  // as often as one likes
+        RC_ASSERT(std::abs(media.transmittance() - truth) <= 1e-12);
+    });
+}
+
+TEST_CASE("Media along a ray: a flight ends at the optical depth -log(1 - random), or not at all", "[render][media]") {
+    holds([](std::uint64_t seed) {
+        const Case c = random_case(seed);
+        MediaAlongRay media;
+        media.trace(c.scene.flat(), c.ray);
+        Random random(seed + 1);
+        for (int i = 0; i < 5; ++i) {
+            const double u = random.uniform(), depth = -std::log1p(-u), all = c.depth_to(kInfinity);
+            const std::optional<FreeFlight> flight = media.sample(u, random.uniform());
+            if (std::abs(depth - all) < 1e-9) continue;
+            RC_ASSERT(flight.has_value() == (depth < all));
+            if (!flight) continue;
+            RC_ASSERT(flight->t > c.ray.t_min && flight->t <= c.ray.t_max);
+            RC_ASSERT(std::abs(c.depth_to(c.ray.origin.x + flight->t * c.ray.direction.x) - depth) <= 1e-9);
+        }
+    });
+}
+
+TEST_CASE("Media along a ray: of the media at the end of a flight each is chosen by its share of the extinction there",
+          "[render][media]") {
+    holds([](std::uint64_t seed) {
+        const Case c = random_case(seed);
+        MediaAlongRay media;
+        media.trace(c.scene.flat(), c.ray);
+        Random random(seed + 1);
+        const double u = random.uniform();
+        if (!media.sample(u, 0)) RC_DISCARD("no flight ends");
+        constexpr int kChoices = 200;
+        std::map<MaterialId, int> counts;
+        double t = 0;
+        for (int i = 0; i < kChoices; ++i) {
+            const FreeFlight flight = *media.sample(u, (i + 0.5) / kChoices);
+            RC_ASSERT(i == 0 || flight.t == t);
+            t = flight.t;
+            ++counts[flight.phase];
+        }
+        const double x = c.ray.origin.x + t * c.ray.direction.x;
+        double total = 0;
+        for (const Slab& s : c.slabs) {
+            if (std::min(std::abs(x - s.x0), std::abs(x - s.x1)) < 1e-9) RC_DISCARD("at a boundary");
+            if (x > s.x0 && x < s.x1) total += s.density;
+        }
+        for (std::size_t i = 0; i < c.slabs.size(); ++i) {
+            const Slab& s = c.slabs[i];
+            const double share = x > s.x0 && x < s.x1 ? s.density / total : 0;
+            const MaterialId phase = c.scene.flat().medium_shapes[i].phase;
+            RC_ASSERT(std::abs(counts[phase] - kChoices * share) <= 1);
+        }
+    });
+}
+
+TEST_CASE("Media along a ray: what begins behind its end, or ends before its begin, does not count",
+          "[render][media]") {
+    const CompiledScene scene = compile_with(sky(0), {medium_of({1, 2, 1}), medium_of({3, 4, 1})});
+    MediaAlongRay media;
+    const auto transmittance = [&](double x, double t_min, double t_max) {
+        media.trace(scene.flat(), {.origin = {x, 0, 0}, .direction = {1, 0, 0}, .t_min = t_min, .t_max = t_max});
+        return media.transmittance();
+    };
+    CHECK(transmittance(0, 0, 0.5) == 1);
+    CHECK(transmittance(0, 2.25, 2.75) == 1);
+    CHECK(transmittance(0, 4.5, kInfinity) == 1);
+    CHECK(transmittance(5, 0, kInfinity) == 1);
+    CHECK(transmittance(0, 1.25, 1.75) == Approx(std::exp(-0.5)).epsilon(1e-13));
+    CHECK(transmittance(0, 1.5, 3.25) == Approx(std::exp(-0.75)).epsilon(1e-13));
+    CHECK(transmittance(1.5, 0, 0.25) == Approx(std::exp(-0.25)).epsilon(1e-13));
+}
+
+TEST_CASE("Media along a ray: one without extinction changes nothing", "[render][media]") {
+    const CompiledScene scene = compile_with(sky(0), {medium_of({1, 2, 0}), medium_of({1.5, 3, 2}, 0.5)});
+    MediaAlongRay media;
+    media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {1, 0, 0}});
+    CHECK(media.transmittance() == Approx(std::exp(-3)).epsilon(1e-13));
+    for (const double choose : {0.0, 0.5, 1 - 0x1p-53})
+        CHECK(media.sample(0.5, choose)->phase == scene.flat().medium_shapes[1].phase);
+}
