@@ -14,10 +14,10 @@ struct CleanObj {
     // v, vt, vn, f with at least one corner, and usemtl; numbers are exact float32, indices positive, and the material
     // is given by its place in `materials`.
     std::string text;
-    struct Face {
-        std::size_t number, line;
+    struct FacePart {
+        std::size_t face, line;  // the face's number among all of the file, from 0
     };
-    std::vector<Face> faces;  // those in `text`: their number among all of the file, from 0, and their line
+    std::vector<FacePart> face_parts;  // one for each f in `text`: a long face is stated in several
     std::size_t face_count = 0;
     std::vector<std::string> materials;
     std::vector<std::string> libraries;  // what stands behind each mtllib
@@ -28,7 +28,13 @@ struct CleanObj {
 /// relative index that reaches before the first element
 CleanObj clean_obj(std::string_view text, const std::string& path);
 
-/// The lines of an MTL file that limn uses. \throws FileError naming `path` and the line of a malformed number
-std::string clean_mtl(std::string_view text, const std::string& path, std::vector<std::string>& warnings);
+struct CleanMtl {
+    std::string text;  // the lines that limn uses; newmtl and map_Kd name places in `materials` and `maps`
+    std::vector<std::string> materials, maps;
+    std::vector<std::string> warnings;
+};
+
+/// \throws FileError naming `path` and the line of a malformed number
+CleanMtl clean_mtl(std::string_view text, const std::string& path);
 
 }  // namespace limn

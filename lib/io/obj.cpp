@@ -37,6 +37,7 @@ Model load_obj(const std::string& path, const ObjOptions& options) {
     if (mesh.data.triangles.empty()) throw_no_usable_face(path, file.face_count);
 
     Model model;
+    model.files = {path};
     model.faces = file.face_count;
     model.dropped_faces = mesh.dropped_faces;
     model.degenerate_triangles = mesh.degenerate_triangles;
@@ -45,7 +46,7 @@ Model load_obj(const std::string& path, const ObjOptions& options) {
     const std::shared_ptr<const Material> fallback =
         options.default_material ? options.default_material : std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
     std::vector<std::shared_ptr<const Material>> materials{fallback};
-    for (auto& material : load_obj_materials(file, path, fallback, model.warnings)) materials.push_back(material);
+    for (auto& material : load_obj_materials(file, path, fallback, model)) materials.push_back(material);
     model.meshes.push_back(std::make_shared<Mesh>(std::move(mesh.data), std::move(materials)));
     return model;
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "io/read_file.h"
+#include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
 #include "limn/material/dielectric.h"
@@ -35,10 +36,11 @@ Color to_color(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
 
 class MaterialLoader {
 public:
-    explicit MaterialLoader(std::vector<std::string>& warnings) : warnings_(warnings) {}
+    explicit MaterialLoader(Model& model) : files_(model.files), warnings_(model.warnings) {}
 
     // `names`: what stands behind mtllib, one name, which may contain blanks, or several.
     void add_libraries(const std::string& names, const std::string& obj_path) {
+        if (names.empty()) return warnings_.push_back(obj_path + ": mtllib without the name of a file");
         if (exists(beside(obj_path, names))) return add_library(beside(obj_path, names));
         std::istringstream words(names);
         for (std::string name; words >> name;) {
@@ -53,12 +55,13 @@ public:
     std::shared_ptr<const Material> make(const std::string& name, const std::shared_ptr<const Material>& fallback) {
         const auto found = materials_.find(name);
         if (found != materials_.end()) return make(name, found->second);
-        if (!name.empty()) warnings_.push_back("unknown material '" + name + "'");
+        warnings_.push_back("unknown material " + in_quotes(name));
         return fallback;
     }
 
 private:
     void add_library(const std::string& path) {
+        files_.push_back(path);
         std::string text;
         try {
             text = read_file(path);
@@ -97,7 +100,7 @@ private:
 
     Color clamped(const Color& c, double largest, const char* key, const std::string& name) {
         const Color result{std::clamp(c.r, 0.0, largest), std::clamp(c.g, 0.0, largest), std::clamp(c.b, 0.0, largest)};
-        if (result != c) warnings_.push_back("material '" + name + "': " + key + " was clamped");
+        if (result != c) warnings_.push_back("material " + in_quotes(name) + ": " + key + " was clamped");
         return result;
     }
 
@@ -105,6 +108,7 @@ private:
     std::shared_ptr<const Image> load_texture(const std::string& path) {
         const auto [found, is_new] = textures_.try_emplace(path);
         if (!is_new) return found->second;
+        files_.push_back(path);
         try {
             Image image = load_image(path);
             // An albedo; a floating-point file may hold anything, NaN included.
@@ -116,6 +120,7 @@ private:
         return found->second;
     }
 
+    std::vector<std::string>& files_;
     std::vector<std::string>& warnings_;
     std::map<std::string, MtlMaterial> materials_;
     std::map<std::string, std::shared_ptr<const Image>> textures_;
@@ -125,8 +130,8 @@ private:
 
 std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& file, const std::string& obj_path,
                                                                 const std::shared_ptr<const Material>& fallback,
-                                                                std::vector<std::string>& warnings) {
-    MaterialLoader loader(warnings);
+                                                                Model& model) {
+    MaterialLoader loader(model);
     for (const std::string& names : file.libraries) loader.add_libraries(names, obj_path);
     std::vector<std::shared_ptr<const Material>> materials;
     for (const std::string& name : file.materials) materials.push_back(loader.make(name, fallback));

@@ -1,8 +1,9 @@
 #include "io/obj_mesh.h"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
 #include <span>
+#include <unordered_map>
 
 #include "core/mesh_triangle.h"
 #include "io/polygon.h"
@@ -21,10 +22,7 @@ public:
             has_uvs_ = has_uvs_ || corner.uv != ObjCorner::kNone;
         }
         result_.dropped_faces = file.face_count - file.faces.size();
-        if (has_normals_ || has_uvs_)
-            first_split_.assign(file.positions.size(), kNone);
-        else
-            result_.data.vertices = file.positions;
+        if (!splits_vertices()) result_.data.vertices = file.positions;
     }
 
     ObjMesh build() {
@@ -34,11 +32,24 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    struct Split {
+    struct Vertex {
         ObjCorner corner;
-        std::uint32_t next;  // another one of the same position
+        Float3 normal;
+        bool operator==(const Vertex&) const = default;
     };
+    struct Hash {
+        std::size_t operator()(const Vertex& v) const {
+            const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 equals 0
+            std::size_t hash = 0;
+            for (const std::uint32_t part :
+                 {static_cast<std::uint32_t>(v.corner.position), static_cast<std::uint32_t>(v.corner.uv),
+                  static_cast<std::uint32_t>(v.corner.normal), bits(v.normal.x), bits(v.normal.y), bits(v.normal.z)})
+                hash = (hash ^ part) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;  // 2^64 / golden ratio
+            return hash;
+        }
+    };
+
+    bool splits_vertices() const { return has_normals_ || has_uvs_; }
 
     // False if the face gives no triangle.
     bool add(const ObjFace& face) {
@@ -74,24 +85,21 @@ private:
 
     // The number of the mesh vertex that stands for a corner of the current face.
     std::uint32_t vertex(ObjCorner corner) {
-        if (first_split_.empty()) return static_cast<std::uint32_t>(corner.position);
+        if (!splits_vertices()) return static_cast<std::uint32_t>(corner.position);
         Float3 normal;
         if (has_normals_) {
             if (corner.normal != ObjCorner::kNone) normal = file_.normals[static_cast<std::size_t>(corner.normal)];
             if (is_zero(normal)) corner.normal = ObjCorner::kNone, normal = face_normal();
         }
-        std::uint32_t& first = first_split_[static_cast<std::size_t>(corner.position)];
-        for (std::uint32_t i = first; i != kNone; i = splits_[i].next)
-            if (splits_[i].corner == corner && (!has_normals_ || result_.data.normals[i] == normal)) return i;
-        const std::uint32_t number = static_cast<std::uint32_t>(splits_.size());
-        splits_.push_back({corner, first});
-        first = number;
+        const std::uint32_t next = static_cast<std::uint32_t>(result_.data.vertices.size());
+        const auto [found, is_new] = numbers_.try_emplace({corner, normal}, next);
+        if (!is_new) return found->second;
         result_.data.vertices.push_back(file_.positions[static_cast<std::size_t>(corner.position)]);
         if (has_normals_) result_.data.normals.push_back(normal);
         if (has_uvs_)
             result_.data.uvs.push_back(corner.uv == ObjCorner::kNone ? Float2{}
                                                                      : file_.uvs[static_cast<std::size_t>(corner.uv)]);
-        return number;
+        return next;
     }
 
     // Where the parts of a polygon cancel: that of its first triangle.
@@ -108,8 +116,7 @@ private:
     const ObjFile& file_;
     ObjMesh result_;
     bool has_normals_ = false, has_uvs_ = false;
-    std::vector<std::uint32_t> first_split_;  // by position; empty if the vertices are those of the file
-    std::vector<Split> splits_;
+    std::unordered_map<Vertex, std::uint32_t, Hash> numbers_;  // of the vertices, unless they are those of the file
     PolygonCutter cutter_;
     // Of the current face.
     std::vector<Float3> polygon_;

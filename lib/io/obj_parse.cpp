@@ -24,11 +24,14 @@ struct Receiver {
     const CleanObj& clean;
     ObjFile& file;
     std::size_t material = ObjFace::kNoMaterial;
+    std::size_t face_parts = 0;
 
-    void add_face(const tinyobj::index_t* indices, int count) {
-        const auto [number, line] = clean.faces.at(file.faces.size());
+    void add_face_part(const tinyobj::index_t* indices, int count) {
+        const auto [number, line] = clean.face_parts.at(face_parts++);
+        if (file.faces.empty() || file.faces.back().number != number)
+            file.faces.push_back({number, line, file.corners.size(), 0, material});
         const std::size_t corner_count = static_cast<std::size_t>(count);
-        file.faces.push_back({number, line, file.corners.size(), corner_count, material});
+        file.faces.back().corner_count += corner_count;
         // Counted from 1, 0 for none.
         for (std::size_t i = 0; i < corner_count; ++i)
             file.corners.push_back(
@@ -48,7 +51,7 @@ tinyobj::callback_t callbacks() {
         static_cast<Receiver*>(r)->file.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
     };
     result.index_cb = [](void* r, tinyobj::index_t* indices, int count) {
-        static_cast<Receiver*>(r)->add_face(indices, count);
+        static_cast<Receiver*>(r)->add_face_part(indices, count);
     };
     result.usemtl_cb = [](void* r, const char* place, int) { static_cast<Receiver*>(r)->material = std::stoul(place); };
     return result;
@@ -79,7 +82,8 @@ ObjFile parse_obj(std::string_view text, const std::string& path) {
     std::istringstream stream(std::move(clean.text));
     std::string errors;
     tinyobj::LoadObjWithCallback(stream, callbacks(), &receiver, nullptr, nullptr, &errors);
-    if (!errors.empty() || file.faces.size() != clean.faces.size()) throw FileError(path, "cannot be read: " + errors);
+    if (!errors.empty() || receiver.face_parts != clean.face_parts.size())
+        throw FileError(path, "cannot be read: " + errors);
     require_in_range(file, path);
     file.face_count = clean.face_count;
     file.materials = std::move(clean.materials);
@@ -90,18 +94,20 @@ ObjFile parse_obj(std::string_view text, const std::string& path) {
 
 void parse_mtl(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
                std::vector<std::string>& warnings) {
-    std::istringstream stream(clean_mtl(text, path, warnings));
+    CleanMtl clean = clean_mtl(text, path);
+    warnings.insert(warnings.end(), clean.warnings.begin(), clean.warnings.end());
+    std::istringstream stream(std::move(clean.text));
     std::map<std::string, int> places;
     std::vector<tinyobj::material_t> read;
     std::string warning, error;
     tinyobj::LoadMtl(&places, &read, &stream, &warning, &error);
     if (!warning.empty()) warnings.push_back(path + ": " + warning.substr(0, warning.find('\n')));
-    for (const auto& [name, place] : places) {
-        if (name.empty()) continue;  // what stands before the first newmtl
-        const tinyobj::material_t& m = read.at(static_cast<std::size_t>(place));
+    for (std::size_t i = 0; i < clean.materials.size(); ++i) {
+        const tinyobj::material_t& m = read.at(i);
         const auto color = [](const double* c) { return std::array{c[0], c[1], c[2]}; };
-        materials.try_emplace(name, MtlMaterial{color(m.diffuse), color(m.specular), color(m.emission), m.shininess,
-                                                m.ior, m.dissolve, m.illum, m.diffuse_texname});
+        const std::string map = m.diffuse_texname.empty() ? "" : clean.maps.at(std::stoul(m.diffuse_texname));
+        materials.try_emplace(clean.materials[i], MtlMaterial{color(m.diffuse), color(m.specular), color(m.emission),
+                                                              m.shininess, m.ior, m.dissolve, m.illum, map});
     }
 }
 

@@ -1,9 +1,13 @@
 #include "io/text_lines.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <locale>
 #include <sstream>
+#include <utility>
+
+#include "limn/core/error.h"
 
 namespace limn {
 
@@ -27,7 +31,7 @@ std::string_view take_line(std::string_view& text) {
 
 }  // namespace
 
-TextLines::TextLines(std::string_view text) : rest_of_text_(text) {
+TextLines::TextLines(std::string_view text, std::string path) : path_(std::move(path)), rest_of_text_(text) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.substr(0, 3) == kByteOrderMark) rest_of_text_.remove_prefix(3);
 }
@@ -57,10 +61,26 @@ std::vector<std::string_view> TextLines::words() const {
     return words;
 }
 
-std::string_view TextLines::rest() const {
-    const std::string_view line = trim(line_);
-    const std::size_t end = line.find_first_of(kBlanks);
-    return end == std::string_view::npos ? std::string_view{} : trim(line.substr(end));
+std::string_view TextLines::name(std::size_t skipped) const {
+    std::string_view text = trim(line_);
+    for (; skipped > 0; --skipped) text = trim(text.substr(std::min(text.size(), text.find_first_of(kBlanks))));
+    const auto begins_comment = [text](std::size_t i) {
+        const bool is_number = i + 1 < text.size() && text[i + 1] >= '0' && text[i + 1] <= '9';
+        return text[i] == '#' && !is_number && (i == 0 || kBlanks.find(text[i - 1]) != std::string_view::npos);
+    };
+    std::size_t end = 0;
+    while (end < text.size() && !begins_comment(end)) ++end;
+    return trim(text.substr(0, end));
+}
+
+void TextLines::fail(const std::string& problem) const {
+    throw FileError(path_, "line " + std::to_string(number_) + ": " + problem);
+}
+
+float TextLines::require_number(std::string_view word) const {
+    const std::optional<float> value = parse_float(word);
+    if (!value) fail(in_quotes(word) + " is not a number within the range of float32");
+    return *value;
 }
 
 std::optional<float> parse_float(std::string_view word) {
@@ -78,6 +98,16 @@ std::optional<float> parse_float(std::string_view word) {
     if (!std::isfinite(value)) return std::nullopt;
     return value;
 }
+
+std::string shortened(std::string_view word) {
+    constexpr std::size_t kLongest = 40;
+    std::string text(word.substr(0, kLongest));
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    return word.size() > kLongest ? text + "..." : text;
+}
+
+std::string in_quotes(std::string_view word) { return "'" + shortened(word) + "'"; }
 
 void append_number(std::string& text, float value) {
     char buffer[32];

@@ -13,17 +13,23 @@ namespace limn {
 // and is no comment continues on the next; the last one needs no end.
 class TextLines {
 public:
-    explicit TextLines(std::string_view text);
+    explicit TextLines(std::string_view text, std::string path = {});
     // Moves to the next line; false behind the last.
     bool next();
     // Of the first physical line, counted from 1.
     std::size_t number() const { return number_; }
     // Words between blanks, up to one that begins with '#'.
     std::vector<std::string_view> words() const;
-    // All behind the first word, without surrounding blanks.
-    std::string_view rest() const;
+    // What stands behind the first `skipped` words, without surrounding blanks: a name may hold blanks, but ends at a
+    // comment. Names like "Material #25" are common, so a '#' before a digit is part of the name.
+    std::string_view name(std::size_t skipped = 1) const;
+
+    /// \throws FileError naming the file and the line
+    [[noreturn]] void fail(const std::string& problem) const;
+    float require_number(std::string_view word) const;
 
 private:
+    std::string path_;
     std::string_view rest_of_text_;
     std::string line_;
     std::size_t number_ = 0, next_number_ = 1;
@@ -31,6 +37,10 @@ private:
 
 // The nearest float32 to a decimal number, ties to even. None if the word is no number, or one that is not finite.
 std::optional<float> parse_float(std::string_view word);
+
+// A word of a file for a message: shortened, and without control characters.
+std::string shortened(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 // The shortest decimal that reads back as `value`.
 void append_number(std::string& text, float value);

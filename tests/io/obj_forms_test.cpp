@@ -1,8 +1,5 @@
 // The ways in which an OBJ file may state a mesh.
-#include <clocale>
 #include <cmath>
-#include <locale>
-#include <random>
 
 #include "catch.h"
 #include "core/mesh_triangle.h"
@@ -133,56 +130,6 @@ TEST_CASE("OBJ: faces without three corners or an area are dropped and counted, 
     CHECK(model.dropped_faces == 5);
     CHECK(data_of(model).faces == std::vector<std::uint32_t>{3, 6, 6});
     CHECK(model.degenerate_triangles == 2);
-}
-
-TEST_CASE("OBJ: a face of 300,000 corners is one face", "[io][obj]") {
-    std::string text, face = "f";
-    for (int i = 0; i < 300'000; ++i) {
-        const double angle = i * (6.283185307179586 / 300'000);
-        text += "v ";
-        append_number(text, static_cast<float>(std::cos(angle)));
-        text += ' ';
-        append_number(text, static_cast<float>(std::sin(angle)));
-        text += " 0\n";
-        face += ' ' + std::to_string(i + 1);
-    }
-    const Model model = load(text + face);
-    CHECK(model.faces == 1);
-    CHECK(model.dropped_faces == 0);
-    CHECK(data_of(model).triangles.size() + model.degenerate_triangles == 299'998);
-    CHECK(total_area(model) == Approx(3.14159265).epsilon(1e-6));
-}
-
-TEST_CASE("OBJ: coordinates printed with 9 digits are read bit for bit, in any locale", "[io][obj]") {
-    struct CommaDecimals : std::numpunct<char> {
-        char do_decimal_point() const override { return ','; }
-    };
-    const std::locale before = std::locale::global(std::locale(std::locale(), new CommaDecimals));
-    std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
-    std::mt19937 generator(1);
-    std::vector<float> values;
-    while (values.size() < 30'000) {
-        const float v = std::bit_cast<float>(static_cast<std::uint32_t>(generator()));
-        if (std::isfinite(v)) values.push_back(v);
-    }
-    std::string text;
-    for (std::size_t i = 0; i < values.size(); i += 3) {
-        text += "v ";
-        for (std::size_t k = i; k < i + 3; ++k) append_number(text, values[k]), text += ' ';
-        text += '\n';
-    }
-    const Model model = load(text + "f 1 2 3\n");
-    std::setlocale(LC_ALL, "C");
-    std::locale::global(before);
-    const MeshData d = data_of(model);
-    REQUIRE(d.vertices.size() == 10'000);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < d.vertices.size(); ++i) {
-        const Float3 v = d.vertices[i];
-        wrong += bits(v.x) != bits(values[3 * i]) || bits(v.y) != bits(values[3 * i + 1]) ||
-                 bits(v.z) != bits(values[3 * i + 2]);
-    }
-    CHECK(wrong == 0);
 }
 
 TEST_CASE("OBJ: a decimal next to the middle of two float32 goes to the nearer one", "[io][obj]") {

@@ -99,7 +99,7 @@ TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded f
     const Folder folder;
     std::filesystem::create_directories(folder.path("mats/my maps"));
     save_image(Image(2, 1, Color{0.5, 0.25, 0.125}), folder.path("mats/my maps/wood 1.png"));
-    folder.write("mats/b.mtl", "\xef\xbb\xbfnewmtl oak\r\nKd 1 0 0\r\nmap_Kd -s 1 1 1 my maps\\wood 1.png\r\n");
+    folder.write("mats/b.mtl", "\xef\xbb\xbfnewmtl oak\r\nKd 1 0 0\r\nmap_Kd my maps\\wood 1.png\r\n");
     const std::string obj = "mtllib mats\\b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl oak\nf 1 2 3\n";
     const Model model = load_obj(folder.write("a.obj", obj));
     CHECK(model.warnings.empty());
@@ -111,6 +111,31 @@ TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded f
     CHECK(lowered.sink.records().images.at(texture.data)->at(1, 0).r == Approx(0.5).margin(0.005));
 }
 
+TEST_CASE("MTL: the name of a picture stands behind the options of map_Kd, whatever they are", "[io][obj][mtl]") {
+    const Folder folder;
+    save_image(Image(1, 1, Color{0.5, 0.25, 0.125}), folder.path("my -s 2.png"));
+    for (const std::string options :
+         {"-s 2", "-s 2 3", "-s 2 3 4", "-o .5 -t 1 1 1", "-mm 0 1", "-clamp on", "-blendu off -blendv off -cc on",
+          "-bm 2 -imfchan r -texres 64 -boost 3 -type sphere -colorspace sRGB", "-s 2 # -o 1"}) {
+        CAPTURE(options);
+        const bool is_comment = options.find('#') != std::string::npos;
+        const Model model = load_one(folder, "map_Kd " + options + " my -s 2.png\n");
+        REQUIRE(model.warnings.size() == 1);
+        CHECK(model.warnings[0] ==
+              folder.path("a.mtl") + ": line 2: " +
+                  (is_comment ? "map_Kd without the name of a file" : "the options of map_Kd are not used"));
+        CHECK((Lowered(model).texture(0).kind == TextureKind::image) == !is_comment);
+    }
+}
+
+TEST_CASE("MTL: the files of a model are the OBJ, every library and every texture, also broken ones",
+          "[io][obj][mtl]") {
+    const Folder folder;
+    folder.write("bad.png", "no picture");
+    const Model model = load_one(folder, "map_Kd bad.png\nnewmtl unused\nmap_Kd unused.png\n");
+    CHECK(model.files == std::vector<std::string>{folder.path("a.obj"), folder.path("a.mtl"), folder.path("bad.png")});
+}
+
 TEST_CASE("MTL: faces keep their materials, those before any usemtl the default one", "[io][obj][mtl]") {
     const Folder folder;
     folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl dark green\nKd 0 .5 0\nnewmtl red\nKd 0 0 1\n");
@@ -120,7 +145,8 @@ TEST_CASE("MTL: faces keep their materials, those before any usemtl the default 
     check_color(lowered.color(1), Color{1, 0, 0});  // the first of a name stays
     check_color(lowered.color(2), Color{0, 0.5, 0});
     check_color(lowered.color(3), Color{1, 0, 0});
-    CHECK(model.warnings.empty());
+    REQUIRE(model.warnings.size() == 1);
+    CHECK(model.warnings[0] == folder.path("a.mtl") + ": line 5: material 'red' is there already; the first one stays");
     const auto glass = std::make_shared<Dielectric>(1.5);
     const Lowered with_default(load_obj(folder.path("a.obj"), {.default_material = glass}));
     CHECK(with_default.materials[0].kind == MaterialKind::dielectric);

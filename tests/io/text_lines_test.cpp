@@ -57,7 +57,7 @@ TEST_CASE("Lines: words end at a comment, the rest of a line does not", "[io][ob
     CHECK(lines_of("v 1 # 2") == std::vector<Line>{{1, {"v", "1"}}});
     TextLines lines("usemtl  dark #3 \t");
     REQUIRE(lines.next());
-    CHECK(lines.rest() == "dark #3");
+    CHECK(lines.name() == "dark #3");
 }
 
 TEST_CASE("Numbers: a decimal becomes the nearest float32, ties to even", "[io][obj]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -30,6 +31,11 @@ public:
     /// Writes a file and returns its path.
     std::string write(const std::string& name, const std::string& content) const {
         std::ofstream(path(name), std::ios::binary) << content;
+        return path(name);
+    }
+    /// Makes a pipe with a name, which nobody reads or writes, and returns its path.
+    std::string make_pipe(const std::string& name) const {
+        if (mkfifo(path(name).c_str(), 0666) != 0) throw std::runtime_error("no pipe");
         return path(name);
     }
     std::string read(const std::string& name) const {

@@ -17,8 +17,10 @@ struct Model {
     std::size_t faces = 0;          ///< in the file
     std::size_t dropped_faces = 0;  ///< fewer than three corners, or no area
     std::size_t degenerate_triangles = 0;
-    /// A missing MTL or texture file, an unknown material, lines that were passed over.
+    /// A missing MTL or texture file, an unknown material, lines that were passed over, and all else in the files that
+    /// was not used as they say.
     std::vector<std::string> warnings;
+    std::vector<std::string> files;  ///< that were read, or tried: the model, its MTL files, their textures
 
     Box bounds() const;
 };
@@ -31,7 +33,16 @@ struct ObjOptions {
 /// Reads a Wavefront OBJ and its MTL, in any locale. Decimals become the nearest float32. Polygons are cut by ear
 /// clipping; one of many thousand corners that takes too long is dropped with a warning. Vertices are those of the file
 /// unless faces name normals or texture coordinates: then one for each combination, and a corner without a normal, or
-/// with one of length zero, gets its face's, one without a texture coordinate (0, 0). Materials:
+/// with one of length zero, gets its face's, one without a texture coordinate (0, 0).
+///
+/// What files say in odd ways: lines end in LF, CR LF or CR, and continue behind a backslash; a byte order mark is
+/// skipped; '#' begins a comment. A name may hold blanks; a '#' behind a blank ends it, unless a digit follows
+/// ("Material #25" is a name). mtllib may give one name or several; it is relative to the OBJ, map_Kd to the MTL. An
+/// index may point forward. Weights and vertex colours are not used, nor are lines, points, groups and smoothing. Other
+/// unknown lines, the options of map_Kd and a second material of the same name are passed over with a warning. Only
+/// regular files are read: no pipe, no device.
+///
+/// Materials, their colours clamped to what they may have:
 ///
 /// | MTL | material |
 /// |---|---|
@@ -41,10 +52,10 @@ struct ObjOptions {
 /// | else map_Kd | Lambertian(image), decoded from sRGB by metadata, v upward, repeated |
 /// | else | Lambertian(Kd) |
 ///
-/// Colours are clamped to what the material may have. mtllib is relative to the OBJ, map_Kd to the MTL.
+/// A material or picture that is missing or unreadable is replaced, with a warning: by the default material, by Kd.
 ///
 /// \throws FileError naming file and line: unreadable, no usable face, an index out of range, a coordinate that is not
-/// a finite float32, a malformed number
+/// a finite float32, a malformed number in the OBJ or the MTL
 Model load_obj(const std::string& path, const ObjOptions& options = {});
 
 }  // namespace limn

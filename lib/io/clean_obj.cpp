@@ -6,7 +6,6 @@
 #include <map>
 
 #include "io/text_lines.h"
-#include "limn/core/error.h"
 
 namespace limn {
 
@@ -14,25 +13,19 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-[[noreturn]] void fail(const std::string& path, const TextLines& lines, const std::string& problem) {
-    throw FileError(path, "line " + std::to_string(lines.number()) + ": " + problem);
-}
-
-float require_number(std::string_view word, const std::string& path, const TextLines& lines) {
-    const std::optional<float> value = parse_float(word);
-    if (!value) fail(path, lines, "'" + std::string(word) + "' is not a number within the range of float32");
-    return *value;
-}
+// tinyobjloader reads a line in time that grows with its square where a sanitizer watches its calls of the C library.
+constexpr std::size_t kCornersPerLine = 1000;
 
 class ObjCleaner {
 public:
-    ObjCleaner(std::string_view text, const std::string& path) : lines_(text), path_(path) {}
+    ObjCleaner(std::string_view text, const std::string& path) : lines_(text, path) {}
 
     CleanObj clean() {
         while (lines_.next()) clean_line(lines_.words());
         if (passed_over_ > 0)
-            result_.warnings.push_back(std::to_string(passed_over_) + " lines were passed over; the first is line " +
-                                       std::to_string(first_passed_over_));
+            result_.warnings.push_back(std::to_string(passed_over_) +
+                                       (passed_over_ == 1 ? " line was" : " lines were") +
+                                       " passed over; the first is line " + std::to_string(first_passed_over_));
         return std::move(result_);
     }
 
@@ -49,9 +42,9 @@ private:
         } else if (key == "f") {
             face(words);
         } else if (key == "usemtl") {
-            material(std::string(lines_.rest()));
+            material(std::string(lines_.name()));
         } else if (key == "mtllib") {
-            result_.libraries.emplace_back(lines_.rest());
+            result_.libraries.emplace_back(lines_.name());
         } else if (key != "o" && key != "g" && key != "s" && key != "l" && key != "p") {
             if (passed_over_++ == 0) first_passed_over_ = lines_.number();
         }
@@ -61,10 +54,10 @@ private:
     // not used.
     void numbers(const Words& words, std::size_t needed, std::size_t kept, std::size_t& count) {
         if (words.size() <= needed)
-            fail(path_, lines_, std::string(words[0]) + " needs " + std::to_string(needed) + " numbers");
+            lines_.fail(std::string(words[0]) + " needs " + std::to_string(needed) + " numbers");
         result_.text += words[0];
         for (std::size_t i = 1; i < words.size(); ++i) {
-            const float value = require_number(words[i], path_, lines_);
+            const float value = lines_.require_number(words[i]);
             if (i > kept) continue;
             result_.text += ' ';
             append_number(result_.text, value);
@@ -75,12 +68,14 @@ private:
     }
 
     void face(const Words& words) {
-        if (words.size() > 1) {
-            result_.faces.push_back({result_.face_count, lines_.number()});
-            result_.text += 'f';
-            for (std::size_t i = 1; i < words.size(); ++i) corner(words[i]);
-            result_.text += '\n';
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            if (i % kCornersPerLine == 1) {
+                result_.text += i == 1 ? "f" : "\nf";
+                result_.face_parts.push_back({result_.face_count, lines_.number()});
+            }
+            corner(words[i]);
         }
+        if (words.size() > 1) result_.text += '\n';
         ++result_.face_count;
     }
 
@@ -95,7 +90,7 @@ private:
             rest.remove_prefix(std::min(rest.size(), part.size() + 1));
         }
         const bool too_many = std::count(word.begin(), word.end(), '/') > 2;
-        if (parts[0].empty() || too_many) fail(path_, lines_, "'" + std::string(word) + "' is not a corner of a face");
+        if (parts[0].empty() || too_many) lines_.fail(in_quotes(word) + " is not a corner of a face");
         result_.text += ' ';
         for (std::size_t i = 0; i < 3; ++i) {
             if (i == 2 && parts[2].empty()) break;
@@ -108,9 +103,9 @@ private:
     // Counted from 1. Forward references are legal, so what lies behind the last element is found out at the end.
     int index(std::string_view word, std::size_t count, const char* name) {
         const auto refuse = [&](const std::string& problem) {
-            fail(path_, lines_, "a face refers to " + std::string(name) + " " + std::string(word) + ", " + problem);
+            lines_.fail("a face refers to " + std::string(name) + " " + shortened(word) + ", " + problem);
         };
-        const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+        const std::string_view digits = word.substr(word.starts_with('+') && !word.starts_with("+-") ? 1 : 0);
         long long value = 0;
         const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error == std::errc::invalid_argument || stop != digits.data() + digits.size())
@@ -129,7 +124,6 @@ private:
     }
 
     TextLines lines_;
-    const std::string& path_;
     CleanObj result_;
     std::map<std::string, std::size_t> material_numbers_;
     std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0;
@@ -139,33 +133,5 @@ private:
 }  // namespace
 
 CleanObj clean_obj(std::string_view text, const std::string& path) { return ObjCleaner(text, path).clean(); }
-
-std::string clean_mtl(std::string_view text, const std::string& path, std::vector<std::string>& warnings) {
-    std::string clean;
-    for (TextLines lines(text); lines.next();) {
-        Words words = lines.words();
-        if (words.empty()) continue;
-        const std::string key(words[0]);
-        const bool is_color = key == "Kd" || key == "Ks" || key == "Ke";
-        if (key == "newmtl" || key == "map_Kd") {
-            clean += key + " " + std::string(lines.rest()) + "\n";
-        } else if (is_color || key == "Ns" || key == "Ni" || key == "d" || key == "Tr" || key == "illum") {
-            if (key == "d" && words.size() > 1 && words[1] == "-halo") words.erase(words.begin() + 1);
-            if (words.size() < 2) fail(path, lines, key + " needs a number");
-            if (words[1] == "spectral" || words[1] == "xyz") {
-                warnings.push_back(path + ": line " + std::to_string(lines.number()) + ": only RGB colours are read");
-                continue;
-            }
-            clean += key;
-            // A colour of fewer than three numbers repeats the first.
-            for (std::size_t i = 1; i <= (is_color ? 3u : 1u); ++i) {
-                clean += ' ';
-                append_number(clean, require_number(words[words.size() > 3 ? i : 1], path, lines));
-            }
-            clean += '\n';
-        }
-    }
-    return clean;
-}
 
 }  // namespace limn
