@@ -5,6 +5,7 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -12,9 +13,12 @@
 
 namespace limn::test {
 
+/// \param cases how many arguments it is tried on
 template <class Law>
-void holds(Law&& law) {
-    const auto result = rc::detail::checkTestable(std::forward<Law>(law));
+void holds(Law&& law, int cases = 100) {
+    rc::detail::TestParams params = rc::detail::configuration().testParams;
+    params.maxSuccess = std::max(params.maxSuccess, cases);
+    const auto result = rc::detail::checkTestable(std::forward<Law>(law), rc::detail::TestMetadata{}, params);
     std::ostringstream text;
     rc::detail::printResultMessage(result, text);
     INFO(text.str());

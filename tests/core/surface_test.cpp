@@ -45,6 +45,23 @@ TEST_CASE("offset_origin: moves to the direction's side by at least the error bo
     }
 }
 
+TEST_CASE("offset_origin: along an axis to which the normal is perpendicular nothing moves, to the bit",
+          "[core][surface]") {
+    const Point3 p{0.1, 0.2, 0.3};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double side : {1.0, -1.0}) {
+            Vec3 n;
+            n[axis] = 1;
+            const Point3 moved = offset_origin(p, {1e-16, 1e-16, 1e-16}, Normal3(n), side * n);
+            for (std::size_t a = 0; a < 3; ++a) CHECK((moved[a] == p[a]) == (a != axis));
+            CHECK(side * (moved[axis] - p[axis]) > 0);
+        }
+    // A direction in the surface leaves towards the side of the normal.
+    CHECK(offset_origin(p, {1e-16, 1e-16, 1e-16}, {0, 0, 1}, {1, 0, 0}).z > p.z);
+    // Without a normal, as in a medium, the origin is the position.
+    CHECK(offset_origin(p, {1e-3, 1e-3, 1e-3}, {}, {1, 2, 3}) == p);
+}
+
 TEST_CASE("spawn_ray: keeps direction and time, and starts where offset_origin says", "[core][surface]") {
     Random random(13);
     for (int i = 0; i < 1000; ++i) {

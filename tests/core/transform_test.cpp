@@ -3,6 +3,8 @@
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
+#include "property.h"
+#include "support/grid.h"
 #include "support/random_geometry.h"
 
 using namespace limn;
@@ -21,6 +23,26 @@ double difference(const Transform& a, const Transform& b) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j) largest = std::max(largest, std::abs(a.rows[i][j] - b.rows[i][j]));
     return largest;
+}
+
+// Whole numbers: products of three are exact.
+Transform draw_whole() {
+    Transform m;
+    for (auto& row : m.rows)
+        for (double& entry : row) entry = test::draw_int(-100, 100);
+    return m;
+}
+
+// Of determinant 1 or -1, so that its inverse is whole as well: shears, a permutation and mirrors one after the other.
+Transform draw_unimodular() {
+    Transform m = Transform::scale(test::draw_int(0, 1) ? 1 : -1, 1, 1);
+    for (int i = 0; i < 4; ++i) {
+        Transform shear;
+        const int a = test::draw_int(0, 2), b = (a + test::draw_int(1, 2)) % 3;
+        shear.rows[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = test::draw_int(-4, 4);
+        m = shear * Transform::rotate_z(90) * Transform::rotate_x(90) * m;
+    }
+    return Transform::translate({double(test::draw_int(-99, 99)), double(test::draw_int(-99, 99)), 7}) * m;
 }
 
 Transform singular(int kind) {
@@ -46,6 +68,18 @@ TEST_CASE("Transform: a product applies its right factor first", "[core][transfo
         CHECK(length(transform_point(a * b, p) - transform_point(a, transform_point(b, p))) <= 1e-11);
         CHECK(length(transform_vector(a * b, v) - transform_vector(a, transform_vector(b, v))) <= 1e-11);
     }
+}
+
+TEST_CASE("Transform: translate moves points and no vectors, scale stretches each axis by its own factor",
+          "[core][transform]") {
+    const Transform moved = Transform::translate({1, -2, 4}), scaled = Transform::scale(2, -4, 8);
+    for (const Vec3 v : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{-3, 5, 7}}) {
+        CHECK(transform_point(moved, Point3{} + v) == Point3{1, -2, 4} + v);
+        CHECK(transform_vector(moved, v) == v);
+        CHECK(transform_vector(scaled, v) == Vec3{2 * v.x, -4 * v.y, 8 * v.z});
+        CHECK(transform_point(scaled, Point3{} + v) == Point3{2 * v.x, -4 * v.y, 8 * v.z});
+    }
+    CHECK(moved.translation() == Vec3{1, -2, 4});
 }
 
 TEST_CASE("Transform: quarter turns are exact, right-handed permutations", "[core][transform]") {
@@ -79,6 +113,35 @@ TEST_CASE("Transform: rotations keep lengths, angles add up, and the axis stays"
     CHECK(difference(Transform::rotate({0, 1, 0}, 33), Transform::rotate_y(33)) <= 1e-15);
     CHECK_THROWS_AS(Transform::rotate({0, 0, 0}, 30), ArgumentError);
     CHECK_THROWS_AS(Transform::rotate({0, kInfinity, 0}, 30), ArgumentError);
+}
+
+TEST_CASE("Transform: products of whole matrices are associative, determinants multiply, points follow, to the bit",
+          "[core][transform]") {
+    test::holds([] {
+        const Transform a = draw_whole(), b = draw_whole(), c = draw_whole();
+        RC_ASSERT((a * b) * c == a * (b * c));
+        RC_ASSERT((a * Transform{} == a && Transform{} * a == a));
+        RC_ASSERT(determinant(a * b) == determinant(a) * determinant(b));
+        const Point3 p = test::draw_point(), q = test::draw_point();
+        RC_ASSERT(transform_point(a * b, p) == transform_point(a, transform_point(b, p)));
+        RC_ASSERT(transform_vector(a * b, p - q) == transform_vector(a, transform_vector(b, p - q)));
+        RC_ASSERT(transform_point(a, p) - transform_point(a, q) == transform_vector(a, p - q));
+    });
+}
+
+TEST_CASE("inverse: that of a whole matrix of determinant 1 or -1 is exact, and turns products around",
+          "[core][transform]") {
+    test::holds([] {
+        const Transform a = draw_unimodular(), b = draw_unimodular();
+        const double s = test::draw_power_of_two(-90, 90);
+        RC_ASSERT((a * inverse(a) == Transform{} && inverse(a) * a == Transform{}));
+        RC_ASSERT(inverse(inverse(a)) == a);
+        RC_ASSERT(inverse(a * b) == inverse(b) * inverse(a));
+        RC_ASSERT(inverse(Transform::scale(s, s, s) * a) == inverse(a) * Transform::scale(1 / s, 1 / s, 1 / s));
+        // Normals: M^-T n meets M v as n meets v.
+        const Vec3 n = test::draw_vec(), v = test::draw_vec();
+        RC_ASSERT(dot(transform_normal(inverse(a), Normal3(n)), transform_vector(a, v)) == dot(n, v));
+    });
 }
 
 TEST_CASE("inverse: undoes the transform on both sides, at every scale", "[core][transform]") {

@@ -5,6 +5,8 @@
 
 #include "catch.h"
 #include "limn/core/math.h"
+#include "property.h"
+#include "support/grid.h"
 #include "support/random_geometry.h"
 
 using namespace limn;
@@ -42,6 +44,24 @@ TEST_CASE("Vec3: normalize gives unit length and the same direction for any fini
     const double huge = std::numeric_limits<double>::max();
     CHECK(length(normalize(Vec3{huge, -huge, huge})) == Approx(1));
     CHECK(std::isnan(normalize(Vec3{}).x));
+}
+
+TEST_CASE("Vec3: unit_cross is the same at every size of its factors, to the bit, and NaN where they are parallel",
+          "[core][vec]") {
+    test::holds([] {
+        const Vec3 a = test::draw_vec(), b = test::draw_vec();
+        const double s = test::draw_power_of_two(-500, 480), t = test::draw_power_of_two(-500, 480);
+        const Vec3 n = unit_cross(a, b), far = unit_cross(s * a, t * b);
+        if (cross(a, b) == Vec3{}) {
+            RC_ASSERT((std::isnan(n.x) && std::isnan(far.x)));
+            return;
+        }
+        RC_ASSERT(n == far);
+        RC_ASSERT(std::abs(length(n) - 1) <= gamma(8));
+        RC_ASSERT(dot(n, cross(a, b)) > 0);
+        RC_ASSERT(max_abs(cross(n, normalize(cross(a, b)))) <= gamma(8));
+        RC_ASSERT(std::isnan(unit_cross(s * a, 3 * t * a).x));
+    });
 }
 
 TEST_CASE("Points, vectors and normals do not turn into each other by accident", "[core][vec]") {

@@ -6,7 +6,9 @@
 
 #include "catch.h"
 #include "limn/core/math.h"
+#include "property.h"
 #include "support/chi_square.h"
+#include "support/grid.h"
 
 using namespace limn;
 using test::chi_square_p;
@@ -150,6 +152,36 @@ TEST_CASE("Warp: directions are unit and points inside, in every corner of the u
             const Uv b = sample_uniform_triangle(u, v);
             CHECK((b.u >= 0 && b.v >= 0 && b.u + b.v <= 1));
         }
+}
+
+TEST_CASE("Warp: one number sets the height and one the angle, so that samples spread well stay well spread",
+          "[core][warp]") {
+    const auto turns = [](const Vec3& w) {
+        const double turn = std::atan2(w.y, w.x) / (2 * kPi);
+        return turn < 0 ? turn + 1 : turn;
+    };
+    test::holds(
+        [&] {
+            const double u = 0.001 + 0.998 * test::draw_unit(), v = 0.001 + 0.998 * test::draw_unit(),
+                         w = test::draw_unit();
+            const Vec3 sphere = sample_uniform_sphere(u, v);
+            RC_ASSERT((std::abs(sphere.z - (1 - 2 * u)) <= 1e-15 && std::abs(turns(sphere) - v) <= 1e-15));
+            const Vec3 cone = sample_uniform_cone(u, v, 0.25);
+            RC_ASSERT((std::abs(cone.z - (1 - 0.25 * u)) <= 1e-15 && std::abs(turns(cone) - v) <= 1e-15));
+            RC_ASSERT(length(sample_uniform_ball(u, v, w) - std::cbrt(w) * sphere) <= 1e-15);
+            // The hemisphere stands over the disc, and the disc's rings are the square's.
+            const Vec3 disc = sample_uniform_disc(u, v), raised = sample_cosine_hemisphere(u, v);
+            RC_ASSERT((raised.x == disc.x && raised.y == disc.y && raised.z > 0));
+            RC_ASSERT(std::abs(length(disc) - std::max(std::abs(2 * u - 1), std::abs(2 * v - 1))) <= 1e-15);
+            RC_ASSERT((disc.x * (2 * u - 1) >= 0 && disc.y * (2 * v - 1) >= 0));
+            // Swapping the numbers swaps the axes of the disc and the weights of the triangle.
+            const Vec3 swapped = sample_uniform_disc(v, u);
+            RC_ASSERT(length(Vec3{swapped.y, swapped.x, 0} - disc) <= 1e-15);
+            const Uv a = sample_uniform_triangle(u, v), b = sample_uniform_triangle(v, u);
+            RC_ASSERT((a.u == b.v && a.v == b.u));
+            RC_ASSERT(std::abs(pdf_exponential(sample_exponential(u, 3), 3) - 3 * (1 - u)) <= 1e-14);
+        },
+        1000);
 }
 
 TEST_CASE("Warp: below the horizon the cosine density is zero", "[core][warp]") {

@@ -147,6 +147,47 @@ TEST_CASE("Instance: elements, u, v and texture coordinates are the object's own
     CHECK((a->uv && b->uv && *a->uv == *b->uv));
 }
 
+TEST_CASE("Instance: shading normals go by the inverse transpose as well, and are unit; none stays none",
+          "[shape][instance]") {
+    MeshData data = test::icosphere(1);
+    for (const Float3& p : data.vertices) data.normals.push_back({p.x, 2 * p.y, p.z});
+    const auto smooth = std::make_shared<Mesh>(data, nullptr);
+    Transform m = Transform::translate({5, -3, 1}) * Transform::scale(-1, 4, 0.5);
+    m.rows[0][1] = 0.75;
+    const Instance instance(smooth, m), still(unit_sphere(), m);
+    Random random(66);
+    for (int i = 0; i < 500; ++i) {
+        const Point3 origin = Point3{} + 3 * random.unit();
+        const Vec3 d = Point3{} + 0.7 * random.unit() - origin;
+        const Ray world{.origin = transform_point(m, origin), .direction = transform_vector(m, d)};
+        const auto own = smooth->hit({.origin = origin, .direction = d}), seen = instance.hit(world);
+        REQUIRE((own && seen && own->element == seen->element));
+        const Vec3 n = normalize(Vec3(transform_normal(inverse(m), own->shading_normal)));
+        CHECK(length(Vec3(seen->shading_normal) - n) <= 1e-12);
+        CHECK(still.hit(world)->shading_normal == Normal3{});
+    }
+}
+
+TEST_CASE("Instance: the error bound holds the object's own, stretched, and the rounding of both ways",
+          "[shape][instance]") {
+    const auto error = [](const Transform& m, const Point3& center) {
+        const auto hit = Instance(std::make_shared<Sphere>(center, 1.0, nullptr), m)
+                             .hit({.origin = transform_point(m, center + Vec3{0, 0, 3}),
+                                   .direction = transform_vector(m, {0, 0, -1})});
+        REQUIRE(hit);
+        return max_abs(hit->position_error);
+    };
+    const double own = error(Transform{}, {});
+    CHECK(own >= gamma(16));
+    CHECK(own <= 3 * gamma(16));
+    CHECK(error(Transform::scale(1, 8, 1), {}) >= 8 * own / 3);                // stretched along any axis
+    CHECK(error(Transform{}, {1024, 0, 0}) >= 1024 * gamma(16));               // where the object is in its space
+    CHECK(error(Transform::translate({0, 1024, 0}), {}) >= 1024 * gamma(16));  // where it is in the world
+    CHECK(error(Transform::translate({0, 1024, 0}), {0, -1024, 0}) >= 1024 * gamma(16));  // though these cancel
+    // The way in is rounded in the object's units, which the way out stretches: 1024 / 2^-10, seen at 2^-10.
+    CHECK(error(Transform::translate({1024, 0, 0}) * Transform::scale(1, 0x1p-10, 1), {}) >= 0x1p20 * gamma(16));
+}
+
 TEST_CASE("Instance: motion is bit-exact at both ends, clamped outside, entry by entry between", "[shape][instance]") {
     Random random(64);
     const Transform m0 = Transform::translate({1, 2, 3}) * Transform::rotate_y(20);

@@ -239,9 +239,14 @@ TEST_CASE("Mesh: an index, slot, length or value that cannot be right is refused
     refused([](MeshData& d) { d.vertices[2].z = std::numeric_limits<float>::infinity(); }, "vertex 2");
     refused([](MeshData& d) { d.normals = {{0, 0, 1}}; }, "normals");
     refused([](MeshData& d) { d.normals = {{0, 0, 1}, {0, 0, 0}, {0, 0, 1}}; }, "normal 1");
+    refused([](MeshData& d) { d.normals = {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}; }, "normal 0");
     refused([&](MeshData& d) { d.normals = {{0, 0, 1}, {0, 0, 1}, {nan, 0, 1}}; }, "normal 2");
     refused([](MeshData& d) { d.uvs = {{0, 0}, {1, 0}}; }, "uvs");
     refused([&](MeshData& d) { d.uvs = {{0, 0}, {1, nan}, {0, 1}}; }, "texture coordinate 1");
+    refused([&](MeshData& d) { d.uvs = {{nan, 0}, {1, 0}, {0, 1}}; }, "texture coordinate 0");
+    refused([&](MeshData& d) { d.vertices[0].x = nan; }, "vertex 0");
+    refused([](MeshData& d) { d.triangles.push_back({0, 1, 3}); }, "triangle 1 refers to vertex 3 of 3");
+    refused([](MeshData& d) { d.triangles.push_back({3, 1, 2}); }, "triangle 1 refers to vertex 3 of 3");
     refused([](MeshData& d) { d.material_slots = {0, 0}; }, "material_slots");
     refused([](MeshData& d) { d.material_slots = {1}; }, "material");
     refused([](MeshData& d) { d.faces = {0, 0, 0}; }, "faces");
@@ -272,6 +277,12 @@ TEST_CASE("Mesh: slots choose materials, faces name polygons, vertices give uvs 
     CHECK(length(Vec3(lower->shading_normal)) == Approx(1));
     CHECK(lower->shading_normal.x > 0.1);
     CHECK(Mesh(one_triangle(), none()).face(0) == 0);
+    data.faces.clear();
+    CHECK(Mesh(data, {red, blue}).face(1) == 1);
+    data.material_slots.clear();
+    const Ray down{.origin = {1.5, 0.5, 1}, .direction = {0, 0, -1}};
+    CHECK(Mesh(data, {red, blue}).hit(down)->material == red.get());
+    CHECK(Mesh(data, std::vector<std::shared_ptr<const Material>>{}).hit(down)->material == nullptr);
 }
 
 TEST_CASE("Mesh: an unusable ray misses", "[shape][mesh]") {

@@ -76,6 +76,8 @@ TEST_CASE("Quad: parallel or zero edges, NaN and infinity are refused by name", 
     CHECK_THROWS_AS(Quad({0, 0, 0}, {1, 0, 0}, {0, kInfinity, 0}, nullptr), ArgumentError);
     CHECK_NOTHROW(Quad({0, 0, 0}, {1, 0, 0}, {1, 1e-9, 0}, nullptr));
     CHECK_NOTHROW(Quad({0, 0, 0}, {1e-90, 0, 0}, {0, 1e-90, 0}, nullptr));
+    for (const double scale : {0x1p-400, 0x1p-170, 0x1p170, 0x1p400})  // where squares of areas leave double's range
+        CHECK_THROWS_AS(Quad({0, 0, 0}, scale * Vec3{1, 3, 5}, scale * Vec3{7, 21, 35}, nullptr), ArgumentError);
 }
 
 TEST_CASE("Quad: it is a closed set, corners and edges are hits, its plane is not", "[shape][quad]") {

@@ -94,13 +94,22 @@ constexpr double length_squared(const Vec3& a) { return dot(a, a); }
 /// Euclidean length. std::hypot: neither overflows nor underflows on the way.
 inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
+/// The largest magnitude of a coordinate.
+inline double max_abs(const Vec3& a) { return std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))); }
+inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
+
+/// `a` scaled by a power of two, exactly, so that its largest coordinate lies in [1/2, 1): its squares stay in range.
+inline Vec3 scale_to_one(const Vec3& a) {
+    int exponent = 0;
+    std::frexp(max_abs(a), &exponent);
+    return {std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
+}
+
 /// `a` scaled to unit length, right for any finite non-zero length; NaN for the zero vector.
 inline Vec3 normalize(const Vec3& a) {
     const double squared = dot(a, a);
     if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
-    int exponent = 0;
-    std::frexp(std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))), &exponent);
-    const Vec3 scaled{std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
+    const Vec3 scaled = scale_to_one(a);
     return scaled / std::sqrt(dot(scaled, scaled));
 }
 
@@ -109,14 +118,10 @@ inline Vec3 unit_cross(const Vec3& a, const Vec3& b) {
     const Vec3 c = cross(a, b);
     const double squared = dot(c, c);
     if (squared > 1e-200 && squared < 1e200) return c / std::sqrt(squared);
-    return normalize(cross(normalize(a), normalize(b)));
+    return normalize(cross(scale_to_one(a), scale_to_one(b)));
 }
 
 constexpr Vec3 abs(const Vec3& a) { return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z}; }
-
-/// The largest magnitude of a coordinate.
-inline double max_abs(const Vec3& a) { return std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))); }
-inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 inline bool is_finite(const Normal3& a) { return is_finite(Vec3(a)); }
