@@ -40,7 +40,6 @@ double share_of_worst(std::vector<double>& errors, double sum) {
 }
 
 void make_invalid(ImageMetrics& m) {
-    m.valid = false;
     m.relative_mse = m.mse = m.smape = m.psnr_srgb = m.largest_relative = m.worst_share = kNaN;
 }
 

@@ -72,7 +72,7 @@ std::optional<LightSample> sample_sphere(const Light& light, const Point3& from,
     const Vec3 foot = along * s.direction - cone.to_center;
     const double half_chord = std::sqrt(std::max(0.0, light.radius * light.radius - length_squared(foot)));
     const Vec3 normal = normalize(foot + (cone.inside ? half_chord : -half_chord) * s.direction);
-    if (!is_finite(normal) || !is_finite(s.direction)) return std::nullopt;
+    if (!is_finite(normal)) return std::nullopt;
     s.point.position = cone.center + light.radius * normal;
     s.point.normal = Normal3(cone.inside ? -normal : normal);
     s.point.uv = sphere_uv(normal);

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
+#include "property.h"
 
 using namespace limn;
 
@@ -24,6 +26,19 @@ Image reference_pair() {
 Image test_pair() {
     Image image = reference_pair();
     image.set(1, 0, Color{0.5, 1, 0});
+    return image;
+}
+
+// 5 x 4 values of 64 between 0 and 1.
+Image random_image(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Image image(5, 4);
+    for (float& v : image.values()) v = static_cast<float>(random() % 64 + 1) / 65;
+    return image;
+}
+
+Image doubled(Image image) {
+    for (float& v : image.values()) v *= 2;
     return image;
 }
 
@@ -125,9 +140,61 @@ TEST_CASE("compare: a reference whose own error is over a tenth of what is measu
     CHECK(noisy(0.32));
 }
 
+TEST_CASE("compare: a spoilt half of a reference spoils what is said of the reference too", "[image][compare]") {
+    const Image test(2, 1, Color{2, 2, 2}), good(2, 1, Color{1, 1, 1});
+    Image bad = good;
+    bad.values()[5] = kNaN;
+    for (const ImageMetrics& m : {compare_images(test, bad, good), compare_images(test, good, bad)}) {
+        CHECK_FALSE(m.valid);
+        CHECK(m.nonfinite_reference == 1);
+        CHECK(std::isnan(m.relative_mse));
+        CHECK(std::isnan(m.reference_relative_mse));
+        CHECK(std::isnan(m.corrected_relative_mse));
+        CHECK_FALSE(m.reference_too_noisy);
+        CHECK(m.largest_x == 1);
+    }
+}
+
+TEST_CASE("compare: mse, SMAPE and PSNR are symmetric, an image has no distance from itself", "[image][compare]") {
+    test::holds([](std::uint64_t seed) {
+        const Image a = random_image(seed), b = random_image(seed + 1);
+        const ImageMetrics ab = compare_images(a, b), ba = compare_images(b, a), aa = compare_images(a, a);
+        RC_ASSERT(ab.mse > 0 && ab.mse == ba.mse && ab.smape == ba.smape && ab.psnr_srgb == ba.psnr_srgb);
+        RC_ASSERT(ab.smape <= 2 && ab.worst_share > 0 && ab.worst_share <= 1);
+        RC_ASSERT(aa.relative_mse == 0 && aa.mse == 0 && aa.smape == 0 && aa.largest_relative == 0);
+    });
+}
+
+TEST_CASE("compare: twice the values give four times the mse, the same SMAPE, and a relMSE nearer to scale-free",
+          "[image][compare]") {
+    test::holds([](std::uint64_t seed) {
+        const Image a = random_image(seed), b = random_image(seed + 1);
+        const ImageMetrics once = compare_images(a, b), twice = compare_images(doubled(a), doubled(b));
+        RC_ASSERT(twice.mse == 4 * once.mse);
+        RC_ASSERT(twice.smape == once.smape);
+        // The 0.01 beside the squared reference counts for less.
+        RC_ASSERT(twice.relative_mse > once.relative_mse && twice.relative_mse < 4 * once.relative_mse);
+    });
+}
+
+TEST_CASE("compare: the halves of a reference may be swapped, and their mean is what is compared with",
+          "[image][compare]") {
+    test::holds([](std::uint64_t seed) {
+        const Image test = random_image(seed), a = random_image(seed + 1), b = random_image(seed + 2);
+        Image mean = a;
+        for (std::size_t i = 0; i < mean.values().size(); ++i) mean.values()[i] = (a.values()[i] + b.values()[i]) / 2;
+        const ImageMetrics ab = compare_images(test, a, b), ba = compare_images(test, b, a);
+        RC_ASSERT(ab.relative_mse == ba.relative_mse && ab.reference_relative_mse == ba.reference_relative_mse);
+        // The mean is rounded to float32 here, and not there.
+        const double by_mean = compare_images(test, mean).relative_mse;
+        RC_ASSERT(std::abs(ab.relative_mse - by_mean) <= 1e-5 * by_mean);
+    });
+}
+
 TEST_CASE("compare: images of different sizes and empty ones are refused", "[image][compare]") {
     CHECK_THROWS_AS(compare_images(Image(2, 3), Image(3, 2)), ArgumentError);
     CHECK_THROWS_AS(compare_images(Image(2, 3), Image(2, 3), Image(2, 2)), ArgumentError);
+    CHECK_THROWS_AS(compare_images(Image(2, 3), Image(2, 2), Image(2, 3)), ArgumentError);
     CHECK_THROWS_AS(compare_images(Image(), Image()), ArgumentError);
 }
 

@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "limn/core/error.h"
+#include "property.h"
 
 using namespace limn;
 
@@ -40,6 +41,22 @@ TEST_CASE("Image: a side that is not positive is refused with its size", "[image
         CHECK(std::string(error.what()).find(std::to_string(width) + " x " + std::to_string(height)) !=
               std::string::npos);
     }
+}
+
+TEST_CASE("Image: setting a pixel changes that pixel alone", "[image]") {
+    test::holds([](std::uint8_t w, std::uint8_t h, std::uint8_t i, std::uint8_t j) {
+        const int width = w % 9 + 1, height = h % 9 + 1, x = i % width, y = j % height;
+        Image image(width, height, Color{1, 2, 3});
+        image.set(x, y, Color{4, 5, 6});
+        for (int row = 0; row < height; ++row)
+            for (int column = 0; column < width; ++column)
+                RC_ASSERT(image.at(column, row) == (column == x && row == y ? Color{4, 5, 6} : Color{1, 2, 3}));
+        Image other(width, height, Color{1, 2, 3});
+        RC_ASSERT(!(other == image));
+        other.set(x, y, Color{4, 5, 6});
+        RC_ASSERT(other == image);
+        RC_ASSERT(!(Image(width, height + 1) == Image(width, height)));
+    });
 }
 
 // Under AddressSanitizer an allocation of this size ends the program, unless told otherwise.

@@ -225,6 +225,8 @@ TEST_CASE("Light sampling: each light is chosen with the probability that its de
         CHECK(std::abs(counts[k] - kPicks * lights[k].pick) <= 1);
         // Alone it has the density without the choice.
         const CompiledScene alone = compile_with(sky(0), {light_of_kind(k, lamp(static_cast<double>(1 + k * k)))});
+        const auto begin = sample_light(scene.flat(), from, 0.5, lights[k].pick_below, 0.3, 0.6);
+        CHECK(begin->point.material.id == static_cast<std::uint32_t>(lights[k].material));
         const double pick = lights[k].pick_below + lights[k].pick / 2;
         const auto among = sample_light(scene.flat(), from, 0.5, pick, 0.3, 0.6);
         const auto single = sample_light(alone.flat(), from, 0.5, pick, 0.3, 0.6);

@@ -141,6 +141,32 @@ TEST_CASE("Media along a ray: what begins behind its end, or ends before its beg
     CHECK(transmittance(1.5, 0, 0.25) == Approx(std::exp(-0.25)).epsilon(1e-13));
 }
 
+TEST_CASE("Media along a ray: between the pieces of a boundary there is nothing", "[render][media]") {
+    const auto pieces = std::make_shared<HittableList>(
+        std::vector<Object>{make_box({1, -1, -1}, {2, 1, 1}, nullptr), make_box({4, -1, -1}, {7, 1, 1}, nullptr)});
+    const CompiledScene scene = compile_with(sky(0), {std::make_shared<ConstantMedium>(pieces, 0.5, Color{})});
+    MediaAlongRay media;
+    const auto transmittance = [&](double x) {
+        media.trace(scene.flat(), {.origin = {x, 0, 0}, .direction = {1, 0, 0}});
+        return media.transmittance();
+    };
+    CHECK(transmittance(0) == Approx(std::exp(-2)).epsilon(1e-13));
+    CHECK(transmittance(1.5) == Approx(std::exp(-1.75)).epsilon(1e-13));
+    CHECK(transmittance(3) == Approx(std::exp(-1.5)).epsilon(1e-13));
+    CHECK(transmittance(5) == Approx(std::exp(-1)).epsilon(1e-13));
+}
+
+TEST_CASE("Media along a ray: what rounding leaves of extinctions does not fill the space behind the media",
+          "[render][media]") {
+    // .1 + .2 + .3 - .1 - .2 - .3 is 2^-54 and more in double, times 2^50 an optical depth that one would see.
+    const double far = 0x1p50;
+    const CompiledScene scene = compile_with(sky(0), {medium_of({1, 4, 0.1}), medium_of({2, 5, 0.2}),
+                                                      medium_of({3, 6, 0.3}), medium_of({far, far + 0x1p20, 0x1p-20})});
+    MediaAlongRay media;
+    media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {1, 0, 0}});
+    CHECK(media.transmittance() == Approx(std::exp(-3 * 0.6 - 1)).epsilon(1e-13));
+}
+
 TEST_CASE("Media along a ray: one without extinction changes nothing", "[render][media]") {
     const CompiledScene scene = compile_with(sky(0), {medium_of({1, 2, 0}), medium_of({1.5, 3, 2}, 0.5)});
     MediaAlongRay media;

@@ -9,6 +9,7 @@
 #include "limn/core/math.h"
 #include "limn/texture/solid.h"
 #include "pattern/checker.h"
+#include "property.h"
 
 using namespace limn;
 
@@ -63,6 +64,19 @@ TEST_CASE("Checker: parity is the sum over the axes, as in whole numbers", "[tex
         const bool even = (cell(p.x) + cell(p.y) + cell(p.z)) % 2 == 0;
         if (pattern::checker_is_even(p, 0.32) != even) FAIL("wrong parity at " << p.x << ' ' << p.y << ' ' << p.z);
     }
+}
+
+TEST_CASE("Checker: a step of one cell along an axis changes the parity, two steps do not", "[texture][checker]") {
+    test::holds([](std::int32_t x, std::int32_t y, std::int32_t z, std::int16_t steps) {
+        // Coordinates and steps are exact multiples of 2^-8.
+        const double scale = 0.75, at[3] = {std::ldexp(x, -8), std::ldexp(y, -8), std::ldexp(z, -8)};
+        const bool even = pattern::checker_is_even({at[0], at[1], at[2]}, scale);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Point3 p{at[0], at[1], at[2]};
+            p[axis] += steps * scale;
+            RC_ASSERT(pattern::checker_is_even(p, scale) == (even == (steps % 2 == 0)));
+        }
+    });
 }
 
 TEST_CASE("Checker: even cells have the first texture, odd ones the second", "[texture][checker]") {

@@ -1,11 +1,14 @@
 #include "limn/texture/image_texture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
 #include "pattern/image_lookup.h"
+#include "property.h"
 
 using namespace limn;
 using pattern::lookup_image;
@@ -25,6 +28,21 @@ Image numbered(int width, int height) {
 }
 
 Uv center(const Image& image, int x, int y) { return {(x + 0.5) / image.width(), 1 - (y + 0.5) / image.height()}; }
+
+// Up to 5 x 5 texels.
+Image random_image(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Image image(1 + static_cast<int>(random() % 5), 1 + static_cast<int>(random() % 5));
+    for (float& v : image.values()) v = static_cast<float>(random() % 1000) / 1000;
+    return image;
+}
+
+// In [-2, 2), multiples of 2^-20.
+Uv random_uv(std::mt19937_64& random) {
+    const auto next = [&] { return std::ldexp(static_cast<double>(random() % (1 << 22)), -20) - 2; };
+    const double u = next();
+    return {u, next()};
+}
 
 double column(const Image& image, double u, Wrap wrap) {
     return lookup_image(image, {u, 0.5}, Filter::nearest, wrap).r;
@@ -126,6 +144,46 @@ TEST_CASE("Image look-up: NaN reads as 0", "[texture][image]") {
             const Color at_zero = lookup_image(image, {0, 0}, filter, wrap);
             CHECK(lookup_image(image, {kNaN, kNaN}, filter, wrap) == at_zero);
         }
+}
+
+TEST_CASE("Image look-up: nothing is darker or brighter than the texels, and nearest gives one of them",
+          "[texture][image]") {
+    test::holds([](std::uint64_t seed) {
+        const Image image = random_image(seed);
+        std::mt19937_64 random(seed);
+        const Uv uv = random_uv(random);
+        float least = 1, most = 0;
+        for (const float v : image.values()) least = std::min(least, v), most = std::max(most, v);
+        for (const Wrap wrap : kWraps) {
+            const Color blend = lookup_image(image, uv, Filter::bilinear, wrap);
+            for (const double v : {blend.r, blend.g, blend.b})
+                RC_ASSERT(v >= least * (1 - gamma(8)) && v <= most * (1 + gamma(8)));
+            const Color one = lookup_image(image, uv, Filter::nearest, wrap);
+            bool found = false;
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x) found = found || image.at(x, y) == one;
+            RC_ASSERT(found);
+        }
+    });
+}
+
+TEST_CASE("Image look-up: repeat has period 1, mirror period 2 and is even, in u and in v", "[texture][image]") {
+    test::holds([](std::uint64_t seed, std::int8_t i, std::int8_t j) {
+        const Image image = random_image(seed);
+        std::mt19937_64 random(seed);
+        const Uv uv = random_uv(random);  // a multiple of 2^-20, so that every sum here is exact
+        for (const Filter filter : kFilters) {
+            const auto at = [&](double u, double v, Wrap wrap) { return lookup_image(image, {u, v}, filter, wrap); };
+            if (uv.u != std::floor(uv.u) && uv.v != std::floor(uv.v))  // a whole number may be either border
+                RC_ASSERT(at(uv.u + i, uv.v + j, Wrap::repeat) == at(uv.u, uv.v, Wrap::repeat));
+            RC_ASSERT(at(uv.u + 2 * i, uv.v + 2 * j, Wrap::mirror) == at(uv.u, uv.v, Wrap::mirror));
+            RC_ASSERT(at(-uv.u, uv.v, Wrap::mirror) == at(uv.u, uv.v, Wrap::mirror));
+            RC_ASSERT(at(uv.u, -uv.v, Wrap::mirror) == at(uv.u, uv.v, Wrap::mirror));
+            RC_ASSERT(at(uv.u, uv.v, Wrap::clamp) ==
+                          at(std::clamp(uv.u, 0.0, 1.0), std::clamp(uv.v, 0.0, 1.0), Wrap::repeat) ||
+                      filter == Filter::bilinear);
+        }
+    });
 }
 
 TEST_CASE("ImageTexture: reads at the surface's texture coordinates with its own options", "[texture][image]") {

@@ -191,6 +191,7 @@ TEST_CASE("Perlin textures: finite wherever they are asked", "[texture][perlin]"
             CHECK((turbulence(lattice, p) >= 0 && turbulence(lattice, p) < 2));
             CHECK((marble(lattice, 4, p) >= 0 && marble(lattice, 4, p) <= 1));
         }
+    CHECK(marble(lattice, 4, {0, 0, kInfinity}) == 0.5);  // the middle, where there is no phase
 }
 
 TEST_CASE("Perlin noise: the reference statistics", "[texture][perlin]") {
