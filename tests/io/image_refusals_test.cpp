@@ -155,7 +155,7 @@ TEST_CASE("Saving: on a full disk the old picture stays, and nothing else", "[io
         const std::string path = folder.path("a" + suffix);
         save_image(tiny, path);
         const std::string old = folder.read("a" + suffix);
-        for (const rlim_t limit : {0, 1, 4096, 100'000}) {
+        for (const rlim_t limit : std::initializer_list<rlim_t>{0, 1, 4096, 100'000}) {
             std::string message;
             {
                 const FileSizeLimit full(limit);
