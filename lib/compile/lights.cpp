@@ -11,7 +11,7 @@ namespace limn::compiler {
 
 namespace {
 
-// A foreign texture may ask for what only a traced hit knows, so a light that shows one is not sampled.
+// A texture that cannot be sampled, as a whole or in part: it may ask for what only a traced hit knows.
 bool is_foreign(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     return t.kind == TextureKind::foreign ||
@@ -19,7 +19,7 @@ bool is_foreign(const flat::Scene& scene, TextureId id) {
 }
 
 // A brightness that stands for the whole texture when lights are weighed against each other; a wrong guess costs noise,
-// not bias. Zero only where all is black.
+// not bias. Zero where all is black.
 double typical_brightness(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     switch (t.kind) {
@@ -34,9 +34,9 @@ double typical_brightness(const flat::Scene& scene, TextureId id) {
         case TextureKind::noise:
         case TextureKind::turbulence:
         case TextureKind::marble: return max_component(t.color) / 2;
-        case TextureKind::foreign: break;
+        case TextureKind::foreign: break;  // not sampled
     }
-    return 1;
+    return 0;
 }
 
 // How the composed matrix changes lengths, if it changes all alike; else nothing.
@@ -179,7 +179,7 @@ private:
     }
 
     flat::Scene& scene_;
-    std::vector<double> brightness_;  // by material; 0: does not emit, or is not sampled
+    std::vector<double> brightness_;  // by material; 0: does not emit
     std::vector<bool> emits_;         // by group
 };
 
