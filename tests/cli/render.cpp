@@ -31,6 +31,9 @@ TEST_CASE("limn render: writes every output and the report, and only those", "[c
     REQUIRE(outcome.status == 0);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.find('\r') == std::string::npos);  // no progress bar
+    const std::string summary = "limn: " + folder.path("a.exr") + ", " + folder.path("a.png") + ": 20x14, 8 samples";
+    CHECK(outcome.err.starts_with(summary));
+    CHECK(outcome.err.find(" s, relMSE 0.") != std::string::npos);
     CHECK(folder.names() == Names{"a.exr", "a.png", "house.obj", "r.json"});
 
     const Image exr = load_image(folder.path("a.exr")), png = load_image(folder.path("a.png"));

@@ -1,0 +1,78 @@
+// The line that the progress bar draws.
+#include "progress_bar.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "catch.h"
+#include "support/folder.h"
+
+namespace limn::test {
+namespace {
+
+// What `speak` writes to stderr.
+template <class Speak>
+std::string written_by(const Speak& speak) {
+    const Folder folder;
+    std::fflush(stderr);
+    const int terminal = dup(STDERR_FILENO);
+    std::FILE* const file = std::fopen(folder.path("stderr").c_str(), "w");
+    REQUIRE(dup2(fileno(file), STDERR_FILENO) >= 0);
+    speak();
+    std::fflush(stderr);
+    dup2(terminal, STDERR_FILENO);
+    close(terminal);
+    std::fclose(file);
+    return folder.read("stderr");
+}
+
+std::string bar_at(double fraction, double seconds) {
+    std::string line;
+    app::ProgressBar bar(true);
+    line = written_by([&] { bar.update({fraction, seconds}); });
+    written_by([&] { bar.clear(); });
+    return line;
+}
+
+const std::string kErase = "\r\033[K";
+
+TEST_CASE("Progress bar: thirty cells, the percentage, the time gone and the time left", "[cli][progress]") {
+    CHECK(bar_at(0, 3) == "\r[                              ]   0 %  3 s\033[K");
+    CHECK(bar_at(0.5, 20) == "\r[===============               ]  50 %  20 s, 20 s left\033[K");
+    CHECK(bar_at(0.2, 10) == "\r[======                        ]  20 %  10 s, 40 s left\033[K");
+    CHECK(bar_at(1, 10) == "\r[==============================] 100 %  10 s, 0 s left\033[K");
+    CHECK(bar_at(1.5, 10) == bar_at(1, 10));
+    CHECK(bar_at(-1, 3) == bar_at(0, 3));
+}
+
+TEST_CASE("Progress bar: minutes from 60 seconds on, hours from 60 minutes on", "[cli][progress]") {
+    CHECK(bar_at(1, 59).find("59 s,") != std::string::npos);
+    CHECK(bar_at(1, 60).find("1 min,") != std::string::npos);
+    CHECK(bar_at(1, 3000).find("50 min,") != std::string::npos);
+    CHECK(bar_at(1, 3600).find("1.0 h,") != std::string::npos);
+    CHECK(bar_at(1, 9000).find("2.5 h,") != std::string::npos);
+}
+
+TEST_CASE("Progress bar: drawn five times a second at most, erased once, and never if it is not wanted",
+          "[cli][progress]") {
+    app::ProgressBar bar(true);
+    CHECK_FALSE(written_by([&] { bar.update({0.1, 1}); }).empty());
+    CHECK(written_by([&] { bar.update({0.2, 1.1}); }).empty());
+    CHECK_FALSE(written_by([&] { bar.update({0.3, 1.25}); }).empty());
+    CHECK(written_by([&] { bar.update({0.4, 1.4}); }).empty());
+    CHECK(written_by([&] { bar.clear(); }) == kErase);
+    CHECK(written_by([&] { bar.clear(); }).empty());
+    CHECK_FALSE(written_by([&] { bar.update({0.4, 1.41}); }).empty());  // drawn anew, whenever that is
+    CHECK(written_by([&] { bar.clear(); }) == kErase);
+
+    const std::string all = written_by([] {
+        app::ProgressBar gone(true);
+        gone.update({0.5, 1});
+    });
+    CHECK(all.ends_with(kErase));
+    CHECK(written_by([] { app::ProgressBar(false).update({0.5, 1}); }).empty());
+}
+
+}  // namespace
+}  // namespace limn::test

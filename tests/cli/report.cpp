@@ -1,0 +1,126 @@
+// The report and the picture's facts, from a result whose every number is another.
+#include "report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+
+namespace limn::test {
+namespace {
+
+RenderResult result() {
+    RenderResult r;
+    r.error = {.estimate = 0.25, .ci95_low = 0.125, .ci95_high = 0.5, .max_sample_share = 0.75, .reason = ""};
+    r.report = {.scene = "a scene",
+                .width = 20,
+                .height = 14,
+                .seed = 18446744073709551615u,
+                .threads = 3,
+                .max_depth = 11,
+                .samples_per_pixel = 7.5,
+                .compile_seconds = 1.5,
+                .render_seconds = 4,
+                .rays = 6'000'000,
+                .nonfinite_samples = 17,
+                .features = "sphere quad medium",
+                .memory_bytes = 123456,
+                .complete = true};
+    return r;
+}
+
+TEST_CASE("Report: every field holds its own number, in the order of the documentation", "[cli][report]") {
+    CHECK(app::report_json(result(), 2.5) == R"({
+  "scene": "a scene",
+  "width": 20,
+  "height": 14,
+  "seed": 18446744073709551615,
+  "threads": 3,
+  "spp": 7.5,
+  "seconds": {
+    "compile": 1.5,
+    "render": 4.0,
+    "save": 2.5
+  },
+  "rays": 6000000,
+  "mrays_per_second": 1.5,
+  "error": {
+    "metric": "relMSE",
+    "estimate": 0.25,
+    "ci95_low": 0.125,
+    "ci95_high": 0.5,
+    "target": null,
+    "reached": null,
+    "max_sample_share": 0.75,
+    "reason": null
+  },
+  "nonfinite_samples": 17,
+  "features": [
+    "sphere",
+    "quad",
+    "medium"
+  ],
+  "memory_bytes": 123456,
+  "version": ")" + std::string(version()) + "\"\n}\n");
+}
+
+TEST_CASE("Report: what is not a number is null, and a name that is not UTF-8 does no harm", "[cli][report]") {
+    RenderResult r = result();
+    r.error = {.estimate = std::nan(""), .ci95_low = std::nan(""), .ci95_high = INFINITY, .reason = "too few"};
+    r.report.render_seconds = 0;
+    r.report.scene = "caf\xe9";
+    const auto json = nlohmann::json::parse(app::report_json(r, 0));
+    for (const char* name : {"estimate", "ci95_low", "ci95_high"}) CHECK(json["error"][name].is_null());
+    CHECK(json["error"]["reason"] == "too few");
+    CHECK(json["mrays_per_second"].is_null());
+    CHECK(json["scene"] == "caf\xef\xbf\xbd");
+}
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+TEST_CASE("Facts: a picture's header says what was rendered, how well, and by which command", "[cli][report]") {
+    const RenderSettings settings{.antialias = true, .estimator = Estimator::path};
+    CHECK(app::picture_facts(result(), settings, "limn render x.obj") == Facts{{"scene", "a scene"},
+                                                                               {"width", "20"},
+                                                                               {"height", "14"},
+                                                                               {"seed", "18446744073709551615"},
+                                                                               {"spp", "7.5"},
+                                                                               {"max_depth", "11"},
+                                                                               {"antialias", "yes"},
+                                                                               {"estimator", "path"},
+                                                                               {"seconds.compile", "1.5"},
+                                                                               {"seconds.render", "4"},
+                                                                               {"error.metric", "relMSE"},
+                                                                               {"error.estimate", "0.25"},
+                                                                               {"error.ci95_low", "0.125"},
+                                                                               {"error.ci95_high", "0.5"},
+                                                                               {"complete", "yes"},
+                                                                               {"version", version()},
+                                                                               {"command_line", "limn render x.obj"}});
+}
+
+TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so", "[cli][report]") {
+    RenderResult r = result();
+    r.error.reason = "too few";
+    r.report.max_depth = kUnlimitedDepth;
+    r.report.complete = false;
+    const RenderSettings settings{.antialias = false, .estimator = Estimator::naive};
+    CHECK(app::picture_facts(r, settings, "") == Facts{{"scene", "a scene"},
+                                                       {"width", "20"},
+                                                       {"height", "14"},
+                                                       {"seed", "18446744073709551615"},
+                                                       {"spp", "7.5"},
+                                                       {"max_depth", "unlimited"},
+                                                       {"antialias", "no"},
+                                                       {"estimator", "naive"},
+                                                       {"seconds.compile", "1.5"},
+                                                       {"seconds.render", "4"},
+                                                       {"error.metric", "relMSE"},
+                                                       {"error.reason", "too few"},
+                                                       {"complete", "no"},
+                                                       {"version", version()},
+                                                       {"command_line", ""}});
+}
+
+}  // namespace
+}  // namespace limn::test
