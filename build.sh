@@ -13,7 +13,7 @@ usage: ./build.sh COMMAND [--full]
   accuracy     the exactness report
   bench        rays a second, scaling, instruction counts
   mutants      faults that the suite must catch
-  docs         the API reference
+  docs         the API reference: build/docs/html/index.html
 
 --full takes the longer form where there is one.
 TEXT
@@ -72,6 +72,14 @@ figures() {
     [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
 }
 
+docs() {
+    install_missing doxygen doxygen-awesome-css
+    rm -rf build/docs
+    mkdir -p build/docs
+    LIMN_VERSION=$(sed -n 's/^project(limn VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
+    echo "build/docs/html/index.html"
+}
+
 not_yet() {
     echo "build.sh: '$1' comes with a later issue; there is nothing to run yet" >&2
     exit 2
@@ -98,6 +106,7 @@ case $command in
         install_missing python3 python3-matplotlib python3-numpy
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}"
         ;;
-    accuracy | bench | mutants | docs) not_yet "$command" ;;
+    docs) docs ;;
+    accuracy | bench | mutants) not_yet "$command" ;;
     *) usage ;;
 esac

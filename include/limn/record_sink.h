@@ -1,4 +1,5 @@
 /// \file
+/// Where described objects write their records.
 #pragma once
 
 #include <functional>
@@ -16,13 +17,21 @@ class RecordSink {
 public:
     /// The id of a material or texture; `describe` is called the first time only. The sink keeps the object alive.
     /// A null object gives `none`.
+    ///@{
     MaterialId material(const std::shared_ptr<const void>& object, const std::function<MaterialRecord()>& describe);
     TextureId texture(const std::shared_ptr<const void>& object, const std::function<TextureRecord()>& describe);
-    /// Rows of SceneRecords::images and ::lattices.
+    ///@}
+
+    /// The row of SceneRecords::images or SceneRecords::lattices. \pre not null
+    ///@{
     std::uint32_t image(const std::shared_ptr<const Image>& image);
     std::uint32_t lattice(const std::shared_ptr<const PerlinLattice>& lattice);
+    ///@}
 
-    /// A shape of the current group.
+    /// Adds a shape to the current group. Its ids must be the sink's own. What a record points to must stay alive: a
+    /// mesh's arrays as long as `owner`; a foreign shape as long as the scene, which does so for what was added to it
+    /// and for what groups hold. \throws ArgumentError if there are too many primitives
+    ///@{
     void sphere(const SphereRecord& record);
     void triangle(const TriangleRecord& record);
     void quad(const QuadRecord& record);
@@ -30,22 +39,26 @@ public:
     void foreign(const ForeignRecord& record);
     void instance(const InstanceRecord& record);
     void medium(const MediumRecord& record);
+    ///@}
 
     /// A group that instances and media refer to: `fill` writes its shapes, the first time only.
     /// \throws ArgumentError if an object contains itself
     GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
 
-    /// Around the description of an object that contains others. \throws ArgumentError if it is being described already
+    /// Around the description of an object that contains others.
+    /// \throws ArgumentError if it is being described already
+    ///@{
     void enter(const void* object);
     void leave(const void* object);
+    ///@}
 
     /// Keeps the owner of something that a record points to alive as long as the records.
     void keep(const std::shared_ptr<const void>& owner);
 
     /// Primitives in the current group so far.
     std::uint64_t primitives() const { return records_.groups[current_].primitives; }
-    const SceneRecords& records() const { return records_; }
-    SceneRecords take() && { return std::move(records_); }
+    const SceneRecords& records() const { return records_; }  ///< what was written so far
+    SceneRecords take() && { return std::move(records_); }    ///< ends the sink
 
 private:
     void append(PrimitiveKind kind, std::size_t row, std::uint64_t count);

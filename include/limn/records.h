@@ -1,6 +1,7 @@
 /// \file
 /// The party wall: plain records in which described objects state themselves to the compiler. They hold numbers and
-/// ids, no behaviour. Whoever writes them keeps what they point to alive through `RecordSink::keep`.
+/// ids, no behaviour. A program that describes scenes and derives classes needs none of them. Whoever writes them keeps
+/// what they point to alive through `RecordSink::keep`.
 #pragma once
 
 #include <cstdint>
@@ -24,111 +25,137 @@ namespace limn {
 class Hittable;
 class Texture;
 
+/// Rows of the tables of SceneRecords.
+///@{
 enum class TextureId : std::uint32_t { none = 0xffffffff };
 enum class MaterialId : std::uint32_t { none = 0xffffffff };
 enum class GroupId : std::uint32_t { root = 0 };
+///@}
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
+/// The built-in textures, and `foreign` for everybody else's.
 enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence, marble, foreign };
 
+/// One texture; each field is of the kinds named beside it.
 struct TextureRecord {
-    TextureKind kind = TextureKind::solid;
-    Filter filter = Filter::bilinear;                          // image
-    Wrap wrap = Wrap::repeat;                                  // image
-    std::uint32_t data = 0;                                    // row of SceneRecords::images or ::lattices
-    TextureId even = TextureId::none;                          // checker
-    TextureId odd = TextureId::none;                           // checker
-    double scale = 1;                                          // checker: side of a cell; noises: frequency
-    Color color;                                               // solid: the colour; noises: multiplies
-    const Texture* object = nullptr;                           // foreign
-    Color (*value)(const Texture&, const Surface&) = nullptr;  // foreign
+    TextureKind kind = TextureKind::solid;                     ///< decides which fields count
+    Filter filter = Filter::bilinear;                          ///< image
+    Wrap wrap = Wrap::repeat;                                  ///< image
+    std::uint32_t data = 0;                                    ///< image, noises: row of the images or lattices
+    TextureId even = TextureId::none;                          ///< checker
+    TextureId odd = TextureId::none;                           ///< checker
+    double scale = 1;                                          ///< checker: side of a cell; noises: frequency
+    Color color;                                               ///< solid: the colour; noises: multiplies
+    const Texture* object = nullptr;                           ///< foreign; not owning
+    Color (*value)(const Texture&, const Surface&) = nullptr;  ///< foreign: what to call on it
 };
 static_assert(sizeof(TextureRecord) == 64);
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
+/// The built-in materials, and `foreign` for everybody else's.
 enum class MaterialKind : std::uint8_t { lambertian, metal, dielectric, diffuse_light, isotropic, foreign };
 
 /// How to call somebody else's material.
 struct MaterialThunks {
+    /// Material::emitted, Material::sample and Material::value.
+    ///@{
     Color (*emitted)(const Material&, const Surface&);
     std::optional<ScatterSample> (*sample)(const Material&, const Surface&, const Vec3& out, const Random3&);
     ScatterValue (*value)(const Material&, const Surface&, const Vec3& out, const Vec3& in);
+    ///@}
 };
 
+/// One material; each field is of the kinds named beside it.
 struct MaterialRecord {
-    MaterialKind kind = MaterialKind::lambertian;
-    Fresnel fresnel = Fresnel::exact;        // dielectric
-    TextureId texture = TextureId::none;     // albedo, or radiance of a light
-    double parameter = 0;                    // metal: fuzz; dielectric: index of refraction
-    const Material* object = nullptr;        // foreign
-    const MaterialThunks* thunks = nullptr;  // foreign
+    MaterialKind kind = MaterialKind::lambertian;  ///< decides which fields count
+    Fresnel fresnel = Fresnel::exact;              ///< dielectric
+    TextureId texture = TextureId::none;           ///< albedo, or radiance of a light
+    double parameter = 0;                          ///< metal: fuzz; dielectric: index of refraction
+    const Material* object = nullptr;              ///< foreign; not owning
+    const MaterialThunks* thunks = nullptr;        ///< foreign: how to call it; of static lifetime
 };
 static_assert(sizeof(MaterialRecord) == 32);
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
 
+/// What can be hit, or entered: the tables of SceneRecords.
 enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, triangle, quad, mesh, instance, medium, foreign };
 
 /// Centre moves on a straight line from center0 at time 0 to center1 at time 1.
 struct SphereRecord {
+    /// A negative radius turns the normal inward.
+    ///@{
     Point3 center0, center1;
-    double radius = 1;  // negative: the normal points inward
+    double radius = 1;
     MaterialId material = MaterialId::none;
+    ///@}
 };
 static_assert(sizeof(SphereRecord) == 64);
 
+/// A flat triangle; the outward normal is (b - a) x (c - a).
 struct TriangleRecord {
+    /// Vertices, not on one line, and what they are made of.
+    ///@{
     Point3 a, b, c;
     MaterialId material = MaterialId::none;
+    ///@}
 };
 static_assert(sizeof(TriangleRecord) == 80);
 
-/// corner + alpha edge_u + beta edge_v, alpha and beta in [0, 1].
+/// corner + u edge_u + v edge_v, u and v in [0, 1]; the outward normal is edge_u x edge_v.
 struct QuadRecord {
+    /// The edges are neither zero nor parallel.
+    ///@{
     Point3 corner;
     Vec3 edge_u, edge_v;
     MaterialId material = MaterialId::none;
+    ///@}
 };
 static_assert(sizeof(QuadRecord) == 80);
 
 /// Arrays that the mesh's owner shares.
 struct MeshRecord {
-    MeshView arrays;
-    std::vector<MaterialId> materials;  // by slot
+    MeshView arrays;                    ///< valid as long as the owner
+    std::vector<MaterialId> materials;  ///< by slot; at least one
 };
 
 /// A group seen through a matrix; a moving one is interpolated entry by entry.
 struct InstanceRecord {
+    /// The matrices at time 0 and 1, the same for a still instance; `group` is another one than root.
+    ///@{
     Transform world_from_object0, world_from_object1;
     GroupId group = GroupId::root;
     bool moving = false;
+    ///@}
 };
 
 /// A closed boundary and what fills it.
 struct MediumRecord {
-    GroupId boundary = GroupId::root;
-    MaterialId phase = MaterialId::none;
-    double density = 0;  // extinction, per world unit of length
+    GroupId boundary = GroupId::root;     ///< another one than root
+    MaterialId phase = MaterialId::none;  ///< the phase function, with the albedo
+    double density = 0;                   ///< extinction, per world unit of length
 };
 
-/// What a foreign shape's intersection tells.
+/// What a foreign shape's intersection tells; as Hit, but for the form of material and uv.
 struct ForeignHit {
-    double t = 0;
-    Normal3 normal;          // outward, unit
-    Normal3 shading_normal;  // zero: same as normal
-    Vec3 position_error;     // beyond the rounding of origin + t direction
-    double u = 0, v = 0;
-    Uv uv;
-    MaterialRef material;
-    bool index_matched = false;
+    double t = 0;                ///< in units of the ray's direction
+    Normal3 normal;              ///< geometric, outward, unit
+    Normal3 shading_normal;      ///< zero: same as normal
+    Vec3 position_error;         ///< beyond the rounding of origin + t direction
+    double u = 0;                ///< surface parameter
+    double v = 0;                ///< surface parameter
+    Uv uv;                       ///< texture coordinates
+    MaterialRef material;        ///< none: black
+    bool index_matched = false;  ///< the boundary of a medium
 };
 
+/// A shape of somebody else's class.
 struct ForeignRecord {
-    Box bounds;
-    const Hittable* object = nullptr;
-    bool (*hit)(const Hittable&, const Ray&, ForeignHit&) = nullptr;
+    Box bounds;                                                       ///< Hittable::bounds
+    const Hittable* object = nullptr;                                 ///< not owning
+    bool (*hit)(const Hittable&, const Ray&, ForeignHit&) = nullptr;  ///< Hittable::hit on it; false: a miss
 };
 static_assert(sizeof(ForeignRecord) == 64);
 
@@ -138,31 +165,40 @@ static_assert(sizeof(ForeignRecord) == 64);
 /// first_row, first_row + 1, ... of their table. For a mesh, an instance or a medium: one row with `count` primitives.
 /// `first_number` is the number of the first of them within the group.
 struct PrimitiveRange {
+    /// As said above.
+    ///@{
     PrimitiveKind kind = PrimitiveKind::sphere;
     std::uint32_t first_row = 0;
     std::uint64_t first_number = 0;
     std::uint64_t count = 0;
+    ///@}
 };
 
+/// What is described together: the scene itself, the object of an instance, the boundary of a medium.
 struct GroupRecord {
-    std::vector<PrimitiveRange> ranges;
-    std::uint64_t primitives = 0;  // those of instanced groups counted once an instance
+    std::vector<PrimitiveRange> ranges;  ///< in the order of description
+    std::uint64_t primitives = 0;        ///< those of instanced groups counted once an instance
 };
 
+/// All records of one scene.
 struct SceneRecords {
-    std::vector<SphereRecord> spheres;  // still and moving
+    /// The tables that ranges and ids are rows of. Still and moving spheres share one.
+    ///@{
+    std::vector<SphereRecord> spheres;
     std::vector<TriangleRecord> triangles;
     std::vector<QuadRecord> quads;
     std::vector<MeshRecord> meshes;
     std::vector<InstanceRecord> instances;
     std::vector<MediumRecord> media;
     std::vector<ForeignRecord> foreign;
-    std::vector<GroupRecord> groups = std::vector<GroupRecord>(1);  // [0] is the scene itself
     std::vector<MaterialRecord> materials;
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    std::vector<std::shared_ptr<const void>> kept;  // owners of what the records point to
+    ///@}
+
+    std::vector<GroupRecord> groups = std::vector<GroupRecord>(1);  ///< row 0 is the scene itself
+    std::vector<std::shared_ptr<const void>> kept;                  ///< owners of what the records point to
 };
 
 }  // namespace limn

@@ -1,4 +1,6 @@
 /// \file
+/// The exceptions that limn throws; beside them only std::bad_alloc and what the caller's own classes and callbacks
+/// throw.
 #pragma once
 
 #include <stdexcept>
@@ -21,8 +23,9 @@ public:
 /// Something is wrong with a file: missing, unreadable, malformed, unwritable. `what()` starts with its path.
 class FileError : public Error {
 public:
+    /// `what()` is "path: problem".
     FileError(const std::string& path, const std::string& problem) : Error(path + ": " + problem), path_(path) {}
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return path_; }  ///< as the caller named it
 
 private:
     std::string path_;

@@ -1,4 +1,5 @@
 /// \file
+/// Rays.
 #pragma once
 
 #include "limn/core/math.h"
@@ -9,12 +10,13 @@ namespace limn {
 /// The half-open segment origin + t direction, t in (t_min, t_max]. The direction need not have unit length; t is in
 /// units of it. `time` is in shutter units, 0 to 1; times outside are clamped by whatever moves.
 struct Ray {
-    Point3 origin;
-    Vec3 direction;
-    double t_min = 0;
-    double t_max = kInfinity;
-    double time = 0;
+    Point3 origin;             ///< finite
+    Vec3 direction;            ///< of any finite length but zero
+    double t_min = 0;          ///< open: a hit at t_min is none
+    double t_max = kInfinity;  ///< closed: a hit at t_max is one
+    double time = 0;           ///< in shutter units
 
+    /// The point at t, rounded.
     constexpr Point3 at(double t) const { return origin + t * direction; }
 };
 

@@ -16,8 +16,8 @@ struct MaterialThunks;
 /// Which material a surface has: a row of the compiled scene's table, or somebody else's object with the functions to
 /// call on it. Not owning: valid as long as the scene that it came from.
 struct MaterialRef {
-    static constexpr std::uint32_t kNone = 0xffffffff;
-    static constexpr std::uint32_t kObject = 0xfffffffe;
+    static constexpr std::uint32_t kNone = 0xffffffff;    ///< an id: no material
+    static constexpr std::uint32_t kObject = 0xfffffffe;  ///< an id: `object` is the material
 
     std::uint32_t id = kNone;                ///< row in the table; kObject: `object` counts; kNone: no material
     const Material* object = nullptr;        ///< the described material, where id == kObject
@@ -26,17 +26,19 @@ struct MaterialRef {
 
 /// A point on a surface (or in a medium, where normal is zero), in world space.
 struct Surface {
-    Point3 position;
+    Point3 position;         ///< as computed: rounded
     Vec3 position_error;     ///< bound on the distance of `position` from the true surface along each axis
     Normal3 normal;          ///< geometric, unit, on the side that the ray came from
     Normal3 shading_normal;  ///< interpolated, unit, same side; equals `normal` where the shape has no own normals
     Uv uv;                   ///< texture coordinates
     bool front_face = true;  ///< whether the ray came from the side of the shape's outward normal
-    MaterialRef material;
+    MaterialRef material;    ///< valid as long as the compiled scene
 
     /// A ray that leaves in `direction` from a point moved off the surface by its error bound, towards the side that
     /// the direction points to, so that it cannot hit the same flat or convex surface again (Pharr, Jakob, Humphreys,
     /// Physically Based Rendering, 4th ed., section 6.8).
+    /// \param direction of any length, towards either side: t is in units of it
+    /// \param time in shutter units, handed on
     Ray spawn_ray(const Vec3& direction, double time) const;
 
     /// A ray to `target` with t_max just under 1: a surface through the target does not count as an obstacle. Direction
@@ -47,12 +49,16 @@ struct Surface {
     Ray spawn_ray_to(const Surface& target, double time) const;
 };
 
-/// The origin that `Surface::spawn_ray` starts from.
+/// The origin that `Surface::spawn_ray` starts from: `position`, moved along `normal` by the error's extent along it,
+/// towards the side that `direction` points to, and then to the next double.
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction);
 
 /// Three independent numbers in [0, 1).
 struct Random3 {
+    /// Each uniform.
+    ///@{
     double x = 0, y = 0, z = 0;
+    ///@}
 };
 
 /// A scattered direction. Absent (std::nullopt) means absorbed.

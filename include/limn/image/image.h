@@ -1,4 +1,5 @@
 /// \file
+/// Pixels in memory.
 #pragma once
 
 #include <cstddef>
@@ -9,33 +10,36 @@
 
 namespace limn {
 
-/// An owning image of linear RGB float32, rows from the top, pixels from the left. Reading is thread-safe.
+/// An owning image of linear RGB float32, rows from the top, pixels from the left. Values are not clamped. Reading is
+/// thread-safe, and so is setting different pixels.
 class Image {
 public:
-    Image() = default;
+    Image() = default;  ///< no pixels
     /// \throws ArgumentError if a side is not positive, or memory lacks
     Image(int width, int height, const Color& fill = {});
 
-    int width() const { return width_; }
-    int height() const { return height_; }
-    bool empty() const { return values_.empty(); }
+    int width() const { return width_; }            ///< in pixels
+    int height() const { return height_; }          ///< in pixels
+    bool empty() const { return values_.empty(); }  ///< no pixels
 
     /// \pre 0 <= x < width(), 0 <= y < height()
     Color at(int x, int y) const {
         const float* p = &values_[offset(x, y)];
         return {p[0], p[1], p[2]};
     }
-    /// Rounds to float32.
+    /// Rounds to float32. \pre as for `at`
     void set(int x, int y, const Color& c) {
         float* p = &values_[offset(x, y)];
         p[0] = static_cast<float>(c.r), p[1] = static_cast<float>(c.g), p[2] = static_cast<float>(c.b);
     }
 
-    /// width * height * 3 values: r g b, r g b, ...
+    /// width * height * 3 values: r g b, r g b, ... Valid as long as the image.
+    ///@{
     std::span<const float> values() const { return values_; }
     std::span<float> values() { return values_; }
+    ///@}
 
-    bool operator==(const Image&) const = default;
+    bool operator==(const Image&) const = default;  ///< sizes and values; an image with a NaN equals nothing
 
 private:
     std::size_t offset(int x, int y) const {

@@ -1,6 +1,6 @@
 /// \file
 /// Image files. Formats by suffix: .exr and .png; others that OpenImageIO reads can be loaded. Built without
-/// OpenImageIO: .png, .hdr (and .jpg for loading).
+/// OpenImageIO: .png, .hdr (and .jpg for loading). All functions are thread-safe, for different files.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,9 @@ namespace limn {
 /// formats and linear for floating point. `srgb` decodes the sRGB transfer, `raw` takes the values as they are.
 enum class Encoding { automatic, srgb, raw };
 
+/// What a picture is written with.
 struct SaveOptions {
-    bool half = false;  ///< EXR: half instead of float; \throws FileError if a value is too large for it
+    bool half = false;  ///< EXR: half instead of float; save_image throws a FileError if a value is too large for it
     /// Facts about the picture, written as text: EXR attributes and PNG text named `limn:NAME`, HDR comments. NAME as
     /// in the `--report`, 1 to 70 printable characters. EXR does not keep an empty text, HDR no line breaks.
     std::vector<std::pair<std::string, std::string>> facts{};
@@ -34,18 +35,20 @@ struct SaveOptions {
 /// \throws ArgumentError if a fact's name cannot be written
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
-/// Throws what save_image would throw for a reason that can be known beforehand: suffix, folder, permissions.
+/// \throws FileError where save_image would throw it for a reason that can be known beforehand: suffix, folder,
+/// permissions
 void check_writable(const std::string& path);
 
 /// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey.
 /// \throws FileError naming the file: missing, no picture, broken off
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
-/// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file. \param name for messages
+/// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file, which messages call `name`.
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
 /// The text facts in the header of a picture that save_image wrote, in no particular order.
+/// \throws FileError as load_image
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn

@@ -1,4 +1,5 @@
 /// \file
+/// Models from Wavefront files.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +15,18 @@ namespace limn {
 struct Model {
     /// An OBJ gives one; `Mesh::face` numbers its faces in file order.
     std::vector<std::shared_ptr<const Mesh>> meshes;
-    std::size_t faces = 0;          ///< in the file
-    std::size_t dropped_faces = 0;  ///< fewer than three corners, or no area
-    std::size_t degenerate_triangles = 0;
+    std::size_t faces = 0;                 ///< in the file
+    std::size_t dropped_faces = 0;         ///< fewer than three corners, or no area
+    std::size_t degenerate_triangles = 0;  ///< of exactly zero area, which no ray can hit
     /// A missing MTL or texture file, an unknown material, lines that were passed over, and all else in the files that
     /// was not used as they say.
     std::vector<std::string> warnings;
     std::vector<std::string> files;  ///< that were read, or tried: the model, its MTL files, their textures
 
-    Box bounds() const;
+    Box bounds() const;  ///< around all meshes
 };
 
+/// What load_obj puts where the files say nothing.
 struct ObjOptions {
     /// For faces without a material; by default grey, Lambertian of albedo 0.5.
     std::shared_ptr<const Material> default_material;

@@ -1,4 +1,5 @@
 /// \file
+/// Glass, water.
 #pragma once
 
 #include "limn/material/material.h"
@@ -10,6 +11,9 @@ namespace limn {
 /// 1/n^2, which cancels as long as camera and lights are outside.
 class Dielectric final : public Material {
 public:
+    /// \param index inside over outside; below 1 for a bubble
+    /// \param fresnel the formula of the reflectance
+    ///
     /// \throws ArgumentError if the index is not positive and finite
     explicit Dielectric(double index, Fresnel fresnel = Fresnel::exact);
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;

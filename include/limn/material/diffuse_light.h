@@ -1,16 +1,21 @@
 /// \file
+/// Lamps.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// Emits the same radiance in every direction, on both sides, and scatters nothing.
+/// Emits the same radiance in every direction, on both sides, and scatters nothing. On a sphere, triangle, quad or mesh
+/// it is sampled as a light, unless the texture is of a class of one's own or a moving instance holds the shape
+/// (docs/architecture.md, "Light"); elsewhere paths find it by scattering.
 class DiffuseLight final : public Material {
 public:
     /// \throws ArgumentError if a component is negative or not finite; if the texture is null
+    ///@{
     explicit DiffuseLight(const Color& radiance);
     explicit DiffuseLight(std::shared_ptr<const Texture> radiance);
+    ///@}
     Color emitted(const Surface& s) const override;
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
     MaterialRecord lower(RecordSink& sink) const override;

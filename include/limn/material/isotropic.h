@@ -1,4 +1,5 @@
 /// \file
+/// The phase function of a medium.
 #pragma once
 
 #include "limn/material/material.h"
@@ -10,8 +11,10 @@ namespace limn {
 class Isotropic final : public Material {
 public:
     /// \throws ArgumentError if the albedo is outside [0, 1]; if the texture is null
+    ///@{
     explicit Isotropic(const Color& albedo);
     explicit Isotropic(std::shared_ptr<const Texture> albedo);
+    ///@}
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
     ScatterValue value(const Surface& s, const Vec3& out, const Vec3& in) const override;
     MaterialRecord lower(RecordSink& sink) const override;

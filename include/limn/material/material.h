@@ -1,4 +1,5 @@
 /// \file
+/// What every material answers.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,8 @@ namespace limn {
 /// How a surface scatters and emits light. All directions are unit vectors in world space that point away from the
 /// surface; `out` is where the path came from. Implementations are immutable and thread-safe; they draw no random
 /// numbers of their own. A subclass needs `sample` alone if it is specular (pdf 0), else also `value`, which must
-/// describe the same function: weight == value / pdf.
+/// describe the same function: weight == value / pdf. A mixture draws between a specular part and the rest; `value` and
+/// the pdf, which counts the chance of that choice, then describe the rest. docs/extending.md works out an example.
 class Material {
 public:
     virtual ~Material() = default;
@@ -21,7 +23,7 @@ public:
     /// Radiance that leaves towards the viewer.
     virtual Color emitted(const Surface&) const { return {}; }
 
-    /// Draws a direction; std::nullopt if the light is absorbed.
+    /// Draws a direction from numbers in [0, 1); std::nullopt if the light is absorbed.
     virtual std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const = 0;
 
     /// f |cos| and the density with which `sample` draws `in`; zero for specular materials.
@@ -34,7 +36,7 @@ public:
 /// The id of `material` in `sink`, lowered the first time; none for null.
 MaterialId lower_material(RecordSink& sink, const std::shared_ptr<const Material>& material);
 
-/// A reference through which a described material is called as it is.
+/// A reference through which a described material is called as it is; none for null. Not owning.
 MaterialRef material_ref(const Material* material);
 
 }  // namespace limn

@@ -1,4 +1,5 @@
 /// \file
+/// Mirrors and brushed metal.
 #pragma once
 
 #include "limn/material/material.h"
@@ -11,8 +12,10 @@ namespace limn {
 class Metal final : public Material {
 public:
     /// \throws ArgumentError if the albedo is outside [0, 1] or fuzz is outside [0, 1]; if the texture is null
+    ///@{
     explicit Metal(const Color& albedo, double fuzz = 0);
     explicit Metal(std::shared_ptr<const Texture> albedo, double fuzz = 0);
+    ///@}
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
     ScatterValue value(const Surface& s, const Vec3& out, const Vec3& in) const override;
     MaterialRecord lower(RecordSink& sink) const override;

@@ -1,4 +1,5 @@
 /// \file
+/// Scenes ready to be traced.
 #pragma once
 
 #include <cstddef>
@@ -18,18 +19,19 @@ namespace flat {
 struct Scene;
 }
 
-/// The nearest hit of a ray in a compiled scene.
+/// A hit of a ray in a compiled scene. It holds no pointer.
 struct RayHit {
     double t = kInfinity;      ///< in units of the ray's direction; kInfinity: a miss
     std::uint32_t object = 0;  ///< in the order of Scene::add
-    std::uint64_t element =
-        0;                ///< the primitive's number within the object: the triangle of a mesh, the place in a list
-    double u = 0, v = 0;  ///< triangle: weights of the second and third vertex; quad: along its edges; foreign: its
-                          ///< own; sphere: 0
+    /// The primitive's number within the object: the triangle of a mesh, the place in a list.
+    std::uint64_t element = 0;
+    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; foreign: its own; sphere: 0
+    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; foreign: its own; sphere: 0
     bool index_matched = false;   ///< the boundary of a medium
     std::uint64_t primitive = 0;  ///< the primitive's number within the scene
 };
 
+/// What compiling made.
 struct SceneStats {
     std::size_t memory_bytes = 0;  ///< of the compiled scene, mesh arrays that it shares with the description included
     std::uint64_t primitives = 0;  ///< instanced ones counted once an instance
@@ -40,32 +42,39 @@ struct SceneStats {
 };
 
 /// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
-/// it was compiled from may be destroyed.
+/// it was compiled from may be destroyed: what of it is still needed is shared. A moved-from one may only be assigned
+/// to or destroyed.
 class CompiledScene {
 public:
-    explicit CompiledScene(std::unique_ptr<const flat::Scene> scene);
+    explicit CompiledScene(std::unique_ptr<const flat::Scene> scene);  ///< for `compile`
+    /// Moves in constant time.
+    ///@{
     CompiledScene(CompiledScene&&) noexcept;
     CompiledScene& operator=(CompiledScene&&) noexcept;
+    ///@}
     ~CompiledScene();
 
     /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
-    /// of media count, flagged. An unusable ray misses. Throws only what a foreign
-    /// object throws.
+    /// of media count, flagged. An unusable ray misses. Throws only what an object of the caller's own class throws.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;
 
-    /// The same for many rays. A miss has t == kInfinity. \throws ArgumentError if the spans differ in length
+    /// The same for many rays, one after the other in the calling thread. A miss has t == kInfinity; `occluded`
+    /// is 1 or 0.
+    /// \throws ArgumentError if the spans differ in length
+    ///@{
     void closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
     void any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+    ///@}
 
     /// All about the point that `ray` hits. \pre hit was found by closest_hit for this ray in this scene
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
 
-    const SceneStats& stats() const { return stats_; }
+    const SceneStats& stats() const { return stats_; }  ///< counts and sizes
     /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
     const std::string& features() const;
-    const std::string& name() const;
+    const std::string& name() const;  ///< Scene::name
 
     const flat::Scene& flat() const { return *scene_; }  ///< for limn's own rooms
 
@@ -75,7 +84,8 @@ private:
 };
 
 /// Compiles a description. Pure: the same scene gives the same tables.
-/// \throws ArgumentError if an object contains itself or there are too many primitives
+/// \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium contains
+/// a medium, or there are too many primitives
 CompiledScene compile(const Scene& scene);
 
 }  // namespace limn

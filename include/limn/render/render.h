@@ -1,4 +1,5 @@
 /// \file
+/// Pictures from scenes.
 #pragma once
 
 #include <cstdint>
@@ -15,37 +16,46 @@ namespace limn {
 /// replicates. The denominator is taken from the pixel itself and from the 5x5 mean around it; the larger estimate
 /// counts. Light that no path has found yet cannot be seen.
 struct ErrorEstimate {
-    double estimate = 0;                 ///< NaN where there is none
-    double ci95_low = 0, ci95_high = 0;  ///< from the spread over blocks of pixels; NaN where there is none
-    double max_sample_share =
-        0;               ///< 99.9th percentile over pixels of the largest share that one sample has of its pixel
+    double estimate = 0;  ///< NaN where there is none
+    /// The 95 % interval, from the spread over blocks of pixels; NaN where there is none.
+    ///@{
+    double ci95_low = 0, ci95_high = 0;
+    ///@}
+    /// 99.9th percentile over pixels of the largest share that one sample has of its pixel, 0 to 1.
+    double max_sample_share = 0;
     std::string reason;  ///< why there is no estimate; empty where there is one
 };
 
+/// What was rendered, how, and what it cost.
 struct RenderReport {
-    std::string scene;
-    int width = 0, height = 0;
-    std::uint64_t seed = 0;
-    int threads = 0;  ///< that the render had
-    int max_depth = 0;
-    double samples_per_pixel = 0;  ///< mean over pixels; less than asked for if it was stopped
-    double compile_seconds = 0, render_seconds = 0;
-    std::uint64_t rays = 0;
+    std::string scene;                    ///< Scene::name
+    int width = 0;                        ///< in pixels
+    int height = 0;                       ///< in pixels
+    std::uint64_t seed = 0;               ///< as asked for
+    int threads = 0;                      ///< that the render had
+    int max_depth = 0;                    ///< as asked for
+    double samples_per_pixel = 0;         ///< mean over pixels; less than asked for if it was stopped
+    double compile_seconds = 0;           ///< that `compile` took
+    double render_seconds = 0;            ///< that `render` took
+    std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
     std::uint64_t nonfinite_samples = 0;  ///< counted as black
-    std::string features;
-    std::size_t memory_bytes = 0;  ///< compiled scene and film
-    bool complete = true;          ///< false if it was stopped
+    std::string features;                 ///< CompiledScene::features
+    std::size_t memory_bytes = 0;         ///< compiled scene and film
+    bool complete = true;                 ///< false if it was stopped
 };
 
+/// A picture and what is known of it.
 struct RenderResult {
-    Image image;
-    ErrorEstimate error;
-    RenderReport report;
+    Image image;          ///< linear, not clamped
+    ErrorEstimate error;  ///< of `image`
+    RenderReport report;  ///< of this run
 };
 
-/// Renders. The pixels depend on scene, camera, size, samples, depth, seed, filter and estimator alone: not on threads.
+/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera, size, samples, depth,
+/// seed, filter and estimator alone: not on threads.
+///
 /// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
-/// memory lacks; what the progress callback throws
+/// memory lacks; what the progress callback or an object of the caller's own class throws
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
 
 /// limn's version, "major.minor.patch".

@@ -1,4 +1,5 @@
 /// \file
+/// The light around a scene.
 #pragma once
 
 #include "limn/core/color.h"
@@ -8,10 +9,11 @@ namespace limn {
 
 /// Radiance that arrives from infinitely far away.
 struct Background {
-    Color bottom, top;  ///< for directions straight down and straight up
+    Color bottom;  ///< for directions straight down
+    Color top;     ///< for directions straight up
 
-    static constexpr Background black() { return {}; }
-    static constexpr Background constant(const Color& c) { return {c, c}; }
+    static constexpr Background black() { return {}; }                       ///< none
+    static constexpr Background constant(const Color& c) { return {c, c}; }  ///< from everywhere alike
     /// (1 - a) bottom + a top with a = (y + 1) / 2 of the unit direction.
     static constexpr Background gradient(const Color& bottom, const Color& top) { return {bottom, top}; }
 

@@ -1,4 +1,5 @@
 /// \file
+/// Cameras and the rays that they make.
 #pragma once
 
 #include <optional>
@@ -11,16 +12,18 @@ namespace limn {
 
 /// A thin-lens camera. Angles in degrees, lengths in world units, times in shutter units within [0, 1].
 struct Camera {
-    Point3 look_from{0, 0, 1};
-    Point3 look_at{0, 0, 0};
-    Vec3 up{0, 1, 0};
+    Point3 look_from{0, 0, 1};             ///< the eye, the centre of the lens
+    Point3 look_at{0, 0, 0};               ///< what is in the middle of the picture
+    Vec3 up{0, 1, 0};                      ///< what is upward in the picture; of any length, not along the view
     double vertical_fov = 40;              ///< full angle between the top and the bottom edge of the picture
     std::optional<double> aspect_ratio{};  ///< width over height of the picture's frame; by default that of its pixels
-    double aperture_angle = 0;  ///< full angle of the cone that the lens fills, seen from the focus plane; 0: pinhole
-    std::optional<double>
-        focus_distance{};  ///< to the plane in focus, along the view axis; by default |look_at - look_from|
-    double shutter_open = 0;
-    double shutter_close = 1;
+    /// Full angle of the cone that the lens fills, seen from the focus plane: the lens has radius
+    /// focus_distance * tan(aperture_angle / 2). 0: a pinhole.
+    double aperture_angle = 0;
+    /// To the plane in focus, along the view axis; by default |look_at - look_from|.
+    std::optional<double> focus_distance{};
+    double shutter_open = 0;   ///< a ray's time is uniform between the two
+    double shutter_close = 1;  ///< not before shutter_open
 };
 
 /// A camera for a picture of a given size, ready to make rays. Immutable, thread-safe.
@@ -30,13 +33,16 @@ public:
     /// 180) (aperture [0, 180)), a focus distance or size that is not positive, a shutter outside [0, 1], anything NaN
     CameraRays(const Camera& camera, int width, int height);
 
-    /// The ray through a point of the picture.
-    /// \param x, y in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
-    /// \param lens_u, lens_v, time_u in [0, 1): where on the lens, when in the shutter
+    /// The ray through a point of the picture. Its direction reaches from the lens to the plane at distance 1 from it:
+    /// it has no unit length.
+    ///
+    /// \param x,y in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
+    /// \param lens_u,lens_v in [0, 1): where on the lens, uniform over its area (Shirley and Chiu's map)
+    /// \param time_u in [0, 1): when in the shutter
     Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
 
-    bool has_lens() const { return lens_radius_ > 0; }
-    bool has_shutter() const { return shutter_close_ > shutter_open_; }
+    bool has_lens() const { return lens_radius_ > 0; }                   ///< whether lens_u and lens_v matter
+    bool has_shutter() const { return shutter_close_ > shutter_open_; }  ///< whether time_u matters
 
 private:
     Point3 eye_;
@@ -47,9 +53,10 @@ private:
     double shutter_open_, shutter_close_;
 };
 
-/// A camera that looks down on a box from the front right and has all of it in the picture.
-/// \param aspect_ratio width over height of the picture
-/// \throws ArgumentError if the box is empty or not finite
+/// A pinhole camera of 30 degrees that looks down on a box from the front right (+x, +z) and has the box's bounding
+/// sphere in a picture of the given width over height.
+///
+/// \throws ArgumentError if the box is empty or not finite, or the ratio is not positive and finite
 Camera frame_box(const Box& box, double aspect_ratio = 1);
 
 }  // namespace limn

@@ -1,4 +1,5 @@
 /// \file
+/// What is described.
 #pragma once
 
 #include <memory>
@@ -13,13 +14,13 @@ namespace limn {
 /// A description: objects and a background. Filling it is not thread-safe, reading it is.
 class Scene {
 public:
-    Background background = Background::black();
-    std::string name = "scene";  ///< goes into reports and picture headers
+    Background background = Background::black();  ///< by default no light but that of lamps
+    std::string name = "scene";                   ///< goes into reports and picture headers
 
     /// Returns the object's number, counted from 0. \throws ArgumentError if it is null
     std::size_t add(std::shared_ptr<const Hittable> object);
-    const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }
-    Box bounds() const;
+    const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }  ///< by number
+    Box bounds() const;  ///< around all objects over the whole shutter
 
 private:
     std::vector<std::shared_ptr<const Hittable>> objects_;

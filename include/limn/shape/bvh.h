@@ -1,4 +1,5 @@
 /// \file
+/// Many described objects, traced fast.
 #pragma once
 
 #include <memory>

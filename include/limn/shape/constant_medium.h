@@ -1,4 +1,5 @@
 /// \file
+/// Fog, smoke, milk.
 #pragma once
 
 #include "limn/shape/hittable.h"
@@ -13,10 +14,16 @@ namespace limn {
 class ConstantMedium final : public Hittable {
 public:
     /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is
-    /// inside, so nested closed surfaces make shells. \throws ArgumentError if the boundary is null, the density is
-    /// negative or not finite, the albedo outside [0, 1]
+    /// inside, so nested closed surfaces make shells.
+    /// \param density extinction per world unit of length: light goes 1 / density far in the mean
+    /// \param albedo the share of it that scatters, in [0, 1]; a texture is asked by position alone
+    ///
+    /// \throws ArgumentError if the boundary or texture is null, the density is negative or not finite, the albedo
+    /// outside [0, 1]
+    ///@{
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, const Color& albedo);
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, std::shared_ptr<const Texture> albedo);
+    ///@}
     Box bounds() const override { return boundary_->bounds(); }
     std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;

@@ -1,4 +1,5 @@
 /// \file
+/// What every shape answers.
 #pragma once
 
 #include <memory>
@@ -16,8 +17,9 @@ namespace limn {
 struct Hit {
     double t = kInfinity;                ///< in units of the ray's direction
     Normal3 normal;                      ///< geometric, outward, unit
-    double u = 0, v = 0;                 ///< surface parameters; see the shape
-    const Material* material = nullptr;  ///< not owning
+    double u = 0;                        ///< surface parameter; see the shape
+    double v = 0;                        ///< surface parameter; see the shape
+    const Material* material = nullptr;  ///< not owning; null: black
     std::uint64_t element = 0;           ///< the primitive's number within the object
     Normal3 shading_normal{};            ///< interpolated, unit; zero: same as normal
     std::optional<Uv> uv{};              ///< texture coordinates where they differ from u, v
@@ -31,14 +33,17 @@ class Hittable {
 public:
     virtual ~Hittable() = default;
 
-    /// A box around the object over the whole shutter, 0 <= time <= 1.
+    /// A box around the object over the whole shutter, 0 <= time <= 1. Hits outside it may be missed, so that rounding
+    /// must go outward; sides may be infinite. Constant.
     virtual Box bounds() const = 0;
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure. Shapes are closed sets:
-    /// a tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses.
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure: asked again with
+    /// another interval that holds the hit, and no nearer one, it answers with the same bits. Shapes are closed sets: a
+    /// tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses.
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
-    /// Writes what the object consists of. By default one foreign record, through which the compiled scene calls `hit`.
+    /// Writes what the object consists of. By default one foreign record, through which the compiled scene calls `hit`:
+    /// one element, whatever Hit::element says.
     virtual void lower(RecordSink& sink) const;
 };
 

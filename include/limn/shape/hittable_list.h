@@ -1,4 +1,5 @@
 /// \file
+/// Objects in a row.
 #pragma once
 
 #include <vector>
@@ -10,9 +11,10 @@ namespace limn {
 /// Objects in a row; elements are numbered through: those of the first object, then those of the second, ...
 class HittableList final : public Hittable {
 public:
-    HittableList() = default;
+    HittableList() = default;  ///< empty: never hit
     /// \throws ArgumentError if an object is null
     explicit HittableList(std::vector<std::shared_ptr<const Hittable>> objects);
+    /// Not thread-safe, and not once the list is in use. \throws ArgumentError if the object is null or the list itself
     void add(std::shared_ptr<const Hittable> object);
 
     Box bounds() const override { return bounds_; }

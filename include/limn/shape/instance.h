@@ -1,4 +1,5 @@
 /// \file
+/// Objects placed, turned, scaled, moving.
 #pragma once
 
 #include "limn/core/transform.h"
@@ -13,8 +14,10 @@ class Instance final : public Hittable {
 public:
     /// \throws ArgumentError if the object is null, a matrix is not finite, or it is singular at some time of the
     /// shutter
+    ///@{
     Instance(std::shared_ptr<const Hittable> object, const Transform& world_from_object);
     Instance(std::shared_ptr<const Hittable> object, const Transform& at_time0, const Transform& at_time1);
+    ///@}
     Box bounds() const override;
     std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;

@@ -1,4 +1,5 @@
 /// \file
+/// Triangle meshes.
 #pragma once
 
 #include <vector>
@@ -9,10 +10,10 @@ namespace limn {
 
 /// The arrays of an indexed triangle mesh.
 struct MeshData {
-    std::vector<Float3> vertices;  ///< stored as given
-    std::vector<Index3> triangles;
-    std::vector<Float3> normals;  ///< per vertex, of any length but zero; or empty: flat shading
-    std::vector<Float2> uvs;      ///< texture coordinates per vertex; or empty: the weights of vertices b and c
+    std::vector<Float3> vertices;   ///< stored as given
+    std::vector<Index3> triangles;  ///< rows of `vertices`, counter-clockwise seen from outside
+    std::vector<Float3> normals;    ///< per vertex, of any length but zero; or empty: flat shading
+    std::vector<Float2> uvs;        ///< texture coordinates per vertex; or empty: the weights of vertices b and c
     std::vector<std::uint32_t> material_slots;  ///< per triangle, which of the mesh's materials; or empty: the first
     std::vector<std::uint32_t> faces;  ///< per triangle, the number of the polygon it was cut from; or empty: its own
 };
@@ -23,12 +24,14 @@ struct MeshData {
 class Mesh final : public Hittable {
 public:
     /// \throws Error if there is no usable triangle; ArgumentError if an index or material slot is out of range, an
-    /// array has the wrong length, or a value is not finite
+    /// array has the wrong length, a normal is zero, or a value is not finite
+    ///@{
     Mesh(MeshData data, std::shared_ptr<const Material> material);
     Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials);
+    ///@}
 
-    const MeshData& data() const { return *data_; }
-    /// The number of the polygon that triangle `element` was cut from.
+    const MeshData& data() const { return *data_; }  ///< valid as long as the mesh
+    /// The number of the polygon that triangle `element` was cut from. \pre element < data().triangles.size()
     std::uint32_t face(std::uint64_t element) const;
     /// Triangles of exactly zero area, which no ray can hit.
     std::size_t degenerate_triangles() const { return degenerate_; }

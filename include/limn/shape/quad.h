@@ -1,4 +1,5 @@
 /// \file
+/// Parallelograms and boxes.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 /// \file
+/// Spheres.
 #pragma once
 
 #include "limn/shape/hittable.h"
@@ -10,14 +11,18 @@ namespace limn {
 /// from 0 at -y to 1 at +y, and u from 0 at -x around through +z (1/4), +x (1/2), -z (3/4).
 class Sphere final : public Hittable {
 public:
-    /// \param radius a negative one turns the normal inward (the inside of hollow glass)
+    /// A negative radius turns the normal inward (the inside of hollow glass), and u and v with it. A null material is
+    /// enough to be hit, not to be rendered.
+    ///
     /// \throws ArgumentError if the radius is zero, or anything is not finite
     Sphere(const Point3& center, double radius, std::shared_ptr<const Material> material);
     /// Centre center0 at time 0, center1 at time 1, bit-exact at both; times outside are clamped.
+    ///
+    /// \throws ArgumentError if the radius is zero, or anything is not finite
     Sphere(const Point3& center0, const Point3& center1, double radius, std::shared_ptr<const Material> material);
 
-    Point3 center(double time) const;
-    double radius() const { return radius_; }
+    Point3 center(double time) const;          ///< at a time in shutter units
+    double radius() const { return radius_; }  ///< as given, perhaps negative
     Box bounds() const override;
     std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;

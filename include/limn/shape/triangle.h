@@ -1,4 +1,5 @@
 /// \file
+/// Triangles.
 #pragma once
 
 #include "limn/shape/hittable.h"

@@ -1,4 +1,5 @@
 /// \file
+/// Pictures on surfaces.
 #pragma once
 
 #include "limn/image/image.h"
@@ -6,9 +7,10 @@
 
 namespace limn {
 
+/// How an ImageTexture reads its image.
 struct ImageTextureOptions {
-    Filter filter = Filter::bilinear;
-    Wrap wrap = Wrap::repeat;
+    Filter filter = Filter::bilinear;  ///< between texels
+    Wrap wrap = Wrap::repeat;          ///< outside [0, 1]
 };
 
 /// An image over the texture coordinates: u to the right, v upward; (0, 0) is the lower left corner. Texel (i, j from
@@ -16,9 +18,11 @@ struct ImageTextureOptions {
 /// and row, and `wrap` counts beyond. NaN coordinates read as 0.
 class ImageTexture final : public Texture {
 public:
-    /// \throws ArgumentError if the image is empty
+    /// \throws ArgumentError if the image is null or empty
+    ///@{
     explicit ImageTexture(Image image, ImageTextureOptions options = {});
     explicit ImageTexture(std::shared_ptr<const Image> image, ImageTextureOptions options = {});
+    ///@}
     Color value(const Surface& s) const override;
     TextureRecord lower(RecordSink& sink) const override;
 

@@ -1,7 +1,7 @@
 /// \file
-/// Textures made of Perlin noise at `scale` times the world position. A lattice of one's own, or one from a seed: the
-/// same seed gives the same lattice everywhere. All throw ArgumentError if scale is not finite, the lattice is null, or
-/// a component of the colour is negative or not finite.
+/// Textures made of Perlin noise (Perlin, An Image Synthesizer, SIGGRAPH 1985) at `scale` times the world position, as
+/// in Shirley, Ray Tracing: The Next Week, chapter 5. `scale` is in cells per world unit; the noise repeats after 256
+/// cells. All are finite wherever they are asked.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,14 @@ namespace limn {
 /// color * (1 + noise) / 2, noise in [-1, 1].
 class Noise final : public Texture {
 public:
+    /// With a lattice from a seed, the same everywhere, or one of the caller's.
+    ///
+    /// \throws ArgumentError if scale is not finite, the lattice is null, or a component of the colour is negative or
+    /// not finite
+    ///@{
     Noise(double scale, std::uint64_t seed, const Color& color = {1, 1, 1});
     Noise(double scale, std::shared_ptr<const PerlinLattice> lattice, const Color& color = {1, 1, 1});
+    ///@}
     Color value(const Surface& s) const override;
     TextureRecord lower(RecordSink& sink) const override;
 
@@ -25,11 +31,18 @@ private:
     Color color_;
 };
 
-/// color * turbulence: the absolute value of seven octaves' sum, weights 1, 1/2, 1/4, ...
+/// color * turbulence: the absolute value of seven octaves' sum, frequencies 1, 2, 4, ..., weights 1, 1/2,
+/// 1/4, ... In [0, 2).
 class Turbulence final : public Texture {
 public:
+    /// With a lattice from a seed, the same everywhere, or one of the caller's.
+    ///
+    /// \throws ArgumentError if scale is not finite, the lattice is null, or a component of the colour is negative or
+    /// not finite
+    ///@{
     Turbulence(double scale, std::uint64_t seed, const Color& color = {1, 1, 1});
     Turbulence(double scale, std::shared_ptr<const PerlinLattice> lattice, const Color& color = {1, 1, 1});
+    ///@}
     Color value(const Surface& s) const override;
     TextureRecord lower(RecordSink& sink) const override;
 
@@ -42,8 +55,14 @@ private:
 /// color * (1 + sin(scale z + 10 turbulence(scale p))) / 2: stripes along z, bent by turbulence.
 class Marble final : public Texture {
 public:
+    /// With a lattice from a seed, the same everywhere, or one of the caller's.
+    ///
+    /// \throws ArgumentError if scale is not finite, the lattice is null, or a component of the colour is negative or
+    /// not finite
+    ///@{
     Marble(double scale, std::uint64_t seed, const Color& color = {1, 1, 1});
     Marble(double scale, std::shared_ptr<const PerlinLattice> lattice, const Color& color = {1, 1, 1});
+    ///@}
     Color value(const Surface& s) const override;
     TextureRecord lower(RecordSink& sink) const override;
 

@@ -1,4 +1,5 @@
 /// \file
+/// One colour.
 #pragma once
 
 #include "limn/texture/texture.h"
@@ -8,6 +9,8 @@ namespace limn {
 /// The same colour everywhere.
 class SolidColor final : public Texture {
 public:
+    /// \param color in [0, 1] as an albedo, at least 0 as a radiance
+    ///
     /// \throws ArgumentError if a component is negative or not finite
     explicit SolidColor(const Color& color);
     Color value(const Surface&) const override { return color_; }

@@ -1,4 +1,5 @@
 /// \file
+/// What every texture answers.
 #pragma once
 
 #include <memory>
@@ -15,14 +16,14 @@ class Texture {
 public:
     virtual ~Texture() = default;
 
-    /// The colour at `s.position` (world space) or `s.uv`. Linear BT.709; reflectances in [0, 1], radiances >= 0.
+    /// Pure. The colour at `s.position` (world space) or `s.uv`. Linear BT.709; reflectances in [0, 1], radiances >= 0.
     virtual Color value(const Surface& s) const = 0;
 
     /// By default a foreign record, through which the compiled scene calls `value`.
     virtual TextureRecord lower(RecordSink& sink) const;
 };
 
-/// The id of `texture` in `sink`, lowered the first time.
+/// The id of `texture` in `sink`, lowered the first time; none for null.
 TextureId lower_texture(RecordSink& sink, const std::shared_ptr<const Texture>& texture);
 
 }  // namespace limn
