@@ -40,6 +40,7 @@
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"
 #include "limn/shape/mesh.h"
+#include "limn/shape/mesh_edges.h"
 #include "limn/shape/quad.h"
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"
