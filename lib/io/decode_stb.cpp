@@ -100,17 +100,29 @@ void read_values(std::span<const std::byte> bytes, StoredImage& image, const std
 
 }  // namespace
 
-StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
-    StoredImage image;
-    int channels_in_file;
-    if (!call(stbi_info_from_callbacks, Reader(bytes), &image.width, &image.height, &channels_in_file))
+ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& name) {
+    ImageInfo info;
+    int channels = 0;
+    if (!call(stbi_info_from_callbacks, Reader(bytes), &info.width, &info.height, &channels))
         throw FileError(name, std::string("is not a readable image: ") + stbi_failure_reason());
-    image.channels = channels_in_file < 3 ? 1 : 3;  // alpha is left out
+    const char* type = call(stbi_is_hdr_from_callbacks, Reader(bytes))      ? "float"
+                       : call(stbi_is_16_bit_from_callbacks, Reader(bytes)) ? "uint16"
+                                                                            : "uint8";
+    constexpr const char* kNames[] = {"Y", "YA", "RGB", "RGBA"};
+    for (const char* c = kNames[channels - 1]; *c != '\0'; ++c) info.channels.push_back({std::string(1, *c), type});
+    return info;
+}
+
+StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
+    const ImageInfo info = decode_info_stb(bytes, name);
+    StoredImage image;
+    image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
     read_png_header(bytes, image);
-    if (call(stbi_is_hdr_from_callbacks, Reader(bytes))) {
+    const std::string& type = info.channels.front().type;
+    if (type == "float") {
         image.transfer = Transfer::linear;
         read_values<float>(bytes, image, name, stbi_loadf_from_callbacks);
-    } else if (call(stbi_is_16_bit_from_callbacks, Reader(bytes))) {
+    } else if (type == "uint16") {
         read_values<std::uint16_t>(bytes, image, name, stbi_load_16_from_callbacks);
     } else {
         read_values<std::uint8_t>(bytes, image, name, stbi_load_from_callbacks);

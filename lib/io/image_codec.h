@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "limn/io/image_io.h"
+
 namespace limn {
 
 enum class FileFormat { exr, png, hdr };
@@ -48,5 +50,6 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
 StoredImage decode_file(const std::string& path);
 Facts decode_facts(const std::string& path);
+ImageInfo decode_info(const std::string& path);
 
 }  // namespace limn

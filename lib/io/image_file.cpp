@@ -193,6 +193,8 @@ Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding
     return to_image(decode_stb(bytes, name), encoding);
 }
 
+ImageInfo load_image_info(const std::string& path) { return decode_info(path); }
+
 Facts load_image_facts(const std::string& path) { return decode_facts(path); }
 
 }  // namespace limn

@@ -183,6 +183,14 @@ StoredImage decode_file(const std::string& path) {
     return read(*open_file(path), std::filesystem::file_size(path, unknown), path);
 }
 
+ImageInfo decode_info(const std::string& path) {
+    const ImageSpec spec = open_file(path)->spec();
+    ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
+    for (int i = 0; i < spec.nchannels; ++i)
+        info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
+    return info;
+}
+
 Facts decode_facts(const std::string& path) { return read_facts(open_file(path)->spec()); }
 
 }  // namespace limn

@@ -60,9 +60,11 @@ Facts read_hdr_facts(const std::string& file) {
     return facts;
 }
 
-void refuse_exr(const std::string& file, const std::string& path) {
+std::string read_image(const std::string& path) {
+    std::string file = read_file(path);
     if (file.compare(0, 4, "\x76\x2f\x31\x01") == 0)
         throw FileError(path, "is an EXR, which this build, without OpenImageIO, cannot read");
+    return file;
 }
 
 }  // namespace
@@ -82,14 +84,17 @@ StoredImage decode(FileFormat, std::span<const std::byte> bytes, const std::stri
 }
 
 StoredImage decode_file(const std::string& path) {
-    const std::string file = read_file(path);
-    refuse_exr(file, path);
+    const std::string file = read_image(path);
     return decode_stb(std::as_bytes(std::span(file)), path);
 }
 
+ImageInfo decode_info(const std::string& path) {
+    const std::string file = read_image(path);
+    return decode_info_stb(std::as_bytes(std::span(file)), path);
+}
+
 Facts decode_facts(const std::string& path) {
-    const std::string file = read_file(path);
-    refuse_exr(file, path);
+    const std::string file = read_image(path);
     if (file.compare(0, 2, "#?") == 0) return read_hdr_facts(file);
     return decode_stb(std::as_bytes(std::span(file)), path).facts;
 }

@@ -47,6 +47,21 @@ Image load_image(const std::string& path, Encoding encoding = Encoding::automati
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
+struct ImageChannel {
+    std::string name;  ///< "R", "G", "B"; "Y" where there is only grey; "A"; others as the file names them
+    std::string type;  ///< of its values as stored: "uint8", "uint16", "half", "float" ...
+};
+
+/// What the header of a picture says.
+struct ImageInfo {
+    int width = 0, height = 0;
+    std::vector<ImageChannel> channels;
+};
+
+/// Reads size and channels, all of them, and no pixels.
+/// \throws FileError naming the file: missing, no picture
+ImageInfo load_image_info(const std::string& path);
+
 /// The text facts in the header of a picture that save_image wrote, in no particular order.
 /// \throws FileError as load_image
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);

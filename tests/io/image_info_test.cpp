@@ -1,0 +1,71 @@
+// What the header of a picture says.
+#include "catch.h"
+#include "formats.h"
+#include "limn/core/error.h"
+#include "limn/io/image_io.h"
+#include "make_png.h"
+#include "support/folder.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+// "width x height: R uint8, ..."
+std::string summary(const std::string& path) {
+    const ImageInfo info = load_image_info(path);
+    std::string text = std::to_string(info.width) + " x " + std::to_string(info.height) + ":";
+    for (const ImageChannel& channel : info.channels) text += " " + channel.name + " " + channel.type;
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("Image info: what save_image wrote, in every format", "[io][image]") {
+    const Folder folder;
+    save_image(noise(7, 4, 1), folder.path("a.png"));
+    CHECK(summary(folder.path("a.png")) == "7 x 4: R uint8 G uint8 B uint8");
+#ifdef LIMN_WITH_OPENIMAGEIO
+    save_image(noise(7, 4, 1), folder.path("a.exr"));
+    CHECK(summary(folder.path("a.exr")) == "7 x 4: R float G float B float");
+    save_image(noise(7, 4, 1), folder.path("a.exr"), {.half = true});
+    CHECK(summary(folder.path("a.exr")) == "7 x 4: R half G half B half");
+#else
+    save_image(noise(7, 4, 1), folder.path("a.hdr"));
+    CHECK(summary(folder.path("a.hdr")) == "7 x 4: R float G float B float");
+#endif
+}
+
+TEST_CASE("Image info: all channels of a file are named, those that loading leaves out too", "[io][image]") {
+    const Folder folder;
+    const auto png = [&folder](char bit_depth, PngColor color, std::size_t bytes) {
+        return summary(folder.write("a.png", make_png(2, bit_depth, color, std::string(bytes, '\x55'))));
+    };
+    CHECK(png(8, PngColor::grey, 2) == "2 x 1: Y uint8");
+    CHECK(png(8, PngColor::grey_alpha, 4) == "2 x 1: Y uint8 A uint8");
+    CHECK(png(8, PngColor::rgb_alpha, 8) == "2 x 1: R uint8 G uint8 B uint8 A uint8");
+    CHECK(png(16, PngColor::rgb, 12) == "2 x 1: R uint16 G uint16 B uint16");
+    CHECK(png(16, PngColor::grey, 4) == "2 x 1: Y uint16");
+}
+
+TEST_CASE("Image info: no pixel is decoded", "[io][image]") {
+    const Folder folder;
+    // Pixels of the wrong length, which loading refuses.
+    const std::string path = folder.write("a.png", make_png(2, 8, PngColor::rgb, "xyz"));
+    CHECK(summary(path) == "2 x 1: R uint8 G uint8 B uint8");
+    CHECK_THROWS_AS(load_image(path), FileError);
+}
+
+TEST_CASE("Image info: files that are no pictures are refused with their name", "[io][image]") {
+    const Folder folder;
+    for (const std::string& path : {folder.path("none.png"), folder.path(), folder.write("a.png", "text"),
+                                    folder.write("a.exr", "text"), folder.write("a.txt", "text")}) {
+        CAPTURE(path);
+        try {
+            load_image_info(path);
+            FAIL_CHECK("accepted");
+        } catch (const FileError& e) {
+            CHECK(std::string(e.what()).starts_with(path + ": "));
+        }
+    }
+}
