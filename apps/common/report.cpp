@@ -2,28 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "json_output.h"
 
 namespace limn::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kMetric = "relMSE";
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json error_json(const ErrorEstimate& error) {
     return {{"metric", kMetric},
-            {"estimate", number(error.estimate)},
-            {"ci95_low", number(error.ci95_low)},
-            {"ci95_high", number(error.ci95_high)},
+            {"estimate", json_number(error.estimate)},
+            {"ci95_low", json_number(error.ci95_low)},
+            {"ci95_high", json_number(error.ci95_high)},
             {"target", nullptr},  // nobody can ask for one yet
             {"reached", nullptr},
-            {"max_sample_share", number(error.max_sample_share)},
+            {"max_sample_share", json_number(error.max_sample_share)},
             {"reason", error.reason.empty() ? Json(nullptr) : Json(error.reason)}};
 }
 
@@ -47,15 +43,14 @@ std::string report_json(const RenderResult& result, double save_seconds) {
         {"spp", r.samples_per_pixel},
         {"seconds", {{"compile", r.compile_seconds}, {"render", r.render_seconds}, {"save", save_seconds}}},
         {"rays", r.rays},
-        {"mrays_per_second", number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
+        {"mrays_per_second", json_number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
         {"error", error_json(result.error)},
         {"nonfinite_samples", r.nonfinite_samples},
         {"features", words(r.features)},
         {"memory_bytes", r.memory_bytes},
         {"version", version()},
     };
-    // Names of files need not be UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result,

@@ -1,6 +1,7 @@
 #include "text_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -41,6 +42,8 @@ bool write_and_close(int file, std::string_view text) {
 }
 
 }  // namespace
+
+std::string table_row(std::string_view name, std::string_view value) { return fmt::format("{:<24}{}\n", name, value); }
 
 void check_text_path(const std::string& path) {
     if (path == "-") return;

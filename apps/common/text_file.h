@@ -8,6 +8,9 @@
 
 namespace limn::app {
 
+/// A line of a table.
+std::string table_row(std::string_view name, std::string_view value);
+
 /// Throws the FileError that write_text would throw for a reason that can be known beforehand.
 void check_text_path(const std::string& path);
 

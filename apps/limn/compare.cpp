@@ -2,13 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_output.h"
 #include "limn/core/error.h"
 #include "limn/image/compare.h"
 #include "limn/io/image_io.h"
-#include "parse.h"
 #include "program.h"
 #include "text_file.h"
 
@@ -17,7 +16,7 @@ namespace limn::app {
 namespace {
 
 struct Arguments {
-    std::string test, reference, reference_b, json;
+    std::string test, reference, reference_b;
 };
 
 ImageMetrics measure(const Arguments& a) {
@@ -33,9 +32,7 @@ ImageMetrics measure(const Arguments& a) {
 
 std::string table(const ImageMetrics& m) {
     std::string text;
-    const auto row = [&text](const char* name, const std::string& value) {
-        text += fmt::format("{:<24}{}\n", name, value);
-    };
+    const auto row = [&text](const char* name, const std::string& value) { text += table_row(name, value); };
     const auto number = [](double value) { return std::isnan(value) ? "undefined" : fmt::format("{:.6g}", value); };
     row("relMSE", m.valid ? number(m.relative_mse) : "invalid");
     row("MSE", number(m.mse));
@@ -54,30 +51,28 @@ std::string table(const ImageMetrics& m) {
     return text;
 }
 
-// Not-a-number and infinity, which the PSNR of equal images is, are null.
-std::string json(const ImageMetrics& m, const Arguments& a) {
-    const auto number = [](double value) {
-        return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-    };
-    nlohmann::ordered_json json = {
+// Infinity, which the PSNR of equal images is, is null.
+Json json(const ImageMetrics& m, const Arguments& a) {
+    Json json = {
         {"test", a.test},
         {"reference", a.reference},
         {"valid", m.valid},
-        {"relmse", number(m.relative_mse)},
-        {"mse", number(m.mse)},
-        {"smape", number(m.smape)},
-        {"psnr", number(m.psnr_srgb)},
-        {"largest_relative_error", {{"value", number(m.largest_relative)}, {"x", m.largest_x}, {"y", m.largest_y}}},
-        {"worst_share", number(m.worst_share)},
+        {"relmse", json_number(m.relative_mse)},
+        {"mse", json_number(m.mse)},
+        {"smape", json_number(m.smape)},
+        {"psnr", json_number(m.psnr_srgb)},
+        {"largest_relative_error",
+         {{"value", json_number(m.largest_relative)}, {"x", m.largest_x}, {"y", m.largest_y}}},
+        {"worst_share", json_number(m.worst_share)},
         {"nonfinite", {{"test", m.nonfinite_test}, {"reference", m.nonfinite_reference}}},
     };
     if (m.has_reference_error) {
         json["reference_b"] = a.reference_b;
-        json["reference_relmse"] = number(m.reference_relative_mse);
-        json["corrected_relmse"] = number(m.corrected_relative_mse);
+        json["reference_relmse"] = json_number(m.reference_relative_mse);
+        json["corrected_relmse"] = json_number(m.corrected_relative_mse);
         json["reference_too_noisy"] = m.reference_too_noisy;
     }
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json;
 }
 
 }  // namespace
@@ -91,15 +86,12 @@ int compare_command(int argc, const char* const* argv) {
     cli.add_option("TEST", a.test, "The image in question")->required();
     cli.add_option("REF", a.reference, "The reference, or one half of it")->required();
     cli.add_option("REF_B", a.reference_b, "The other half of the reference");
-    cli.add_option("--json", a.json, "Write JSON too; - for standard output, in place of the table")->type_name("FILE");
+    const JsonOption json_option(cli);
     if (!parse_arguments(cli, argc, argv)) return kDone;
-    if (cli.count("--json") > 0 && a.json.empty()) refuse("--json", a.json, "is not the name of a file");
-    check_distinct({a.json}, {a.test, a.reference, a.reference_b});
-    if (!a.json.empty()) check_text_path(a.json);
+    json_option.check({a.test, a.reference, a.reference_b});
 
     const ImageMetrics metrics = measure(a);
-    if (a.json != "-") write_text("-", table(metrics));
-    if (!a.json.empty()) write_text(a.json, json(metrics, a));
+    json_option.write(table(metrics), json(metrics, a));
     if (metrics.valid) return kDone;
     throw Error(fmt::format("the error is invalid: {} values are not finite",
                             metrics.nonfinite_test + metrics.nonfinite_reference));

@@ -6,6 +6,7 @@
 #include "limn/io/image_io.h"
 #include "process.h"
 #include "support/folder.h"
+#include "table.h"
 
 namespace limn::test {
 namespace {
@@ -15,14 +16,6 @@ using Json = nlohmann::json;
 std::string image_file(const Folder& folder, const std::string& name, const Image& image) {
     save_image(image, folder.path(name));
     return folder.path(name);
-}
-
-// The value that stands after `label` at the start of a line.
-std::string row(const std::string& table, const std::string& label) {
-    const std::size_t at = ("\n" + table).find("\n" + label + " ");
-    REQUIRE(at != std::string::npos);
-    const std::size_t value = table.find_first_not_of(' ', at + label.size());
-    return table.substr(value, table.find('\n', value) - value);
 }
 
 TEST_CASE("limn compare: prints the metrics of two images, and the same as JSON", "[cli]") {
