@@ -6,7 +6,6 @@
 #include <exception>
 #include <new>
 
-#include "limn/core/error.h"
 #include "text_file.h"
 
 namespace limn::app {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "limn/core/error.h"
+
 namespace CLI {
 class App;
 }
@@ -29,6 +31,17 @@ struct Console {
 /// \returns false if the user asked for help, which is then on stdout
 /// \throws ArgumentError for bad usage
 bool parse_arguments(CLI::App& app, int argc, const char* const* argv);
+
+/// Runs a step whose arguments come out of files: what a library function refuses there is a fault of those files, not
+/// of the command line.
+template <class Step>
+auto from_files(const Step& step) {
+    try {
+        return step();
+    } catch (const ArgumentError& e) {
+        throw Error(e.what());
+    }
+}
 
 /// Runs `body` and turns what it throws into a message on stderr and an exit status.
 int run_program(const std::string& program, const std::function<int()>& body) noexcept;

@@ -26,16 +26,6 @@ void check_outputs(const RenderJob& job, const RenderOptions& options) {
     if (!options.report.empty()) check_text_path(options.report);
 }
 
-// An argument that a library function refuses here came out of a file, not from the command line.
-template <class Step>
-auto from_files(const Step& step) {
-    try {
-        return step();
-    } catch (const ArgumentError& e) {
-        throw Error(e.what());
-    }
-}
-
 // A lamp brighter than half can hold must not cost the picture.
 Image clamped_to_half(Image image, const Console& console) {
     constexpr float kLargestHalf = 65504;

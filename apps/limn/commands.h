@@ -6,5 +6,7 @@ namespace limn::app {
 
 int render_command(int argc, const char* const* argv);
 int compare_command(int argc, const char* const* argv);
+int info_command(int argc, const char* const* argv);
+int trace_command(int argc, const char* const* argv);
 
 }  // namespace limn::app

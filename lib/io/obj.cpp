@@ -38,6 +38,7 @@ Model load_obj(const std::string& path, const ObjOptions& options) {
 
     Model model;
     model.files = {path};
+    model.vertices = file.positions.size();
     model.faces = file.face_count;
     model.dropped_faces = mesh.dropped_faces;
     model.degenerate_triangles = mesh.degenerate_triangles;
@@ -46,7 +47,9 @@ Model load_obj(const std::string& path, const ObjOptions& options) {
     const std::shared_ptr<const Material> fallback =
         options.default_material ? options.default_material : std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
     std::vector<std::shared_ptr<const Material>> materials{fallback};
-    for (auto& material : load_obj_materials(file, path, fallback, model)) materials.push_back(material);
+    for (auto& material : load_obj_materials(file, path, fallback, options.textures, model))
+        materials.push_back(material);
+    model.materials = std::move(file.materials);
     model.meshes.push_back(std::make_shared<Mesh>(std::move(mesh.data), std::move(materials)));
     return model;
 }

@@ -36,7 +36,8 @@ Color to_color(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
 
 class MaterialLoader {
 public:
-    explicit MaterialLoader(Model& model) : files_(model.files), warnings_(model.warnings) {}
+    MaterialLoader(bool textures, Model& model)
+        : textures_wanted_(textures), files_(model.files), warnings_(model.warnings) {}
 
     // `names`: what stands behind mtllib, one name, which may contain blanks, or several.
     void add_libraries(const std::string& names, const std::string& obj_path) {
@@ -92,7 +93,7 @@ private:
         // Models for Refraction through Rough Surfaces, EGSR 2007, section 5.2).
         if (illumination_is({3, 5, 8}) || luminance(specular) > luminance(diffuse))
             return std::make_shared<Metal>(specular, std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2))));
-        if (!m.diffuse_map.empty())
+        if (textures_wanted_ && !m.diffuse_map.empty())
             if (const auto image = load_texture(m.diffuse_map))
                 return std::make_shared<Lambertian>(std::make_shared<ImageTexture>(image));
         return std::make_shared<Lambertian>(diffuse);
@@ -120,6 +121,7 @@ private:
         return found->second;
     }
 
+    bool textures_wanted_;
     std::vector<std::string>& files_;
     std::vector<std::string>& warnings_;
     std::map<std::string, MtlMaterial> materials_;
@@ -130,8 +132,8 @@ private:
 
 std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& file, const std::string& obj_path,
                                                                 const std::shared_ptr<const Material>& fallback,
-                                                                Model& model) {
-    MaterialLoader loader(model);
+                                                                bool textures, Model& model) {
+    MaterialLoader loader(textures, model);
     for (const std::string& names : file.libraries) loader.add_libraries(names, obj_path);
     std::vector<std::shared_ptr<const Material>> materials;
     for (const std::string& name : file.materials) materials.push_back(loader.make(name, fallback));

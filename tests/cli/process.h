@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "support/folder.h"
+
 namespace limn::test {
 
 struct Outcome {
@@ -15,10 +17,36 @@ struct Outcome {
 
 using Words = std::vector<std::string>;
 
-/// Runs a program to its end, with stdout and stderr not going to a terminal.
+/// Runs a program to its end, with empty stdin, and stdout and stderr not going to a terminal.
 Outcome run(const std::string& program, const Words& arguments, const std::string& folder = ".");
 /// The same for bin/limn.
 Outcome limn(const Words& arguments);
+/// The same, with `input` as its stdin.
+Outcome limn_reads(const std::string& input, const Words& arguments);
+/// The same, with stdout going to the file `path`, which must be there.
+Outcome limn_writes(const std::string& path, const Words& arguments);
+
+/// bin/limn at the other end of two pipes.
+class Conversation {
+public:
+    explicit Conversation(const Words& arguments);
+    ~Conversation();
+    Conversation(const Conversation&) = delete;
+    Conversation& operator=(const Conversation&) = delete;
+
+    void say(const std::string& text);
+    /// The next `size` bytes that it says; fewer if it ends, or says no more for a minute.
+    std::string hear(std::size_t size);
+    /// Closes the pipe that it writes to.
+    void stop_listening();
+    /// Closes the pipe that it reads, and waits for the end.
+    Outcome finish();
+
+private:
+    Folder folder_;
+    pid_t process_ = -1;
+    int to_ = -1, from_ = -1;
+};
 
 /// A program that runs with a terminal as its stderr.
 class OnTerminal {

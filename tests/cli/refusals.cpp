@@ -19,7 +19,8 @@ TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
     REQUIRE(std::sscanf(version.out.c_str(), "limn %d.%d.%d%n", &major, &minor, &patch, &end) == 3);
     CHECK(version.out.substr(static_cast<std::size_t>(end)) == "\n");
 
-    for (const Words& words : {Words{"--help"}, Words{"render", "--help"}, Words{"compare", "--help"}}) {
+    for (const Words& words : {Words{"--help"}, Words{"render", "--help"}, Words{"compare", "--help"},
+                               Words{"info", "--help"}, Words{"trace", "--help"}}) {
         const Outcome help = limn(words);
         CHECK(help.status == 0);
         CHECK(help.err.empty());
@@ -49,6 +50,13 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"merge", "a.exr", "-o", out}, "merge"},
         {{"bench"}, "not available"},
         {{"compare", "one.exr"}, "REF"},
+        {{"info"}, "FILE"},
+        {{"info", model, "--json", ""}, "--json"},
+        {{"info", model, "--json", model}, "house.obj"},
+        {{"trace"}, "MODEL"},
+        {{"trace", model, "--rays"}, "--rays"},
+        {{"trace", model, "--rays", ""}, "--rays"},
+        {{"trace", model, "--spp", "4"}, "--spp"},
     };
     for (const auto& [words, named] : cases) {
         CAPTURE(words);

@@ -46,7 +46,9 @@ TEST_CASE("OBJ: a plain triangle keeps the file's vertices", "[io][obj]") {
     CHECK(d.triangles == std::vector<Index3>{{0, 1, 2}});
     CHECK(d.normals.empty());
     CHECK(d.uvs.empty());
+    CHECK(model.vertices == 4);
     CHECK(model.faces == 1);
+    CHECK(model.materials.empty());
     CHECK(model.dropped_faces == 0);
     CHECK(model.degenerate_triangles == 0);
     CHECK(model.warnings.empty());

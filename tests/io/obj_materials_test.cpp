@@ -176,6 +176,14 @@ TEST_CASE("MTL: a missing library, material or texture is a warning, not an erro
     check_color(Lowered(odd_libraries).color(0), Color{1, 1, 1});
 }
 
+TEST_CASE("MTL: without textures no image is read, nor missed", "[io][obj][mtl]") {
+    const Folder folder;
+    load_one(folder, "Kd .25 .5 .75\nmap_Kd none.png\n");
+    const Model model = load_obj(folder.path("a.obj"), {.textures = false});
+    CHECK(model.warnings.empty());
+    check_color(Lowered(model).color(0), Color{.25, .5, .75});
+}
+
 TEST_CASE("MTL: colours that no material may have are clamped, with a warning", "[io][obj][mtl]") {
     const Folder folder;
     const Model model = load_one(folder, "Kd 1.5 -1 .5\n");

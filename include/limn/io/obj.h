@@ -15,9 +15,11 @@ namespace limn {
 struct Model {
     /// An OBJ gives one; `Mesh::face` numbers its faces in file order.
     std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::size_t vertices = 0;              ///< positions in the file, lines with v
     std::size_t faces = 0;                 ///< in the file
     std::size_t dropped_faces = 0;         ///< fewer than three corners, or no area
     std::size_t degenerate_triangles = 0;  ///< of exactly zero area, which no ray can hit
+    std::vector<std::string> materials;    ///< the names that its usemtl lines give, in the order of their first use
     /// A missing MTL or texture file, an unknown material, lines that were passed over, and all else in the files that
     /// was not used as they say.
     std::vector<std::string> warnings;
@@ -29,7 +31,9 @@ struct Model {
 /// What load_obj puts where the files say nothing.
 struct ObjOptions {
     /// For faces without a material; by default grey, Lambertian of albedo 0.5.
-    std::shared_ptr<const Material> default_material;
+    std::shared_ptr<const Material> default_material{};
+    /// Whether the images that materials name are read; without them map_Kd is passed over.
+    bool textures = true;
 };
 
 /// Reads a Wavefront OBJ and its MTL, in any locale. Decimals become the nearest float32. Polygons are cut by ear

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <strings.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "commands.h"
+#include "json_output.h"
+#include "limn/core/error.h"
+#include "limn/io/image_io.h"
+#include "limn/io/obj.h"
+#include "limn/shape/mesh_edges.h"
+#include "program.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Description {
+    std::string table;
+    Json json;
+};
+
+bool names_model(const std::string& path) { return ::strcasecmp(fs::path(path).extension().c_str(), ".obj") == 0; }
+
+const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+// Vertices are float32: as such they have few digits.
+std::string corner(const Point3& p) {
+    return fmt::format("({}, {}, {})", static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
+}
+
+Description describe_model(const std::string& path) {
+    const Model model = from_files([&] { return load_obj(path); });
+    const Mesh& mesh = *model.meshes.front();  // an OBJ gives one
+    const std::size_t triangles = mesh.data().triangles.size();
+    const EdgeCounts edges = count_edges(mesh);
+    const Box box = model.bounds();
+    const bool has_normals = !mesh.data().normals.empty(), has_uvs = !mesh.data().uvs.empty();
+
+    Description d;
+    const auto row = [&d](const char* name, const auto& value) {
+        d.table += table_row(name, fmt::format("{}", value));
+    };
+    row("vertices", model.vertices);
+    row("faces", model.faces);
+    row("dropped faces", model.dropped_faces);
+    row("triangles", triangles);
+    row("degenerate triangles", model.degenerate_triangles);
+    row("bounds", corner(box.lower) + " to " + corner(box.upper));
+    row("edges", edges.edges);
+    row("open edges", edges.open);
+    row("non-manifold edges", edges.nonmanifold);
+    row("closed", yes_or_no(edges.is_closed()));
+    row("normals", yes_or_no(has_normals));
+    row("texture coordinates", yes_or_no(has_uvs));
+    row("materials", model.materials.empty() ? "none" : fmt::format("{}", fmt::join(model.materials, ", ")));
+    for (const std::string& warning : model.warnings) row("warning", warning);
+
+    d.json = {
+        {"file", path},
+        {"kind", "model"},
+        {"vertices", model.vertices},
+        {"faces", model.faces},
+        {"dropped_faces", model.dropped_faces},
+        {"triangles", triangles},
+        {"degenerate_triangles", model.degenerate_triangles},
+        {"bounds",
+         {{"lower", {box.lower.x, box.lower.y, box.lower.z}}, {"upper", {box.upper.x, box.upper.y, box.upper.z}}}},
+        {"edges", edges.edges},
+        {"open_edges", edges.open},
+        {"nonmanifold_edges", edges.nonmanifold},
+        {"closed", edges.is_closed()},
+        {"normals", has_normals},
+        {"texture_coordinates", has_uvs},
+        {"materials", model.materials},
+        {"warnings", model.warnings},
+    };
+    return d;
+}
+
+// The type of all channels, or of each where they differ.
+std::string pixel_type(const std::vector<ImageChannel>& channels) {
+    std::vector<std::string> types;
+    for (const ImageChannel& channel : channels) types.push_back(channel.type);
+    if (std::adjacent_find(types.begin(), types.end(), std::not_equal_to<>()) == types.end()) types.resize(1);
+    return fmt::format("{}", fmt::join(types, ", "));
+}
+
+Description describe_image(const std::string& path) {
+    const ImageInfo image = load_image_info(path);
+    auto facts = load_image_facts(path);
+    std::sort(facts.begin(), facts.end());
+    std::vector<std::string> names;
+    Json channels = Json::array(), json_facts = Json::object();
+    for (const ImageChannel& channel : image.channels) {
+        names.push_back(channel.name);
+        channels.push_back({{"name", channel.name}, {"type", channel.type}});
+    }
+
+    Description d;
+    d.table += table_row("size", fmt::format("{} x {}", image.width, image.height));
+    d.table += table_row("channels", fmt::format("{}", fmt::join(names, ", ")));
+    d.table += table_row("pixel type", pixel_type(image.channels));
+    for (auto& [name, value] : facts) {
+        json_facts[name] = value;
+        std::replace(value.begin(), value.end(), '\n', ' ');
+        d.table += table_row(name, value);
+    }
+    d.json = {{"file", path},           {"kind", "image"},      {"width", image.width},
+              {"height", image.height}, {"channels", channels}, {"facts", json_facts}};
+    return d;
+}
+
+Description describe(const std::string& path) {
+    if (names_model(path)) return describe_model(path);
+    try {
+        return describe_image(path);
+    } catch (const FileError& e) {
+        if (!fs::is_regular_file(path)) throw;
+        throw Error(std::string(e.what()) + " (a model's name ends in .obj)");
+    }
+}
+
+}  // namespace
+
+int info_command(int argc, const char* const* argv) {
+    CLI::App cli(
+        "Prints what a model holds (a Wavefront OBJ, whose name ends in .obj), or an image: its size, channels and the "
+        "facts of the render that made it.",
+        "limn info");
+    std::string file;
+    cli.add_option("FILE", file, "The model or image")->required();
+    JsonOption json_option(cli);
+    cli.footer(
+        "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "
+        "is\nclosed. Vertices at the same place count as one there, and triangles without an area are left out.");
+    if (!parse_arguments(cli, argc, argv)) return kDone;
+    json_option.check({file});
+
+    const Description description = describe(file);
+    json_option.write(description.table, description.json);
+    return kDone;
+}
+
+}  // namespace limn::app

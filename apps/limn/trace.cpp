@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+
+#include "answer_writer.h"
+#include "commands.h"
+#include "limn/core/error.h"
+#include "limn/io/obj.h"
+#include "limn/render/compiled_scene.h"
+#include "parse.h"
+#include "program.h"
+#include "progress_bar.h"
+#include "ray_reader.h"
+
+namespace limn::app {
+
+namespace {
+
+constexpr const char* kForms =
+    "A ray is a line of six or eight numbers, ox oy oz dx dy dz [tmin tmax]: its origin, its direction, and the\n"
+    "interval (tmin, tmax], which is (0, inf] unless given. Blank lines and lines that begin with # are passed over.\n"
+    "Its answer is a line: t face u v with 17 digits, or miss; with --any 1 or 0. t is in units of the direction,\n"
+    "which need not have unit length. face counts the faces of the file from 0. u and v are the weights of the second\n"
+    "and third corner of the triangle that was hit; a polygon's triangles have the same face.\n"
+    "Answers come in the order of the rays, and as soon as a ray has arrived. A ray that cannot be used (not a "
+    "number,\n"
+    "no direction, something infinite in origin or direction, an empty interval) is a miss, and counted at the end.\n"
+    "With --binary a ray is 8 little-endian float64 (origin, direction, tmin, tmax), its answer 4 (t or inf, face or\n"
+    "-1, u, v), or 1 with --any.";
+
+struct Arguments {
+    std::string model, rays = "-";
+    bool any = false, binary = false, quiet = false;
+};
+
+// A model ready for queries.
+struct Traceable {
+    Model model;
+    CompiledScene scene;
+};
+
+Traceable load(const Arguments& a, const Console& console) {
+    Model model = load_obj(a.model, {.textures = false});
+    for (const std::string& warning : model.warnings) console.note(warning);
+    Scene scene;
+    for (const auto& mesh : model.meshes) scene.add(mesh);
+    CompiledScene compiled = compile(scene);
+    return {std::move(model), std::move(compiled)};
+}
+
+void answer_closest(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
+    std::vector<RayHit> hits(rays.size());
+    in.scene.closest_hit(rays, hits);
+    for (const RayHit& hit : hits) {
+        if (hit.t == kInfinity)
+            answers.miss();
+        else
+            answers.hit(hit.t, in.model.meshes[hit.object]->face(hit.element), hit.u, hit.v);
+    }
+}
+
+void answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
+    std::vector<std::uint8_t> occluded(rays.size());
+    in.scene.any_hit(rays, occluded);
+    for (const std::uint8_t is_hit : occluded) answers.occluded(is_hit != 0);
+}
+
+// A bar makes sense only where an end is known and the answers do not scroll through it.
+bool wants_bar(const Arguments& a, const RayReader& reader) {
+    return !a.quiet && reader.fraction() && stderr_is_terminal() && ::isatty(STDOUT_FILENO) == 0;
+}
+
+void trace(const Arguments& a, const Console& console) {
+    RayReader reader(a.rays, a.binary);
+    const Traceable in = from_files([&] { return load(a, console); });
+    AnswerWriter answers(a.binary);
+    ProgressBar bar(wants_bar(a, reader));
+    const auto begin = std::chrono::steady_clock::now();
+    std::ptrdiff_t unusable = 0;
+    for (std::span<const Ray> rays; !(rays = reader.next()).empty();) {
+        unusable += std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_usable(ray); });
+        if (a.any)
+            answer_any(in, rays, answers);
+        else
+            answer_closest(in, rays, answers);
+        answers.flush();
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        bar.update({reader.fraction().value_or(0), seconds.count()});
+    }
+    bar.clear();
+    if (unusable > 0) console.note(fmt::format("rays that cannot be used, answered as misses: {}", unusable));
+}
+
+}  // namespace
+
+int trace_command(int argc, const char* const* argv) {
+    CLI::App cli("Answers which face of a Wavefront OBJ each ray hits first, or whether it hits any.", "limn trace");
+    Arguments a;
+    cli.add_option("MODEL", a.model, "The model, a Wavefront OBJ")->required();
+    cli.add_option("--rays", a.rays, "Where the rays come from; - for standard input, as without it")
+        ->type_name("FILE");
+    cli.add_flag("--any", a.any, "Only whether there is a hit: 1 or 0");
+    cli.add_flag("--binary", a.binary, "Rays and answers as little-endian float64 in place of text");
+    cli.add_flag("--quiet", a.quiet, "Say nothing but errors");
+    cli.footer(kForms);
+    if (!parse_arguments(cli, argc, argv)) return kDone;
+    if (a.rays.empty()) refuse("--rays", a.rays, "is not the name of a file");
+    if (a.binary && ::isatty(STDOUT_FILENO) != 0)
+        throw ArgumentError("--binary: standard output is a terminal; send it to a file or a pipe");
+
+    trace(a, {.program = "limn", .quiet = a.quiet});
+    return kDone;
+}
+
+}  // namespace limn::app
