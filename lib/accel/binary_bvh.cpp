@@ -120,17 +120,17 @@ private:
                 bin.bounds.extend(boxes_[id]);
                 ++bin.count;
             }
+            // The outermost centres lie in the first and the last bin, so neither side is ever empty.
             std::array<double, kBins> left_cost{};
             Bin left, right;
             for (std::size_t b = 0; b + 1 < kBins; ++b) {
                 left.bounds.extend(bins[b].bounds);
                 left.count += bins[b].count;
-                left_cost[b + 1] = left.count == 0 ? kInfinity : surface_area(left.bounds) * left.count;
+                left_cost[b + 1] = surface_area(left.bounds) * left.count;
             }
             for (std::size_t b = kBins - 1; b > 0; --b) {
                 right.bounds.extend(bins[b].bounds);
                 right.count += bins[b].count;
-                if (right.count == 0) continue;
                 const double sides = left_cost[b] + surface_area(right.bounds) * right.count;
                 const double cost = kNodeCost + (area > 0 ? sides / area : 0);
                 if (cost < best.cost) best = {cost, axis, static_cast<int>(b)};

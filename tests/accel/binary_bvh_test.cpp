@@ -42,11 +42,14 @@ int check_node(const BinaryBvh& bvh, const std::vector<Box>& boxes, std::uint32_
     return depth;
 }
 
-void check_tree(const std::vector<Box>& boxes) {
+// Returns the depth.
+int check_tree(const std::vector<Box>& boxes) {
     const BinaryBvh bvh = build_binary_bvh(boxes);
     std::vector<int> seen(boxes.size(), 0);
-    if (!bvh.nodes.empty()) CHECK(check_node(bvh, boxes, 0, seen) < accel::kMaxDepth);
+    const int depth = bvh.nodes.empty() ? 0 : check_node(bvh, boxes, 0, seen);
+    CHECK(depth < accel::kMaxDepth);
     for (std::size_t i = 0; i < boxes.size(); ++i) REQUIRE(seen[i] == (boxes[i].is_empty() ? 0 : 1));
+    return depth;
 }
 
 }  // namespace
@@ -56,7 +59,7 @@ TEST_CASE("BinaryBvh: every box stands in exactly one leaf, inside all its ances
         check_tree(random_boxes(count, count));
 }
 
-TEST_CASE("BinaryBvh: equal, empty, unbounded and exponentially spread boxes build", "[accel]") {
+TEST_CASE("BinaryBvh: equal, empty and unbounded boxes build", "[accel]") {
     check_tree(std::vector<Box>(5000, Box{{1, 2, 3}, {1, 2, 3}}));
     check_tree(std::vector<Box>(10));
     std::vector<Box> odd = random_boxes(100, 1);
@@ -65,12 +68,22 @@ TEST_CASE("BinaryBvh: equal, empty, unbounded and exponentially spread boxes bui
     odd[51] = Box{{-kInfinity, 0, 0}, {0, 0, kInfinity}};
     odd[52] = Box{{-1e308, -1e308, -1e308}, {1e308, 1e308, 1e308}};
     check_tree(odd);
-    std::vector<Box> spread;
-    for (int i = 0; i < 600; ++i) {
-        const double x = std::ldexp(1.0, i - 300);
-        spread.emplace_back(Point3{x, x, x}, Point3{1.1 * x, 1.1 * x, 1.1 * x});
+}
+
+TEST_CASE("BinaryBvh: boxes that part one by one do so down to depth 56, no deeper than the limit, on either side",
+          "[accel]") {
+    for (const double side : {1.0, -1.0}) {
+        std::vector<Box> spread;
+        for (int i = 0; i < 600; ++i) {
+            const double x = std::ldexp(side, i - 300);
+            Box box;
+            box.extend(Point3{x, x, x});
+            box.extend(Point3{1.1 * x, 1.1 * x, 1.1 * x});
+            spread.push_back(box);
+        }
+        const int depth = check_tree(spread);
+        CHECK((depth > 56 && depth <= 56 + 10));  // what is left, 2^10 at most, is halved
     }
-    check_tree(spread);
 }
 
 TEST_CASE("BinaryBvh: the same boxes give the same tree", "[accel]") {

@@ -3,10 +3,13 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "catch.h"
 #include "limn/core/box.h"
+#include "property.h"
+#include "support/grid.h"
 
 using namespace limn;
 
@@ -27,7 +30,110 @@ bool meets_as_float(const Box& box, const Ray& ray) {
 
 const Box kUnit{{0, 0, 0}, {1, 1, 1}};
 
+// Where the ray enters the box; nothing where it misses.
+std::optional<double> entry(const Box& box, const Ray& ray) {
+    double near = 0;
+    const bool met = accel::SlabRay(ray, accel::finite_extent(box)).meets(box, ray.t_max, near);
+    return met ? std::optional(near) : std::nullopt;
+}
+
+struct Case {
+    Box box;
+    Ray ray;
+};
+
+Case draw_case() {
+    Case c;
+    c.box.extend(test::draw_point());
+    c.box.extend(test::draw_point());
+    c.ray.origin = test::draw_point();
+    c.ray.direction = c.box.center() + 0.5 * test::draw_vec() - c.ray.origin;
+    RC_PRE(!(c.ray.direction == Vec3{}));
+    if (test::draw_int(0, 1)) c.ray.t_min = test::draw_int(-64, 64) / 64.0;
+    if (test::draw_int(0, 1)) c.ray.t_max = std::max(c.ray.t_min, test::draw_int(0, 128) / 64.0);
+    return c;
+}
+
 }  // namespace
+
+TEST_CASE("Slab: a direction 2^k times as long changes nothing but the unit of t, to the bit", "[accel]") {
+    test::holds(
+        [] {
+            const Case c = draw_case();
+            const double s = test::draw_power_of_two(-300, 300);
+            Ray longer = c.ray;
+            longer.direction = s * c.ray.direction;
+            longer.t_min = c.ray.t_min / s, longer.t_max = c.ray.t_max / s;
+            const auto a = entry(c.box, c.ray), b = entry(c.box, longer);
+            RC_ASSERT(a.has_value() == b.has_value());
+            RC_ASSERT((!a || *a == s * *b));
+        },
+        1000);
+}
+
+TEST_CASE("Slab: in a world 2^k times as large everything is 2^k times as large, to the bit", "[accel]") {
+    test::holds(
+        [] {
+            const Case c = draw_case();
+            const double s = test::draw_power_of_two(-300, 300);
+            const auto scaled = [&](const Point3& p) { return Point3{} + s * (p - Point3{}); };
+            Ray larger = c.ray;
+            larger.origin = scaled(c.ray.origin);
+            larger.t_min = s * c.ray.t_min, larger.t_max = s * c.ray.t_max;
+            const auto a = entry(c.box, c.ray), b = entry({scaled(c.box.lower), scaled(c.box.upper)}, larger);
+            RC_ASSERT(a.has_value() == b.has_value());
+            RC_ASSERT((!a || s * *a == *b));
+        },
+        1000);
+}
+
+TEST_CASE("Slab: axes may change their names and signs", "[accel]") {
+    test::holds(
+        [] {
+            const Case c = draw_case();
+            const auto turned = [axis = static_cast<std::size_t>(test::draw_int(0, 2)), turn = test::draw_int(0, 2),
+                                 mirror = test::draw_int(0, 1)](Vec3 v) {
+                if (mirror) v[axis] = -v[axis];
+                for (int i = 0; i < turn; ++i) v = {v.y, v.z, v.x};
+                return v;
+            };
+            Case other = c;
+            other.box = {};
+            for (const Point3& p : {c.box.lower, c.box.upper}) other.box.extend(Point3{} + turned(p - Point3{}));
+            other.ray.origin = Point3{} + turned(c.ray.origin - Point3{});
+            other.ray.direction = turned(c.ray.direction);
+            RC_ASSERT(entry(c.box, c.ray) == entry(other.box, other.ray));
+        },
+        1000);
+}
+
+TEST_CASE("Slab: what meets a box meets every box around it, no later, and by a longer range as well", "[accel]") {
+    int met = 0;
+    test::holds(
+        [&] {
+            const Case c = draw_case();
+            const auto inner = entry(c.box, c.ray);
+            if (!inner) return;
+            ++met;
+            Box around = c.box;
+            around.extend(test::draw_point());
+            const auto outer = entry(around, c.ray);
+            RC_ASSERT((outer && *outer <= *inner));
+            Ray longer = c.ray;
+            longer.t_max = c.ray.t_max + 1;
+            RC_ASSERT(entry(c.box, longer) == inner);
+            longer.t_min = c.ray.t_min - 1;
+            RC_ASSERT((entry(c.box, longer) && *entry(c.box, longer) <= *inner));
+            // It enters where the ray is at the box, or at t_min, but for 2^-42 of the coordinates.
+            const Point3 at = c.ray.at(*inner);
+            const double slack = 4 * 0x1p-42 * 64;
+            RC_ASSERT(grow(c.box, {slack, slack, slack}).contains(at));
+            const Ray until{c.ray.origin, c.ray.direction, -kInfinity, *inner - slack / max_abs(c.ray.direction), 0};
+            RC_ASSERT((*inner <= c.ray.t_min || !entry(c.box, until)));
+        },
+        1000);
+    CHECK(met > 250);
+}
 
 TEST_CASE("Slab: a ray in a face, an edge or through a corner meets the closed box", "[accel]") {
     for (const double zero : {0.0, -0.0}) {

@@ -142,6 +142,9 @@ TEST_CASE("Sphere: the length of the direction only scales t, from 1e-30 to 1e25
         const auto hit = Sphere({0, 0, 10 * scale}, scale, nullptr).hit(towards({0, 0, 0}, {0, 0, scale}));
         REQUIRE(hit);
         CHECK(relative(hit->t, 9) <= kUlp);
+        const auto out = Sphere({0, 0, 0}, scale, nullptr).hit(towards({0, 0, 0}, {0, 0, 1}));  // from the centre
+        REQUIRE(out);
+        CHECK(relative(out->t, scale) <= kUlp);
     }
 }
 
