@@ -1,5 +1,6 @@
 // What holds for every camera: which pixel a ray belongs to, and what moving, scaling and mirroring change.
 #include "catch.h"
+#include "limn/core/error.h"
 #include "limn/scene/camera.h"
 #include "property.h"
 #include "support/grid.h"
@@ -117,4 +118,22 @@ TEST_CASE("Camera: the lens point goes right with on-disc x and up with y", "[sc
     CHECK(length(lens(0.5, 1) - Vec3{0, 3, 0}) <= 1e-14);
     CHECK(length(lens(0.5, 0) - Vec3{0, -3, 0}) <= 1e-14);
     CHECK(lens(0.5, 0.5) == Vec3{});
+}
+
+TEST_CASE("frame_box: a box endless on either side is refused, one of a point is seen from as near as numbers allow",
+          "[scene][camera]") {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Box low{{0, 0, 0}, {1, 1, 1}}, high = low;
+        low.lower[axis] = -kInfinity, high.upper[axis] = kInfinity;
+        CHECK_THROWS_AS(frame_box(low), ArgumentError);
+        CHECK_THROWS_AS(frame_box(high), ArgumentError);
+    }
+    for (const double size : {1e-6, 1.0, 1e6}) {
+        const Point3 p{2 * size, -3 * size, 6 * size};  // 7 size from the origin
+        const Camera camera = frame_box(Box{p, p});
+        CHECK(camera.look_at == p);
+        const double away = length(camera.look_from - p);
+        CHECK((away > 0x1p-40 * 7 * size && away < 8 * 0x1p-40 * 7 * size));
+    }
+    CHECK(length(frame_box(Box{{0, 0, 0}, {0, 0, 0}}).look_from - Point3{}) > 0);
 }
