@@ -147,6 +147,8 @@ TEST_CASE("Lights: black lamps, the inside of media and what a user's own class 
         CHECK(lights_of({unit_quad(dark)}).empty());
     for (const MaterialPtr& bright : {lamp(Color{0, 0, 1e-9}), checker(black, solid(1)), checker(solid(1), black)})
         CHECK(lights_of({unit_quad(bright)}).size() == 1);
+    // So small that its area squared is not a number beside zero.
+    CHECK(lights_of({std::make_shared<Quad>(Point3{}, Vec3{1e-90, 0, 0}, Vec3{0, 1e-90, 0}, white_lamp())}).empty());
     CHECK(lights_of({std::make_shared<ConstantMedium>(unit_quad(white_lamp()), 1, Color{})}).empty());
     CHECK(lights_of({std::make_shared<Stranger>(unit_quad(white_lamp()))}).empty());
 }
@@ -220,4 +222,24 @@ TEST_CASE("Lights: points computed on one lie within its error bound of the true
     }
     INFO(tally.first);
     CHECK(tally.wrong == 0);
+}
+
+TEST_CASE("Lights: a ball's error bound covers its whole way, its radius and what its instance adds",
+          "[compile][lights]") {
+    const auto bound = [](const Point3& from, const Point3& to, double radius, const Transform& m = {}) {
+        const auto lights = lights_of({seen(std::make_shared<Sphere>(from, to, radius, white_lamp()), m)});
+        REQUIRE(lights.size() == 1);
+        return lights[0].position_error;
+    };
+    const Point3 near{0, 0, 0}, far{0, -1024, 0};
+    for (const Vec3& e : {bound(near, far, 1), bound(far, near, 1), bound(far, far, 1), bound(near, near, 1024),
+                          bound(near, near, 1, Transform::translate({0, 0, 1024})),
+                          bound(near, near, 4, Transform::scale(256, 256, 256))}) {
+        CHECK((e.x == e.y && e.y == e.z));
+        CHECK(e.x >= 1024 * gamma(16));
+        CHECK(e.x <= 8 * 1026 * gamma(16));
+    }
+    CHECK(bound(near, near, 1).x <= 8 * gamma(16));
+    // Far out in the object's own space the rounding is as large, wherever the instance puts it.
+    CHECK(bound(far, far, 1, Transform::translate({0, 1024, 0})).x >= 1024 * gamma(16));
 }
