@@ -187,6 +187,9 @@ TEST_CASE("Film: blocks are an eighth of the shorter side, and those at the bord
         CHECK(e.estimate > 0);
         CHECK(e.ci95_high == Approx(2.96 * e.estimate).epsilon(1e-12));
     }
+    Film pair(2, 1);  // two blocks, the fewest that have a spread
+    for (int i = 0; i < 4; ++i) pair.add(0, 0, grey_of(i)), pair.add(1, 0, grey_of(1));
+    CHECK(pair.error().ci95_high == Approx(2.96 * pair.error().estimate).epsilon(1e-12));
     // Two bright pixels side by side share a block or not: that decides the interval.
     const auto relative_error = [](int x, int width, int height) {
         Film film(width, height);

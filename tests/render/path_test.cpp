@@ -1,0 +1,220 @@
+// Single rays through the path tracer: the radiance that comes back along them, against integrals.
+#include "render/path.h"
+
+#include "bsdf/metal.h"
+#include "limn/material/dielectric.h"
+#include "limn/material/metal.h"
+#include "property.h"
+#include "support/pictures.h"
+#include "support/solid_angle.h"
+
+using namespace limn;
+using namespace limn::test;
+using tracing::PathTracer;
+using tracing::Sampler;
+
+namespace {
+
+constexpr double kAlbedo = 0.6;
+
+Object floor_of(MaterialPtr m) { return quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, std::move(m)); }
+
+// At the floor's origin from the side.
+Ray at_floor(double time = 0) { return {.origin = {0, 0.4, 0.3}, .direction = {0, -0.4, -0.3}, .time = time}; }
+const Vec3 kOut = normalize(Vec3{0, 0.4, 0.3});
+
+// The mean radiance of one channel over samples of one ray, and its standard error.
+Measured along(const CompiledScene& scene, const Ray& ray, int depth, Estimator estimator, std::uint64_t samples) {
+    PathTracer tracer(scene.flat(), depth, estimator);
+    double sum = 0, squares = 0;
+    for (std::uint64_t i = 0; i < samples; ++i) {
+        Sampler sampler(300, i, 0);
+        const double value = tracer.radiance(ray, sampler).g;
+        sum += value, squares += value * value;
+    }
+    const double n = static_cast<double>(samples), average = sum / n;
+    return {average, std::sqrt(std::max(0.0, squares / n - average * average) / n)};
+}
+
+void check_both(const CompiledScene& scene, const Ray& ray, int depth, double truth, std::uint64_t naive_samples) {
+    INFO("by light sampling");
+    check_mean(along(scene, ray, depth, Estimator::path, 50'000), truth, 8e-3);
+    INFO("by scattering");
+    check_mean(along(scene, ray, depth, Estimator::naive, naive_samples), truth, 2e-2);
+}
+
+// The integral over a quad lamp of radiance 1, seen from the floor's origin, of `weight` of the unit direction, by the
+// midpoint rule.
+template <class Weight>
+double over_quad(const Point3& q, const Vec3& u, const Vec3& v, const Weight& weight) {
+    constexpr int kSide = 300;
+    const Vec3 n = cross(u, v);
+    double sum = 0;
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const Vec3 way = q + (i + 0.5) / kSide * u + (j + 0.5) / kSide * v - Point3{};
+            const double r2 = length_squared(way);
+            sum += weight(way / std::sqrt(r2)) * std::abs(dot(n, way)) / (r2 * std::sqrt(r2));
+        }
+    return sum / (kSide * kSide);
+}
+
+// Reflects the more the nearer the eye is to +z: light does not go both ways alike.
+class OneWay final : public Material {
+public:
+    std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override {
+        const double z = std::sqrt(random.x), r = std::sqrt(1 - random.x), phi = 2 * kPi * random.y;
+        const Vec3 in{r * std::cos(phi), z, r * std::sin(phi)};  // of a floor
+        return ScatterSample{in, value(s, out, in).value / (z / kPi), z / kPi};
+    }
+    ScatterValue value(const Surface&, const Vec3& out, const Vec3& in) const override {
+        const double f = std::max(in.y, 0.0) / kPi;
+        return {(1 + out.z) / 2 * Color{f, f, f}, f};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Path: the light of several lamps of every kind adds up, each by its own integral", "[render][path]") {
+    const Point3 q{-0.5, 1, -0.5}, p{2, 0.5, -1}, a{-2, 0.5, -1}, b{-2, 2, 0}, c{-2.5, 0.5, 1};
+    const Vec3 u{1, 0, 0}, v{0, 0, 1.2}, e{0.5, 1.5, 0.2}, f{0, 0.3, 1.5};
+    const Point3 ball{0.2, 1.5, -3};
+    const CompiledScene scene =
+        compile_with(sky(0), {floor_of(grey(kAlbedo)), quad(q, u, v, lamp(1)), quad(p, e, f, lamp(10)),
+                              std::make_shared<Triangle>(a, b, c, lamp(4)), sphere(ball, 0.8, lamp(6))});
+    REQUIRE(scene.stats().lights == 4);
+    const auto of_polygon = [](const std::vector<Point3>& corners) {
+        return std::abs(vector_irradiance(corners, {}).y);
+    };
+    const double d = length(ball - Point3{});
+    const double irradiance = of_polygon({q, q + u, q + u + v, q + v}) + 10 * of_polygon({p, p + e, p + e + f, p + f}) +
+                              4 * of_polygon({a, b, c}) + 6 * kPi * 0.64 / (d * d) * (ball.y / d);
+    check_both(scene, at_floor(), 2, kAlbedo * irradiance / kPi, 100'000);
+}
+
+TEST_CASE("Path: a moving lamp lights from where it is at the ray's own time", "[render][path]") {
+    const Point3 from{-2, 2, 0}, to{2, 3, 1};
+    const CompiledScene scene =
+        compile_with(sky(0), {floor_of(grey(kAlbedo)), std::make_shared<Sphere>(from, to, 0.8, lamp(5))});
+    for (const double time : {0.0, 0.3, 1.0}) {
+        INFO("time " << time);
+        const Vec3 way = from + time * (to - from) - Point3{};
+        const double d = length(way);
+        check_both(scene, at_floor(time), 2, kAlbedo * 5 * 0.64 / (d * d) * (way.y / d), 200'000);
+    }
+}
+
+TEST_CASE("Path: a moving roof keeps light off while it is there", "[render][path]") {
+    const Point3 q{-0.5, 2, -0.5};
+    const Vec3 u{1, 0, 0}, v{0, 0, 1};
+    const Object roof = std::make_shared<Instance>(quad({-2, 1, -2}, {4, 0, 0}, {0, 0, 4}, grey(0)), Transform{},
+                                                   Transform::translate({100, 0, 0}));
+    const CompiledScene scene = compile_with(sky(0), {floor_of(grey(kAlbedo)), roof, quad(q, u, v, lamp(5))});
+    for (const Estimator estimator : {Estimator::path, Estimator::naive})
+        CHECK(along(scene, at_floor(0), 2, estimator, 2000).mean == 0);
+    check_both(scene, at_floor(1), 2,
+               kAlbedo * 5 * std::abs(vector_irradiance({q, q + u, q + u + v, q + v}, {}).y) / kPi, 100'000);
+}
+
+TEST_CASE("Path: behind a boundary that is not there the ray goes on at its own time", "[render][path]") {
+    const Object veil =
+        std::make_shared<Stranger>(std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1, nullptr), 0, Color{}));
+    const CompiledScene scene =
+        compile_with(sky(0), {veil, std::make_shared<Sphere>(Point3{0, 9, -5}, Point3{0, 0, -5}, 1.0, lamp(3))});
+    const auto seen = [&](double time) {
+        return along(scene, {.origin = {0, 0, 5}, .direction = {0, 0, -2}, .time = time}, 1, Estimator::path, 10).mean;
+    };
+    CHECK(seen(1) == 3);
+    CHECK(seen(0) == 0);
+}
+
+TEST_CASE("Path: fog before a lamp dims each direction by its own way through it", "[render][path]") {
+    const Point3 q{-1, 2, -0.5};
+    const Vec3 u{3, 0, 0}, v{0, 0, 2};
+    const Object slab = make_box({-60, 0.5, -60}, {60, 1, 60}, nullptr);
+    const CompiledScene scene = compile_with(sky(0), {floor_of(grey(kAlbedo)), quad(q, u, v, lamp(4)),
+                                                      std::make_shared<ConstantMedium>(slab, 1.5, Color{0, 0, 0})});
+    const double irradiance = over_quad(q, u, v, [](const Vec3& w) { return w.y * std::exp(-1.5 * 0.5 / w.y); });
+    check_both(scene, at_floor(), 2, kAlbedo * 4 * irradiance / kPi, 200'000);
+}
+
+TEST_CASE("Path: brushed metal shows a lamp as its density blurs it", "[render][path]") {
+    const Point3 q{-0.7, 2, -3};
+    const Vec3 u{1.2, 0, 0}, v{0, 0.5, 1};
+    Surface floor;
+    floor.normal = floor.shading_normal = {0, 1, 0};
+    for (const double fuzz : {0.15, 0.5, 1.0}) {
+        INFO("fuzz " << fuzz);
+        const Color albedo{0.8, 0.8, 0.8};
+        const CompiledScene scene =
+            compile_with(sky(0), {floor_of(std::make_shared<Metal>(albedo, fuzz)), quad(q, u, v, lamp(4))});
+        const double truth = 4 * over_quad(q, u, v, [&](const Vec3& w) {
+                                 return bsdf::value_metal(albedo, fuzz, floor, kOut, w).value.g;
+                             });
+        check_both(scene, at_floor(), 2, truth, 100'000);
+    }
+}
+
+TEST_CASE("Path: a material is asked for the light that goes from the lamp to the eye, not back", "[render][path]") {
+    const Point3 q{-1, 2, -3};
+    const Vec3 u{2, 0, 0}, v{0, 0, 1};
+    const CompiledScene scene = compile_with(sky(0), {floor_of(std::make_shared<OneWay>()), quad(q, u, v, lamp(4))});
+    const double irradiance = std::abs(vector_irradiance({q, q + u, q + u + v, q + v}, {}).y);
+    check_both(scene, at_floor(), 2, (1 + kOut.z) / 2 * 4 * irradiance / kPi, 200'000);
+}
+
+TEST_CASE("Path: light that is reflected twice is the same by both estimators, in a corner and in fog",
+          "[render][path]") {
+    const Object wall = quad({-3, 0, -0.5}, {6, 0, 0}, {0, 6, 0}, grey(0.9));
+    const Object light = quad({-1, 1, 0}, {2, 0, 0}, {0, 0.5, 1}, lamp(2));
+    const Object fog =
+        std::make_shared<ConstantMedium>(make_box({-2, -1, -2}, {2, 3, 2}, nullptr), 0.5, Color{0.9, 0.9, 0.9});
+    for (const Object& last : {wall, fog}) {
+        const CompiledScene scene = compile_with(sky(0), {floor_of(grey(0.9)), light, last});
+        for (const int depth : {3, 4})
+            check_same(along(scene, at_floor(), depth, Estimator::path, 30'000),
+                       along(scene, at_floor(), depth, Estimator::naive, 60'000), 1.5e-2);
+    }
+}
+
+TEST_CASE("Path: roulette ends paths without a change of their mean, wherever they go", "[render][path]") {
+    // A room lit at one end, so that a path's direction matters; after 40 segments 1e-6 of the light is left.
+    const CompiledScene scene = compile_with(sky(0), {make_box({-1, -1, -1.5}, {1, 1, 1.5}, grey(0.7)),
+                                                      quad({-0.9, -0.9, -1.4}, {1.8, 0, 0}, {0, 1.8, 0}, lamp(3))});
+    const Ray ray{.origin = {0, 0, 0}, .direction = {0.2, 0.1, 1}};
+    for (const Estimator estimator : {Estimator::path, Estimator::naive})
+        check_same(along(scene, ray, kUnlimitedDepth, estimator, 20'000), along(scene, ray, 40, estimator, 10'000),
+                   2e-2);
+}
+
+TEST_CASE("Path: every ray that is traced is counted", "[render][path]") {
+    const Object light = quad({-0.5, 1, -0.5}, {1, 0, 0}, {0, 0, 1}, lamp(1));
+    const auto rays = [&](const std::vector<Object>& objects, int depth, Estimator estimator) {
+        const CompiledScene scene = compile_with(sky(0), objects);
+        PathTracer tracer(scene.flat(), depth, estimator);
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            Sampler sampler(1, i, 0);
+            tracer.radiance(at_floor(), sampler);
+        }
+        return tracer.rays();
+    };
+    CHECK(rays({}, 5, Estimator::path) == 100);
+    CHECK(rays({floor_of(grey(1)), light}, 1, Estimator::path) == 100);
+    CHECK(rays({floor_of(grey(1)), light}, 2, Estimator::naive) == 200);
+    CHECK(rays({floor_of(grey(1)), light}, 2, Estimator::path) == 300);  // and one towards the lamp
+    CHECK(rays({floor_of(std::make_shared<Metal>(Color{1, 1, 1})), light}, 2, Estimator::path) == 200);  // none to it
+}
+
+TEST_CASE("Path: a sample does not depend on those that came before it", "[render][path]") {
+    const Object fog = std::make_shared<ConstantMedium>(sphere({0, 0.5, 0}, 2, nullptr), 0.7, Color{0.5, 0.8, 0.9});
+    const CompiledScene scene =
+        compile_with(sky(0.3), {floor_of(grey(0.7)), fog, sphere({1, 0.5, 0}, 0.5, std::make_shared<Dielectric>(1.5)),
+                                quad({-1, 3, -1}, {2, 0, 0}, {0, 0, 2}, lamp(5)), sphere({-1, 1, 0}, 0.3, lamp(2))});
+    PathTracer used(scene.flat(), 8, Estimator::path);
+    holds([&](std::uint64_t seed, std::uint64_t pixel) {
+        PathTracer fresh(scene.flat(), 8, Estimator::path);
+        Sampler a(seed, pixel, 0), b(seed, pixel, 0);
+        const Ray ray{.origin = {0, 1, 5}, .direction = Vec3{a.next() - 0.5, -b.next(), -2}};
+        RC_ASSERT(used.radiance(ray, a) == fresh.radiance(ray, b));
+    });
+}
