@@ -110,6 +110,19 @@ TEST_CASE("compare: one value that is not finite, on either side, makes every me
     }
 }
 
+TEST_CASE("compare: of several values that are not finite all are counted, and the first one is named",
+          "[image][compare]") {
+    Image spoilt(5, 3, Color{1, 1, 1}), reference(5, 3, Color{2, 2, 2});
+    spoilt.set(1, 0, Color{1000, 1, 1});  // the largest finite error comes before
+    spoilt.set(3, 1, Color{1, kNaN, kInf});
+    spoilt.set(0, 2, Color{kNaN, 1, 1});
+    reference.set(2, 2, Color{1, 1, kNaN});
+    const ImageMetrics m = compare_images(spoilt, reference);
+    CHECK(m.nonfinite_test == 3);
+    CHECK(m.nonfinite_reference == 1);
+    CHECK((m.largest_x == 3 && m.largest_y == 1));
+}
+
 TEST_CASE("compare: the same infinity on both sides is no agreement", "[image][compare]") {
     Image a(1, 1);
     a.values()[0] = kInf;

@@ -177,6 +177,9 @@ TEST_CASE("Material: records state what the built-in ones were made with", "[mat
     CHECK(glass.kind == MaterialKind::dielectric);
     CHECK(glass.fresnel == Fresnel::schlick);
     CHECK(glass.parameter == 1.5);
+    CHECK(pack(std::make_shared<Dielectric>(1.5)).fresnel == Fresnel::exact);  // unless told otherwise
+    CHECK(pack(std::make_shared<Metal>(texture)).parameter == 0);
+    CHECK(pack(std::make_shared<Metal>(Color{.1, .2, .3})).parameter == 0);
 
     const MaterialRecord lamp = pack(std::make_shared<DiffuseLight>(texture));
     CHECK(lamp.kind == MaterialKind::diffuse_light);

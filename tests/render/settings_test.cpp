@@ -1,6 +1,10 @@
 #include <atomic>
+#include <condition_variable>
 #include <limits>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "catch.h"
 #include "limn/core/error.h"
@@ -23,6 +27,30 @@ private:
     double value_;
 };
 
+// Keeps threads waiting until as many of them have come, or, so that a test ends, for two seconds once.
+class Meeting final : public Texture {
+public:
+    explicit Meeting(std::size_t expected) : expected_(expected) {}
+    std::size_t seen() const { return threads_.size(); }
+
+    Color value(const Surface&) const override {
+        std::unique_lock lock(mutex_);
+        threads_.insert(std::this_thread::get_id());
+        if (threads_.size() >= expected_) changed_.notify_all();
+        if (!changed_.wait_for(lock, std::chrono::seconds(given_up_ ? 0 : 2),
+                               [&] { return threads_.size() >= expected_; }))
+            given_up_ = true;
+        return {1, 1, 1};
+    }
+
+private:
+    const std::size_t expected_;
+    mutable std::mutex mutex_;
+    mutable std::condition_variable changed_;
+    mutable std::set<std::thread::id> threads_;
+    mutable bool given_up_ = false;
+};
+
 }  // namespace
 
 TEST_CASE("render: impossible settings are refused by name", "[render][settings]") {
@@ -40,6 +68,9 @@ TEST_CASE("render: impossible settings are refused by name", "[render][settings]
         refused([&](RenderSettings& s) { s.max_depth = bad; }, "depth");
     }
     refused([](RenderSettings& s) { s.threads = -1; }, "threads");
+    refused([](RenderSettings& s) { s.threads = 1025; }, "threads");
+    refused([](RenderSettings& s) { s.width = (1 << 20) + 1; }, "width");
+    refused([](RenderSettings& s) { s.height = (1 << 20) + 1; }, "height");
     Camera blind = kEye;
     blind.look_at = blind.look_from;
     CHECK_THROWS_AS(render(scene, blind, square(4, 4, 4)), ArgumentError);
@@ -148,14 +179,16 @@ TEST_CASE("render: aperture 0 gives the pinhole's picture, to the bit", "[render
           Approx(mean(render(scene, pinhole, square(16, 64, 5)).image)).epsilon(0.03));  // light moves, none is made
 }
 
-TEST_CASE("render: progress never falls, is not called by two threads at once, and ends at 1", "[render][settings]") {
+TEST_CASE("render: progress begins at 0, never falls, is not called by two threads at once, and ends at 1",
+          "[render][settings]") {
     const CompiledScene scene = compile_with(sky(1), {sphere({0, 0, 0}, 1, grey(0.5))});
     RenderSettings settings = square(64, 64, 10);
     settings.threads = 3;
     std::atomic<int> inside = 0, calls = 0, overlapping = 0;
-    double last = 0, last_seconds = 0;
+    double first = -1, last = 0, last_seconds = 0;
     bool falling = false;
     settings.progress = [&](const Progress& p) {
+        if (calls == 0) first = p.fraction;
         overlapping += ++inside > 1;
         falling = falling || p.fraction < last || p.fraction > 1 || p.seconds < last_seconds;
         last = p.fraction, last_seconds = p.seconds;
@@ -167,8 +200,26 @@ TEST_CASE("render: progress never falls, is not called by two threads at once, a
     CHECK(calls >= 2);
     CHECK(overlapping == 0);
     CHECK_FALSE(falling);
+    CHECK(first == 0);
     CHECK(last == 1);
     CHECK(r.report.complete);
+}
+
+TEST_CASE("render: as many threads work at once as were asked for, more than there are processors too",
+          "[render][settings]") {
+    for (const std::size_t threads : {1u, 2u, 5u}) {
+        const auto meeting = std::make_shared<Meeting>(threads);
+        RenderSettings settings = square(64, 4, 1);
+        settings.threads = static_cast<int>(threads);
+        render(compile_with(sky(0), {sphere({0, 0, 0}, 9, std::make_shared<DiffuseLight>(meeting))}), kEye, settings);
+        CHECK(meeting->seen() == threads);
+    }
+}
+
+TEST_CASE("render: what is left open is as documented", "[render][settings]") {
+    const RenderSettings s;
+    CHECK((s.width == 400 && s.height == 400 && s.samples_per_pixel == 64 && s.max_depth == 10));
+    CHECK((s.seed == 0 && s.threads == 0 && s.antialias && s.estimator == Estimator::path && !s.progress));
 }
 
 TEST_CASE("render: stopping leaves a whole picture with fewer samples, and says so", "[render][settings]") {
@@ -221,6 +272,9 @@ TEST_CASE("render: the report says what was rendered", "[render][settings]") {
     CHECK(r.samples_per_pixel == 5);
     CHECK(r.rays >= 16 * 8 * 5);
     CHECK(r.rays < 16 * 8 * 5 * 7);
+    CHECK(render(compile_with(sky(1), {}), kEye, settings).report.rays == 16 * 8 * 5);
+    CHECK(r.compile_seconds == scene.stats().seconds);
+    CHECK(r.render_seconds > 0);
     CHECK(r.nonfinite_samples == 0);
     CHECK(r.features == scene.features());
     CHECK(r.memory_bytes >= scene.stats().memory_bytes + 16 * 8 * 3 * sizeof(float));

@@ -246,6 +246,21 @@ TEST_CASE("Perlin textures: scaled, coloured values of their patterns", "[textur
     CHECK_FALSE(Marble(4, 8, color).value(s) == Marble(4, lattice, color).value(s));
 }
 
+TEMPLATE_TEST_CASE("Perlin textures: white with the lattice of their seed, unless told otherwise", "[texture][perlin]",
+                   Noise, Turbulence, Marble) {
+    const auto lattice = std::make_shared<const PerlinLattice>(PerlinLattice::from_seed(7));
+    const Color white{1, 1, 1}, color{.9, .5, .1};
+    Surface s;
+    s.position = {.3, 1.7, -2.2};
+    const Color value = TestType(4, lattice, white).value(s);
+    CHECK(max_component(value) > 0);
+    CHECK(TestType(4, lattice).value(s) == value);
+    CHECK(TestType(4, 7).value(s) == value);
+    CHECK(TestType(4, 7, color).value(s) == color * value);
+    CHECK_FALSE(TestType(4, 8).value(s) == value);
+    CHECK_FALSE(TestType(5, 7).value(s) == value);
+}
+
 TEMPLATE_TEST_CASE("Perlin textures: impossible arguments are refused", "[texture][perlin]", Noise, Turbulence,
                    Marble) {
     for (const double scale : {kNaN, kInfinity, -kInfinity}) CHECK_THROWS_AS(TestType(scale, 1), ArgumentError);
