@@ -17,7 +17,10 @@ Encoding parse_encoding(const std::string& text) {
 }
 
 void add_texture_options(CLI::App& app, FigureInputs& inputs) {
-    app.add_option("--texture", inputs.texture, "The picture to use")->type_name("FILE")->capture_default_str();
+    app.add_option("--texture", inputs.texture, "The picture to use")
+        ->type_name("FILE")
+        ->capture_default_str()
+        ->each(app::file_name("--texture"));
     app.add_option_function<std::string>(
            "--texture-encoding", [&inputs](const std::string& text) { inputs.texture_encoding = parse_encoding(text); },
            "How its values become linear: auto goes by the file, raw takes them as they are")

@@ -8,12 +8,6 @@
 
 namespace limn::app {
 
-namespace {
-
-constexpr const char* kOption = "--json";
-
-}  // namespace
-
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string json_text(const Json& json) {
@@ -21,12 +15,13 @@ std::string json_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-JsonOption::JsonOption(CLI::App& app) : app_(app) {
-    app.add_option(kOption, path_, "Write JSON too; - for standard output, in place of the table")->type_name("FILE");
+JsonOption::JsonOption(CLI::App& app) {
+    app.add_option("--json", path_, "Write JSON too; - for standard output, in place of the table")
+        ->type_name("FILE")
+        ->each(file_name("--json"));
 }
 
 void JsonOption::check(const std::vector<std::string>& inputs) const {
-    if (app_.count(kOption) > 0 && path_.empty()) refuse(kOption, path_, "is not the name of a file");
     check_distinct({path_}, inputs);
     if (!path_.empty()) check_text_path(path_);
 }

@@ -32,7 +32,6 @@ public:
     void write(const std::string& table, const Json& json) const;
 
 private:
-    const CLI::App& app_;
     std::string path_;
 };
 

@@ -1,6 +1,7 @@
 #include "parse.h"
 
 #include <cmath>
+#include <utility>
 
 #include "limn/core/error.h"
 
@@ -15,6 +16,12 @@ constexpr int kLongestSide = 65536;
 
 void refuse(std::string_view option, std::string_view text, std::string_view problem) {
     throw ArgumentError(std::string(option) + " " + std::string(text) + ": " + std::string(problem));
+}
+
+std::function<void(const std::string&)> file_name(std::string option) {
+    return [option = std::move(option)](const std::string& text) {
+        if (text.empty()) refuse(option, "''", "is not the name of a file");
+    };
 }
 
 double parse_number(std::string_view option, std::string_view text) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -26,6 +27,9 @@ Integer parse_integer(std::string_view option, std::string_view text, Integer lo
         refuse(option, text, "must lie in " + std::to_string(lowest) + " .. " + std::to_string(highest));
     return value;
 }
+
+/// The name of a file, which must not be empty: for CLI11's each().
+std::function<void(const std::string&)> file_name(std::string option);
 
 double parse_number(std::string_view option, std::string_view text);
 

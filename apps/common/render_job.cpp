@@ -19,9 +19,7 @@ namespace limn::app {
 namespace {
 
 void check_outputs(const RenderJob& job, const RenderOptions& options) {
-    std::vector<std::string> outputs = options.outputs;
-    outputs.push_back(options.report);
-    check_distinct(outputs, job.inputs);
+    check_distinct(options.all_outputs(), job.inputs);
     for (const std::string& path : options.outputs) check_writable(path);
     if (!options.report.empty()) check_text_path(options.report);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "limn/core/error.h"
+#include "limn/io/image_io.h"
 
 namespace limn::app {
 
@@ -18,6 +19,16 @@ using Use = std::function<void(const std::string& text)>;
 CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
                  const Use& use) {
     return app.add_option_function<std::string>(name, use, help)->type_name(type);
+}
+
+// What is wrong with the name alone is wrong in the arguments.
+void check_output_name(const std::string& path) {
+    file_name("-o")(path);
+    try {
+        check_image_name(path);
+    } catch (const FileError& e) {
+        throw ArgumentError(std::string("-o ") + e.what());
+    }
 }
 
 void add_numbers(CLI::App& app, RenderOptions& o) {
@@ -103,15 +114,14 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
 void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("-o,--output", o.outputs, "A picture to write, .exr or .png; may be repeated")
         ->type_name("FILE")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->each(check_output_name);
     add_numbers(app, o);
     app.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
     app.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
-    add(app, "--report", "FILE.json", "Write what was done and how well as JSON; - for standard output",
-        [&o](const std::string& s) {
-            if (s.empty()) refuse("--report", s, "is not the name of a file");
-            o.report = s;
-        });
+    app.add_option("--report", o.report, "Write what was done and how well as JSON; - for standard output")
+        ->type_name("FILE.json")
+        ->each(file_name("--report"));
     app.add_flag("--quiet", o.quiet, "Say nothing but errors");
     add_camera(app, o.camera);
     add_reserved(app);
@@ -131,6 +141,12 @@ void apply(const RenderOptions& o, Figure& figure) {
     replace(settings.estimator, o.estimator);
     if (o.no_antialias) settings.antialias = false;
     replace_camera(figure.camera, o.camera);
+}
+
+std::vector<std::string> RenderOptions::all_outputs() const {
+    std::vector<std::string> all = outputs;
+    if (!report.empty()) all.push_back(report);
+    return all;
 }
 
 void check_camera_alone(const CameraOptions& o) {

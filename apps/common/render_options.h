@@ -35,6 +35,9 @@ struct RenderOptions {
     bool quiet = false;
     std::string report;        ///< path, "-" or empty
     std::string command_line;  ///< for the picture's header
+
+    /// The pictures and the report.
+    std::vector<std::string> all_outputs() const;
 };
 
 /// Adds the options to `app`, bound to `options`, which must outlive the parsing. A value that cannot be right is

@@ -1,5 +1,5 @@
 /// \file
-/// Text results: reports and tables. The path "-" is stdout.
+/// Text results: reports and tables. The path "-" is stdout. And that no file is overwritten that another is made of.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string table_row(std::string_view name, std::string_view value);
 /// Throws the FileError that write_text would throw for a reason that can be known beforehand.
 void check_text_path(const std::string& path);
 
-/// Writes a file that appears whole or not at all, or stdout. \throws FileError
+/// Writes stdout, or a file as save_text does. \throws FileError
 void write_text(const std::string& path, std::string_view text);
 
 /// \throws ArgumentError if two of the outputs, or an output and an input, are the same file; "-" and "" do not count

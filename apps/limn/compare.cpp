@@ -83,9 +83,9 @@ int compare_command(int argc, const char* const* argv) {
         "error is then subtracted.",
         "limn compare");
     Arguments a;
-    cli.add_option("TEST", a.test, "The image in question")->required();
-    cli.add_option("REF", a.reference, "The reference, or one half of it")->required();
-    cli.add_option("REF_B", a.reference_b, "The other half of the reference");
+    cli.add_option("TEST", a.test, "The image in question")->required()->each(file_name("TEST"));
+    cli.add_option("REF", a.reference, "The reference, or one half of it")->required()->each(file_name("REF"));
+    cli.add_option("REF_B", a.reference_b, "The other half of the reference")->each(file_name("REF_B"));
     const JsonOption json_option(cli);
     if (!parse_arguments(cli, argc, argv)) return kDone;
     json_option.check({a.test, a.reference, a.reference_b});

@@ -3,7 +3,9 @@
 
 #include "commands.h"
 #include "limn/io/obj.h"
+#include "parse.h"
 #include "render_job.h"
+#include "text_file.h"
 #include "viewing_scene.h"
 
 namespace limn::app {
@@ -12,6 +14,7 @@ namespace {
 
 Figure view_of(const std::string& path, const RenderOptions& options, const Console& console) {
     const Model model = load_obj(path);
+    check_distinct(options.all_outputs(), model.files);
     for (const std::string& warning : model.warnings) console.note(warning);
     Figure figure{.name = std::filesystem::path(path).filename().string(),
                   .scene = make_viewing_scene(model),
@@ -32,7 +35,7 @@ int render_command(int argc, const char* const* argv) {
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);
-    cli.add_option("MODEL", model, "The model, a Wavefront OBJ")->required();
+    cli.add_option("MODEL", model, "The model, a Wavefront OBJ")->required()->each(file_name("MODEL"));
     add_render_options(cli, options);
     cli.get_option("--output")->required();
     if (!parse_arguments(cli, argc, argv)) return kDone;

@@ -18,6 +18,7 @@
 #include "limn/image/compare.h"
 #include "limn/image/image.h"
 #include "limn/image/lookup.h"
+#include "limn/io/files.h"
 #include "limn/io/image_io.h"
 #include "limn/io/obj.h"
 #include "limn/material/dielectric.h"

@@ -182,6 +182,8 @@ void save_image(const Image& image, const std::string& path, const SaveOptions& 
     replace_file(path, bytes);
 }
 
+void check_image_name(const std::string& path) { format_of(path); }
+
 void check_writable(const std::string& path) {
     format_of(path);
     check_replaceable(path);

@@ -14,6 +14,7 @@
 
 #include "io/read_file.h"
 #include "limn/core/error.h"
+#include "limn/io/files.h"
 
 namespace limn {
 
@@ -49,16 +50,14 @@ std::string folder_of(const std::string& path) {
 
 // The file that stands, or will stand, at `path`. Checks all that needs no writing.
 std::string target_of(const std::string& path) {
+    if (path.empty()) throw FileError("''", "is not the name of a file");
     std::error_code error;
-    std::string target = path;
-    if (fs::exists(path, error)) {
-        if (fs::is_directory(path, error)) throw FileError(path, "is a folder, not a file");
-        if (!fs::is_regular_file(path, error)) throw FileError(path, "is not a regular file");
-        if (access(path.c_str(), W_OK) != 0) throw FileError(path, "cannot be written: " + system_message());
-        target = fs::canonical(path, error).string();
-        if (error) throw FileError(path, "cannot be written: " + error.message());
-    }
-    const std::string folder = folder_of(target);
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) throw FileError(path, "is a folder, not a file");
+    if (fs::exists(status) && !fs::is_regular_file(status)) throw FileError(path, "is not a regular file");
+    if (fs::exists(status) && access(path.c_str(), W_OK) != 0)
+        throw FileError(path, "cannot be written: " + system_message());
+    const std::string target = file_behind_links(path), folder = folder_of(target);
     if (!fs::exists(folder, error)) throw FileError(path, "there is no folder " + folder);
     if (!fs::is_directory(folder, error)) throw FileError(path, folder + " is not a folder");
     if (access(folder.c_str(), W_OK | X_OK) != 0)
@@ -114,8 +113,11 @@ public:
 
     void take_the_targets_place() {
         struct stat old;
-        if (stat(target_.c_str(), &old) == 0 && fchmod(descriptor_, old.st_mode & 07777) != 0)
-            fail("its permissions cannot be kept");
+        if (stat(target_.c_str(), &old) == 0) {
+            // Only root can; for others the file becomes theirs.
+            [[maybe_unused]] const int may_fail = fchown(descriptor_, old.st_uid, old.st_gid);
+            if (fchmod(descriptor_, old.st_mode & 07777) != 0) fail("its permissions cannot be kept");
+        }
         if (close(std::exchange(descriptor_, -1)) != 0) fail("writing failed");
         if (rename(name_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
         name_.clear();
@@ -141,6 +143,22 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
     file.require_contents(bytes);
     file.take_the_targets_place();
 }
+
+std::string file_behind_links(const std::string& path) {
+    constexpr int kMostLinks = 40;  // that Linux follows
+    std::error_code problem;
+    fs::path file = fs::absolute(path, problem);
+    for (int links = 0; fs::is_symlink(file, problem); ++links) {
+        if (links == kMostLinks) throw FileError(path, "is a link that leads in a circle");
+        file = file.parent_path() / fs::read_symlink(file, problem);
+    }
+    const fs::path plain = fs::weakly_canonical(file, problem);
+    return (problem ? file : plain).string();
+}
+
+void save_text(std::string_view text, const std::string& path) { replace_file(path, std::as_bytes(std::span(text))); }
+
+void check_text_writable(const std::string& path) { check_replaceable(path); }
 
 void check_replaceable(const std::string& path) {
     TemporaryFile file(path, target_of(path));

@@ -55,6 +55,9 @@ TEST_CASE("Figure program: refuses as limn does, under its own name", "[cli]") {
     const Outcome missing = run(TINY_FIGURE_PROGRAM, {"--texture", "none.png"}, folder.path());
     CHECK(missing.status == 1);
     CHECK(missing.err.find("none.png") != std::string::npos);
+    const Outcome unnamed = run(TINY_FIGURE_PROGRAM, {"--texture", ""}, folder.path());
+    CHECK(unnamed.status == 2);
+    CHECK(unnamed.err == "tiny: --texture '': is not the name of a file\n");
     CHECK(folder.names().empty());
 }
 

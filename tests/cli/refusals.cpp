@@ -1,8 +1,11 @@
 // Exit status, streams, and that nothing is written or harmed when limn refuses.
 #include <cstdio>
+#include <filesystem>
+#include <map>
 
 #include "catch.h"
 #include "house.h"
+#include "limn/io/image_io.h"
 #include "process.h"
 #include "support/folder.h"
 
@@ -40,8 +43,17 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"render", model, "-o", out, "--bogus"}, "--bogus"},
         {{"render", model, "-o", out, "--error", "0.01"}, "--error"},
         {{"render", model, "-o", out, "--resume"}, "--resume"},
-        {{"render", model, "-o", out, "--report", ""}, "--report"},
-        {{"compare", "one.exr", "two.exr", "--json", ""}, "--json"},
+        {{"render", model, "-o", out, "--report", ""}, "--report '': is not the name of a file"},
+        {{"render", model, "-o", ""}, "-o '': is not the name of a file"},
+        {{"render", model, "-o", out, "-o", ""}, "-o ''"},
+        {{"render", "", "-o", out}, "MODEL '': is not the name of a file"},
+        {{"compare", "", "two.exr"}, "TEST ''"},
+        {{"compare", "one.exr", ""}, "REF ''"},
+        {{"compare", "one.exr", "two.exr", ""}, "REF_B ''"},
+        {{"compare", "one.exr", "two.exr", "--json", ""}, "--json ''"},
+        {{"render", model, "-o", folder.path("out.xyz")}, "out.xyz: the name of a picture must end in .exr or .png"},
+        {{"render", model, "-o", folder.path("out")}, "must end in"},
+        {{"render", model, "-o", out, "-o", folder.path("no/out.jpg")}, "must end in"},
         {{"render", model, "-o", out, "-o", folder.path("./out.exr")}, "out.exr"},
         {{"render", model, "-o", out, "--report", out}, "out.exr"},
         {{"render", model, "-o", out, "--report", model}, "house.obj"},
@@ -75,7 +87,8 @@ TEST_CASE("limn render: files that cannot be read or written end with status 1 b
     const std::string model = folder.write("house.obj", house_obj()), out = folder.path("out.exr");
     const std::string empty = folder.write("empty.obj", "# nothing\n");
     const std::string broken = folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-    const Names before = folder.names();
+    const std::string circle = folder.path("circle.exr");
+    std::filesystem::create_symlink("circle.exr", circle);
     const std::vector<std::pair<Words, std::string>> cases = {
         {{folder.path("none.obj"), "-o", out}, "none.obj"},
         {{folder.path(), "-o", out}, folder.path()},
@@ -83,12 +96,16 @@ TEST_CASE("limn render: files that cannot be read or written end with status 1 b
         {{broken, "-o", out}, "broken.obj"},
         {{model, "-o", folder.path("no/out.exr")}, "no/out.exr"},
         {{model, "-o", folder.path("house.obj/out.exr")}, "out.exr"},
-        {{model, "-o", folder.path("out.xyz")}, "out.xyz"},
+        {{folder.make_pipe("pipe.obj"), "-o", out}, "pipe.obj: is not a regular file"},
+        {{"/dev/zero", "-o", out}, "/dev/zero: is not a regular file"},
+        {{model, "-o", folder.make_pipe("pipe.exr")}, "pipe.exr: is not a regular file"},
+        {{model, "-o", circle}, "circle.exr: is a link that leads in a circle"},
         {{model, "-o", out, "-o", folder.path("no/out.png")}, "no/out.png"},
         {{model, "-o", out, "--report", folder.path("no/report.json")}, "report.json"},
         {{model, "-o", out, "--report", folder.path()}, folder.path()},
         {{model, "-o", out, "--report", "/dev/null"}, "/dev/null"},
     };
+    const Names before = folder.names();
     for (const auto& [arguments, named] : cases) {
         // So many samples that anything that is refused late does not end.
         Words words = {"render", "--quiet", "--spp", "1000000000"};
@@ -118,6 +135,33 @@ TEST_CASE("limn render: a refusal leaves the picture and the report that were th
         CHECK(folder.read("old.json") == "an old report");
     }
     CHECK(folder.names() == before);
+}
+
+TEST_CASE("limn render: no output replaces a file that the model is made of, by whatever name", "[cli]") {
+    const Folder folder;
+    save_image(Image(1, 1), folder.path("wood.png"));
+    folder.write("oak.mtl", "newmtl oak\nmap_Kd wood.png\n");
+    const std::string model = folder.write("house.obj", "mtllib oak.mtl\nusemtl oak\n" + house_obj());
+    std::filesystem::create_symlink("oak.mtl", folder.path("link.json"));
+    std::filesystem::create_symlink(".", folder.path("here"));
+    const std::map<std::string, std::string> before = folder.contents();
+    const std::vector<std::pair<Words, int>> cases = {
+        {{"--report", model}, 2},  // the command line alone says so
+        {{"--report", folder.path("here/house.obj")}, 2},
+        {{"--report", folder.path("oak.mtl")}, 1},  // it takes the model to know
+        {{"--report", folder.path("link.json")}, 1},
+        {{"-o", folder.path("wood.png")}, 1},
+        {{"-o", folder.path("here/./wood.png")}, 1},
+    };
+    for (const auto& [output, status] : cases) {
+        Words words = {"render", model, "-o", folder.path("out.exr"), "--spp", "1000000000", "--quiet"};
+        words.insert(words.end(), output.begin(), output.end());
+        CAPTURE(words);
+        const Outcome outcome = limn(words);
+        CHECK(outcome.status == status);
+        CHECK(contains(outcome.err, output.back() + ": would replace a file that is read"));
+        CHECK(folder.contents() == before);
+    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,13 @@ public:
     std::string read(const std::string& name) const {
         std::ifstream file(path(name), std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
+    }
+    /// The names and contents of all files in it.
+    std::map<std::string, std::string> contents() const {
+        std::map<std::string, std::string> all;
+        for (const auto& entry : std::filesystem::directory_iterator(path_))
+            if (entry.is_regular_file()) all[entry.path().filename()] = read(entry.path().filename());
+        return all;
     }
     /// The names of all that is in it.
     std::set<std::string> names() const {

@@ -26,14 +26,18 @@ struct SaveOptions {
 };
 
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
-/// BT.709 stated. The file appears whole or not at all: a temporary file beside it (`.limn-*.tmp`, left over only if
-/// the process is killed) is written, read back and compared, flushed to disk and renamed. A file that is replaced
-/// keeps its permissions; a link is followed.
+/// BT.709 stated. Float EXR keeps every bit, infinities and NaN too. The file appears whole or not at all: a temporary
+/// file beside it (`.limn-*.tmp`, left over only if the process is killed) is written, read back and compared, flushed
+/// to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system lets it; a link is
+/// followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
 ///
 /// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
 ///
 /// \throws ArgumentError if a fact's name cannot be written
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
+
+/// \throws FileError where save_image would throw it for the name alone: an unknown suffix
+void check_image_name(const std::string& path);
 
 /// \throws FileError where save_image would throw it for a reason that can be known beforehand: suffix, folder,
 /// permissions
