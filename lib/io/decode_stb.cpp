@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "io/decode_stb.h"
+#include "io/image_checks.h"
 #include "io/png_chunks.h"
 #include "limn/core/error.h"
 
@@ -114,9 +115,11 @@ ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& n
 }
 
 StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
+    require_whole(bytes, name);
     const ImageInfo info = decode_info_stb(bytes, name);
     StoredImage image;
     image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
+    require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
     read_png_header(bytes, image);
     const std::string& type = info.channels.front().type;
     if (type == "float") {

@@ -14,7 +14,7 @@
 
 namespace limn {
 
-enum class FileFormat { exr, png, hdr };
+enum class FileFormat { exr, png, hdr, jpeg };
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <new>
 #include <type_traits>
 
 #include "io/decode_stb.h"
@@ -146,7 +147,7 @@ Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear l
     return image;
 }
 
-Image to_image(const StoredImage& stored, Encoding encoding) {
+Image to_image(const StoredImage& stored, Encoding encoding, const std::string& name) try {
     const Transfer transfer = transfer_of(stored, encoding);
     const auto convert = [&]<class T>(const std::vector<T>& values) {
         const auto linear = [&](double v) { return static_cast<float>(decode_value(v, transfer, stored.exponent)); };
@@ -162,11 +163,11 @@ Image to_image(const StoredImage& stored, Encoding encoding) {
         }
     };
     return std::visit(convert, stored.values);
+} catch (const ArgumentError&) {  // of Image, which has a size
+    throw FileError(name, "there is not enough memory for its pixels");
 }
 
-}  // namespace
-
-void save_image(const Image& image, const std::string& path, const SaveOptions& options) {
+void save(const Image& image, const std::string& path, const SaveOptions& options) {
     const FileFormat format = format_of(path);
     check_facts(options.facts);
     check_values(image, path, format, options.half);
@@ -182,6 +183,20 @@ void save_image(const Image& image, const std::string& path, const SaveOptions& 
     replace_file(path, bytes);
 }
 
+// Running out of memory is a fault that concerns the file.
+template <class Call>
+auto with_memory(const std::string& path, Call call) try {
+    return call();
+} catch (const std::bad_alloc&) {
+    throw FileError(path, "there is not enough memory for its pixels");
+}
+
+}  // namespace
+
+void save_image(const Image& image, const std::string& path, const SaveOptions& options) {
+    with_memory(path, [&] { save(image, path, options); });
+}
+
 void check_image_name(const std::string& path) { format_of(path); }
 
 void check_writable(const std::string& path) {
@@ -189,10 +204,12 @@ void check_writable(const std::string& path) {
     check_replaceable(path);
 }
 
-Image load_image(const std::string& path, Encoding encoding) { return to_image(decode_file(path), encoding); }
+Image load_image(const std::string& path, Encoding encoding) {
+    return with_memory(path, [&] { return to_image(decode_file(path), encoding, path); });
+}
 
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding, const std::string& name) {
-    return to_image(decode_stb(bytes, name), encoding);
+    return with_memory(name, [&] { return to_image(decode_stb(bytes, name), encoding, name); });
 }
 
 ImageInfo load_image_info(const std::string& path) { return decode_info(path); }

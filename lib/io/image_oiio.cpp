@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <new>
-#include <string_view>
+#include <optional>
 
+#include "io/decode_stb.h"
+#include "io/image_checks.h"
 #include "io/image_codec.h"
 #include "io/read_file.h"
 #include "limn/core/error.h"
@@ -47,53 +46,23 @@ std::string message(std::string detail) {
     return detail.empty() ? "unknown reason" : detail;
 }
 
-// Picks the format of a file in memory. OpenImageIO looks for it on disk all the same, so it is one that cannot exist.
-std::string name_in_memory(FileFormat format) {
-    return format == FileFormat::png ? "/dev/null/memory.png" : "/dev/null/memory.exr";
+// What OpenImageIO calls the format.
+const char* format_name(FileFormat format) {
+    return format == FileFormat::png ? "png" : format == FileFormat::jpeg ? "jpeg" : "openexr";
 }
 
-// A JPEG that breaks off is read as if it were filled with grey, and such a PNG leaks memory; so the end is looked for.
-void require_end(std::string_view file, const std::string& path) {
-    bool whole = true;
-    if (file.starts_with("\xff\xd8")) {
-        // ITU-T T.81, table B.1: neither marker occurs within the data of a scan.
-        const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
-        whole = end != std::string_view::npos && (scan == std::string_view::npos || scan < end);
-    } else if (file.starts_with("\x89PNG")) {
-        whole = file.find("IEND\xae\x42\x60\x82") != std::string_view::npos;
-    }
-    if (!whole) throw FileError(path, "is an image that breaks off before its end");
-}
+// OpenImageIO looks for a file on disk even where it reads memory, so its name is one that cannot exist.
+std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
 
-// Opens the file `name`, or its bytes in `memory`; `path` is for messages.
-std::unique_ptr<ImageInput> open(const std::string& name, const std::string& path,
-                                 OIIO::Filesystem::IOProxy* memory = nullptr) {
-    ImageSpec wishes;
+// With the one reader that is meant: left to itself, OpenImageIO tries those of all formats on a broken file.
+std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
+    ImageSpec spec, wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-    if (memory) wishes.attribute("oiio:ioproxy", TypeDesc::PTR, &memory);
-    std::unique_ptr<ImageInput> input = ImageInput::open(name, &wishes);
+    std::unique_ptr<ImageInput> input = ImageInput::create(format_name(format));
     if (!input) throw FileError(path, "is not a readable image: " + message(OIIO::geterror()));
+    if (!input->set_ioproxy(&memory) || !input->open(name_in_memory(format), spec, wishes))
+        throw FileError(path, "is not a readable image: " + message(input->geterror()));
     return input;
-}
-
-std::unique_ptr<ImageInput> open_file(const std::string& path) {
-    require_readable(path);
-    char first = 0;
-    std::ifstream(path, std::ios::binary).get(first);
-    if (first == '\xff' || first == '\x89') require_end(read_file(path), path);
-    return open(path, path);
-}
-
-// A header may promise any size. Deflate packs 1032 to 1 at best, so a small file of a large picture is broken; up to
-// a gibibyte the reader finds out by itself.
-void require_plausible(const ImageSpec& spec, std::uintmax_t file_bytes, const std::string& path) {
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 || spec.deep)
-        throw FileError(path, "is not a flat picture with at least one pixel");
-    constexpr double kHarmless = 1 << 30, kBestPacking = 5000;
-    const double bytes = static_cast<double>(spec.width) * spec.height * spec.nchannels * 4.0;
-    if (bytes > kHarmless && bytes > kBestPacking * static_cast<double>(file_bytes))
-        throw FileError(
-            path, "is too short for a picture of " + std::to_string(spec.width) + " x " + std::to_string(spec.height));
 }
 
 void read_transfer(const ImageSpec& spec, StoredImage& image) {
@@ -123,19 +92,16 @@ Facts read_facts(const ImageSpec& spec) {
 template <class T>
 void read_values(ImageInput& input, TypeDesc type, StoredImage& image, const std::string& path) {
     std::vector<T>& values = image.values.emplace<std::vector<T>>();
-    try {
-        values.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
-                      static_cast<std::size_t>(image.channels));
-    } catch (const std::bad_alloc&) {
-        throw FileError(path, "there is not enough memory for its pixels");
-    }
+    values.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                  static_cast<std::size_t>(image.channels));
     if (!input.read_image(0, 0, 0, image.channels, type, values.data()) || input.has_error())
         throw FileError(path, "cannot be read: " + message(input.geterror()));
 }
 
-StoredImage read(ImageInput& input, std::uintmax_t file_bytes, const std::string& path) {
+StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& path) {
     const ImageSpec spec = input.spec();
-    require_plausible(spec, file_bytes, path);
+    if (spec.depth > 1 || spec.deep) throw FileError(path, "is not a flat picture");
+    require_possible_size(spec.width, spec.height, spec.nchannels, file_bytes, path);
     StoredImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -152,12 +118,23 @@ StoredImage read(ImageInput& input, std::uintmax_t file_bytes, const std::string
     return image;
 }
 
+// HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale of the C library.
+struct Contents {
+    explicit Contents(const std::string& path) : file(read_file(path)), format(format_of_contents(bytes())) {
+        if (format == FileFormat::hdr) format.reset();
+    }
+    std::span<const std::byte> bytes() const { return std::as_bytes(std::span(file)); }
+
+    std::string file;
+    std::optional<FileFormat> format;  // none: for stb
+};
+
 }  // namespace
 
 bool can_encode(FileFormat format) { return format == FileFormat::exr || format == FileFormat::png; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
-    const std::unique_ptr<ImageOutput> output = ImageOutput::create(name_in_memory(job.format));
+    const std::unique_ptr<ImageOutput> output = ImageOutput::create(format_name(job.format));
     if (!output) throw FileError(path, "cannot be written: " + message(OIIO::geterror()));
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -175,22 +152,32 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    return read(*open(name_in_memory(format), path, &memory), bytes.size(), path);
+    return read(*open(format, memory, path), bytes.size(), path);
 }
 
 StoredImage decode_file(const std::string& path) {
-    std::error_code unknown;
-    return read(*open_file(path), std::filesystem::file_size(path, unknown), path);
+    const Contents contents(path);
+    if (!contents.format) return decode_stb(contents.bytes(), path);
+    require_whole(contents.bytes(), path);
+    return decode(*contents.format, contents.bytes(), path);
 }
 
 ImageInfo decode_info(const std::string& path) {
-    const ImageSpec spec = open_file(path)->spec();
+    const Contents contents(path);
+    if (!contents.format) return decode_info_stb(contents.bytes(), path);
+    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
+    const ImageSpec spec = open(*contents.format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
     for (int i = 0; i < spec.nchannels; ++i)
         info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
     return info;
 }
 
-Facts decode_facts(const std::string& path) { return read_facts(open_file(path)->spec()); }
+Facts decode_facts(const std::string& path) {
+    const Contents contents(path);
+    if (!contents.format) return decode_stb(contents.bytes(), path).facts;
+    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
+    return read_facts(open(*contents.format, memory, path)->spec());
+}
 
 }  // namespace limn

@@ -72,6 +72,9 @@ std::string read_image(const std::string& path) {
 bool can_encode(FileFormat format) { return format == FileFormat::png || format == FileFormat::hdr; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
+    // stb counts bytes in int, with some room for what does not pack.
+    if (static_cast<double>(job.width) * job.height * 3 > 2e9)
+        throw FileError(path, "this build, without OpenImageIO, cannot write a picture of more than 2e9 values");
     const std::vector<std::byte> bytes =
         job.format == FileFormat::png ? encode_png(job, std::get<std::span<const std::uint8_t>>(job.values).data())
                                       : encode_hdr(job, std::get<std::span<const float>>(job.values).data());
