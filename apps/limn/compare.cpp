@@ -8,6 +8,7 @@
 #include "limn/core/error.h"
 #include "limn/image/compare.h"
 #include "limn/io/image_io.h"
+#include "parse.h"
 #include "program.h"
 #include "text_file.h"
 

@@ -12,6 +12,7 @@
 #include "limn/io/image_io.h"
 #include "limn/io/obj.h"
 #include "limn/shape/mesh_edges.h"
+#include "parse.h"
 #include "program.h"
 #include "text_file.h"
 
@@ -135,7 +136,7 @@ int info_command(int argc, const char* const* argv) {
         "facts of the render that made it.",
         "limn info");
     std::string file;
-    cli.add_option("FILE", file, "The model or image")->required();
+    cli.add_option("FILE", file, "The model or image")->required()->each(file_name("FILE"));
     JsonOption json_option(cli);
     cli.footer(
         "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "

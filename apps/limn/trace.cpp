@@ -99,15 +99,15 @@ void trace(const Arguments& a, const Console& console) {
 int trace_command(int argc, const char* const* argv) {
     CLI::App cli("Answers which face of a Wavefront OBJ each ray hits first, or whether it hits any.", "limn trace");
     Arguments a;
-    cli.add_option("MODEL", a.model, "The model, a Wavefront OBJ")->required();
+    cli.add_option("MODEL", a.model, "The model, a Wavefront OBJ")->required()->each(file_name("MODEL"));
     cli.add_option("--rays", a.rays, "Where the rays come from; - for standard input, as without it")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->each(file_name("--rays"));
     cli.add_flag("--any", a.any, "Only whether there is a hit: 1 or 0");
     cli.add_flag("--binary", a.binary, "Rays and answers as little-endian float64 in place of text");
     cli.add_flag("--quiet", a.quiet, "Say nothing but errors");
     cli.footer(kForms);
     if (!parse_arguments(cli, argc, argv)) return kDone;
-    if (a.rays.empty()) refuse("--rays", a.rays, "is not the name of a file");
     if (a.binary && ::isatty(STDOUT_FILENO) != 0)
         throw ArgumentError("--binary: standard output is a terminal; send it to a file or a pipe");
 
