@@ -38,12 +38,16 @@ install_missing() {
 }
 
 # Compiler, what the libraries link, and what programs and suite need: the default targets are all of these.
-build() {
+install_needs() {
     install_missing \
-        g++ cmake ninja-build pkg-config \
+        g++ cmake ninja-build pkg-config python3 \
         libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev librandom123-dev \
         libcli11-dev libfmt-dev nlohmann-json3-dev \
         catch2 librapidcheck-dev libboost-dev xplanet-images
+}
+
+build() {
+    install_needs
     cmake --preset release
     cmake --build --preset release
 }
@@ -106,7 +110,12 @@ case $command in
         install_missing python3 python3-matplotlib python3-numpy
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}"
         ;;
+    mutants)  # builds a tree of its own
+        install_needs
+        install_missing ccache
+        /usr/bin/python3 tests/mutants/run.py "${full[@]}"
+        ;;
     docs) docs ;;
-    accuracy | bench | mutants) not_yet "$command" ;;
+    accuracy | bench) not_yet "$command" ;;
     *) usage ;;
 esac

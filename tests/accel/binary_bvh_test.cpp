@@ -117,3 +117,9 @@ TEST_CASE("BinaryBvh: a ray visits every box that it meets, and far fewer than a
     }
     CHECK(visits < boxes.size() / 20 * rays);
 }
+
+TEST_CASE("BinaryBvh: no leaf holds more than eight boxes, even of those that share a centre", "[accel]") {
+    const std::vector<Box> equal(1000, Box{{1, 2, 3}, {4, 5, 6}});
+    for (const std::vector<Box>& boxes : {equal, random_boxes(1000, 3)})
+        for (const accel::BinaryNode& node : build_binary_bvh(boxes).nodes) CHECK(node.count <= 8);
+}

@@ -220,3 +220,17 @@ TEST_CASE("Slab: no ray that meets a box in exact arithmetic is lost, at corners
     CHECK(judged > rays / 10);
     CHECK(lost == 0);
 }
+
+TEST_CASE("Slab: the interval and the box are wider by the rounding of hits, relative to the coordinates", "[accel]") {
+    for (const double scale : {1.0, 1e6, 1e-6}) {
+        const Box box{{0, 0, 0}, {scale, scale, scale}};
+        const Point3 outside{-scale, scale / 2, scale / 2};
+        const Vec3 towards{scale, 0, 0};
+        CHECK(meets(box, {outside, towards, 0, 1 - 1e-13}));
+        CHECK(meets(box, {outside, towards, 2 + 1e-13, 3}));
+        CHECK(meets(box, {{-scale, scale * (1 + 1e-13), 0}, towards}));
+        CHECK_FALSE(meets(box, {outside, towards, 0, 1 - 1e-11}));
+        CHECK_FALSE(meets(box, {outside, towards, 2 + 1e-11, 3}));
+        CHECK_FALSE(meets(box, {{-scale, scale * (1 + 1e-11), 0}, towards}));
+    }
+}

@@ -289,3 +289,17 @@ TEST_CASE("Mesh: an unusable ray misses", "[shape][mesh]") {
     const Mesh mesh(test::icosphere(1), none());
     for (const Ray& ray : test::unusable_rays()) CHECK_FALSE(mesh.hit(ray));
 }
+
+TEST_CASE("Mesh: at a vertex the normal and the texture coordinates are that vertex's own", "[shape][mesh]") {
+    MeshData data = one_triangle();
+    data.normals = {{3, 0, 4}, {0, -3, 4}, {0, 0.6f, 0.8f}};
+    data.uvs = {{0.5f, 0.25f}, {2, 3}, {-1, 0}};
+    const Mesh mesh(data, none());
+    for (const std::uint32_t i : {0u, 1u, 2u}) {
+        const auto hit = mesh.hit({.origin = test::vertex(data, i) + Vec3{0, 0, 1}, .direction = {0, 0, -1}});
+        REQUIRE(hit);
+        const Float3 n = data.normals[i];
+        CHECK(length(Vec3(hit->shading_normal) - normalize(Vec3{n.x, n.y, n.z})) <= 1e-15);
+        CHECK(hit->uv == Uv{data.uvs[i].u, data.uvs[i].v});
+    }
+}

@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Faults that the suite must catch: docs/mutants.md.
+
+Applies the patches beside this file, one at a time, to a copy of the source tree, builds it, and runs the tests until
+one fails: first those that the patch suspects, then the whole suite. A fault that nothing notices is a test that is
+missing. Run through ./build.sh mutants [--full], or with the names of some mutants.
+"""
+
+import argparse
+import contextlib
+import datetime
+import filecmp
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+from mutant import ROOT, MutantError, load_mutants
+
+WORK = ROOT / "build/mutants"
+SOURCE = WORK / "source"
+REPORT = ROOT / "docs/mutants.md"
+HANGS = 120  # seconds: some ten times what the slowest test takes
+# Half the time of -O3 to compile. What is folded and rounded stays the same: limn builds without -ffast-math.
+FLAGS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DLIMN_WARNINGS_AS_ERRORS=OFF", f"-DLIMN_TEST_TIMEOUT={HANGS}"]
+COSTS = SOURCE / "build/release/Testing/Temporary/CTestCostData.txt"  # ctest's notes: lines of name, runs, seconds
+QUICK_FIRST = WORK / "quick_first.txt"
+
+
+def run(*command):
+    """Exit status and output of a command in the copy; nothing that it started outlives us."""
+    with subprocess.Popen(command, cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True) as process:
+        try:
+            output = process.communicate()[0]
+        finally:
+            for number in (signal.SIGINT, signal.SIGKILL):
+                with contextlib.suppress(ProcessLookupError, subprocess.TimeoutExpired):
+                    os.killpg(process.pid, number)
+                    process.wait(5)
+        return process.returncode, output
+
+
+def copy_tree():
+    """Makes the copy equal to the tree. Files that are equal keep their times, so that little is built again."""
+    kept = set()
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = [f for f in folders if f not in (".git", "build", "__pycache__")]
+        for file in files:
+            origin = Path(folder, file)
+            copy = SOURCE / origin.relative_to(ROOT)
+            kept.add(copy)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            if not copy.exists() or not filecmp.cmp(origin, copy, shallow=False):
+                shutil.copy(origin, copy)
+    for folder, folders, files in os.walk(SOURCE):
+        folders[:] = [f for f in folders if f != "build"]
+        for file in {Path(folder, f) for f in files} - kept:
+            file.unlink()
+
+
+def build(*targets):
+    status, output = run("cmake", "--build", "--preset", "release", "--target", *targets)
+    if status != 0:
+        raise MutantError("it does not build:\n" + "\n".join(output.splitlines()[-30:]))
+
+
+def failing(*options):
+    """The tests that fail, in the order of their numbers."""
+    if QUICK_FIRST.exists():
+        shutil.copy(QUICK_FIRST, COSTS)
+    status, output = run("ctest", "--preset", "release", "--exclude-regex", "^mutants:", *options)
+    failed = re.findall(r"^\s+\d+ - (.+) \((.+)\)$", output.partition("The following tests FAILED:")[2], re.MULTILINE)
+    tests = [name + (" (hangs)" if why == "Timeout" else "") for name, why in failed if why != "Not Run"]
+    if status != 0 and not tests:
+        raise MutantError("the tests do not run:\n" + "\n".join(output.splitlines()[-10:]))
+    return tests
+
+
+def order_quick_tests_first():
+    """ctest begins with what took longest; so it is told the inverse of the times."""
+    notes = [line.rsplit(" ", 2) for line in COSTS.read_text().partition("---")[0].splitlines()]
+    lines = [f"{name} 1 {1 / (float(seconds) + 0.001)}\n" for name, _, seconds in notes]
+    QUICK_FIRST.write_text("".join(lines) + "---\n")
+
+
+def prepare(mutants, full):
+    """Builds what is needed without a fault, and makes sure that it passes."""
+    copy_tree()
+    QUICK_FIRST.unlink(missing_ok=True)
+    if shutil.which("ccache"):  # what is restored need not be compiled again; cmake reads it, here and in the suite
+        os.environ["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
+    os.environ.pop("LIMN_FULL", None)  # the short forms of the tests, whatever our own
+    status, output = run("cmake", "--preset", "release", *FLAGS)
+    if status != 0:
+        raise MutantError("cmake fails:\n" + output)
+    build(*(["all"] if full else sorted({m.target() for m in mutants})))
+    tests = failing() if full else failing("--tests-regex", "|".join(sorted({m.tests() for m in mutants})))
+    if tests:
+        raise MutantError("without a fault these tests fail already: " + ", ".join(tests))
+    order_quick_tests_first()
+
+
+def killers(mutant, full):
+    with mutant.applied(SOURCE):
+        if full:
+            build("all")
+            return failing()
+        build(mutant.target())
+        tests = failing("--tests-regex", mutant.tests(), "--stop-on-failure")
+        if not tests:
+            build("all")
+            tests = failing("--stop-on-failure")
+        return tests
+
+
+def write_report(results, seconds, full):
+    killed = sum(bool(r["killers"]) for r in results)
+    columns = ["room", "fault", "caught by"] + ["tests"] * full + ["seconds"]
+    lines = ["# Mutants", "",
+             f"Written by `./build.sh mutants{' --full' * full}` on {datetime.date.today()}; do not edit.", "",
+             f"{len(results)} faults, the patches in `tests/mutants`, each put into limn alone: the suite notices "
+             f"{killed} of them. Named is the first test that failed; the seconds include building. All took "
+             f"{seconds / 60:.0f} minutes on {os.cpu_count()} processors.", "",
+             f"| {' | '.join(columns)} |", "|" + "---|" * (3 + full) + "---:|"]
+    for r in results:
+        cells = [r["room"], r["fault"], r["killers"][0].replace("|", "\\|") if r["killers"] else "**nothing**"]
+        cells += [str(len(r["killers"]))] * full + [f"{r['seconds']:.0f}"]
+        lines.append(f"| {' | '.join(cells)} |")
+    REPORT.write_text("\n".join(lines) + "\n")
+
+
+def kill_all(mutants, full, whole):
+    start = time.monotonic()
+    print("building and testing without a fault ...", flush=True)
+    prepare(mutants, full)
+    results, broken = [], []
+    for number, mutant in enumerate(mutants, 1):
+        begin = time.monotonic()
+        print(f"[{number:3}/{len(mutants)}] {mutant.name:48} ", end="", flush=True)
+        try:
+            tests = killers(mutant, full)
+        except MutantError as error:
+            broken.append(mutant.name)
+            print(f"ERROR: {error}")
+            continue
+        seconds = time.monotonic() - begin
+        print(f"{seconds:6.1f} s  " + (f'KILLED by "{tests[0]}"' if tests else "SURVIVED"), flush=True)
+        results.append({"name": mutant.name, "room": mutant.room, "fault": mutant.fault, "killers": tests,
+                        "seconds": round(seconds, 1)})
+        (WORK / "results.json").write_text(json.dumps(results, indent=1))
+
+    print(f"\n{'room':10}{'mutants':>8}{'killed':>8}")
+    for room in dict.fromkeys(m.room for m in mutants):
+        of_room = [bool(r["killers"]) for r in results if r["room"] == room]
+        print(f"{room:10}{len(of_room):8}{sum(of_room):8}")
+    survivors = [r["name"] for r in results if not r["killers"]]
+    for what, names in (("survived", survivors), ("broken", broken)):
+        if names:
+            print(f"{what}: {', '.join(names)}")
+    if whole and not broken:
+        write_report(results, time.monotonic() - start, full)
+    return 1 if survivors or broken else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help="only these mutants")
+    parser.add_argument("--full", action="store_true", help="the whole suite for each, to list every test that kills it")
+    arguments = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    mutants = load_mutants()
+    unknown = set(arguments.names) - {m.name for m in mutants}
+    if unknown:
+        raise MutantError("unknown: " + ", ".join(sorted(unknown)))
+    chosen = [m for m in mutants if not arguments.names or m.name in arguments.names]
+    return kill_all(chosen, arguments.full, whole=not arguments.names)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (MutantError, OSError) as problem:
+        sys.exit(f"mutants: {problem}")
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,40 @@
+// Where along a ray a medium is: through nested instances, and where surfaces of its boundary touch.
+#include "catch.h"
+#include "limn/shape/constant_medium.h"
+#include "render/media.h"
+#include "support/pictures.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+Object smoke(const Object& boundary) { return std::make_shared<ConstantMedium>(boundary, 1.0, Color{1, 1, 1}); }
+
+// How much of a ray from the origin along x lies in media of extinction 1, up to t.
+double depth_up_to(double t, const Object& object) {
+    const CompiledScene scene = compile_with(sky(0), {object});
+    tracing::MediaAlongRay media;
+    media.trace(scene.flat(), Ray{{0, 0, 0}, {1, 0, 0}, 0, t});
+    return -std::log(media.transmittance());
+}
+
+}  // namespace
+
+TEST_CASE("Media: through nested instances the outer one is applied last", "[render][media]") {
+    const Object unit = smoke(sphere({0, 0, 0}, 1, nullptr));
+    const Object ellipsoid = std::make_shared<Instance>(std::make_shared<Instance>(unit, Transform::scale(2, 1, 1)),
+                                                        Transform::translate({5, 0, 0}));
+    CHECK(depth_up_to(3, ellipsoid) == 0);
+    CHECK(depth_up_to(4, ellipsoid) == Approx(1).epsilon(1e-12));
+    CHECK(depth_up_to(9, ellipsoid) == Approx(4).epsilon(1e-12));
+}
+
+TEST_CASE("Media: a bubble that touches the skin from inside leaves outside outside", "[render][media]") {
+    const auto skin = std::make_shared<HittableList>();
+    skin->add(sphere({5, 0, 0}, 2, nullptr));
+    skin->add(sphere({6, 0, 0}, -1, nullptr));  // from 5 to 7, where both end
+    CHECK(depth_up_to(3, smoke(skin)) == 0);
+    CHECK(depth_up_to(4, smoke(skin)) == Approx(1).epsilon(1e-12));
+    CHECK(depth_up_to(9, smoke(skin)) == Approx(2).epsilon(1e-12));
+}

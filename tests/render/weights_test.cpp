@@ -1,0 +1,49 @@
+// How the two ways of finding a lamp share its light, sample by sample.
+#include "catch.h"
+#include "render/light_sampling.h"
+#include "render/path.h"
+#include "render/shading.h"
+#include "support/pictures.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+// Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.4.
+double power_heuristic(double a, double b) { return a * a / (a * a + b * b); }
+
+}  // namespace
+
+TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities that find it", "[render][lights]") {
+    constexpr double kAlbedo = 0.6, kRadiance = 7;
+    const CompiledScene scene = compile_with(sky(0), {quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, grey(kAlbedo)),
+                                                      quad({-1, 1.2, -1}, {2, 0, 0}, {0, 0, 2}, lamp(kRadiance))});
+    const Ray eye{{0, 1, 0}, {0, -1, 0}};
+    const Surface floor = scene.surface_at(eye, scene.closest_hit(eye).value());
+    const Vec3 out{0, 1, 0};
+    tracing::PathTracer tracer(scene.flat(), 2, Estimator::path);
+    int found = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        tracing::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
+        const double pick = same_numbers.next();
+        const Uv uv = same_numbers.next_2d();
+        const auto drawn = tracing::sample_light(scene.flat(), floor.position, 0, pick, uv.u, uv.v);
+        REQUIRE(drawn.has_value());
+        const ScatterValue f = tracing::material_value(scene.flat(), floor, out, drawn->direction);
+        double expected = f.value.r * kRadiance * power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
+
+        const auto scattered = tracing::sample_material(scene.flat(), floor, out, same_numbers.next_3d());
+        REQUIRE(scattered.has_value());
+        const Ray ray = floor.spawn_ray(scattered->direction, 0);
+        if (const auto hit = scene.closest_hit(ray)) {
+            const double pdf =
+                tracing::pdf_light(scene.flat(), hit->primitive, floor.position, scene.surface_at(ray, *hit), 0);
+            expected += kAlbedo * kRadiance * power_heuristic(scattered->pdf, pdf);
+            ++found;
+        }
+        CHECK(tracer.radiance(eye, numbers).r == Approx(expected).epsilon(1e-12));
+    }
+    CHECK(found > 0);
+    CHECK(found < 100);
+}
