@@ -238,3 +238,12 @@ TEST_CASE("Film: one pixel short of a sample in each replicate is enough for no 
     CHECK((std::isnan(e.estimate) && std::isnan(e.ci95_low) && std::isnan(e.ci95_high)));
     CHECK(e.max_sample_share == Approx(1.0 / 6).epsilon(1e-12));
 }
+
+// Replicates of 2 samples each have the means 1, 2, 3, 4: variance of the mean 2 (2.25 + 0.25 + 0.25 + 2.25) / (3 * 8).
+TEST_CASE("Film: sample i belongs to replicate i mod 4, and the spread of their means is the error",
+          "[render][estimate]") {
+    tracing::Film film(1, 1);
+    for (const double value : {1, 2, 3, 4, 1, 2, 3, 4}) film.add(0, 0, {value, value, value});
+    CHECK(film.image().at(0, 0) == Color{2.5, 2.5, 2.5});
+    CHECK(film.error().estimate == Approx(10.0 / 24 / (2.5 * 2.5 + 0.01)).epsilon(1e-14));
+}

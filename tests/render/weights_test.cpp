@@ -1,4 +1,4 @@
-// How the two ways of finding a lamp share its light, sample by sample.
+// What is drawn towards lamps, and what it weighs, sample by sample.
 #include "catch.h"
 #include "render/light_sampling.h"
 #include "render/path.h"
@@ -46,4 +46,18 @@ TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities 
     }
     CHECK(found > 0);
     CHECK(found < 100);
+}
+
+TEST_CASE("Lamps: a ball in a scaled instance is sampled like the scaled ball", "[render][lights]") {
+    const CompiledScene plain = compile_with(sky(0), {sphere({0, 6, 0}, 3, lamp(1))});
+    const CompiledScene scaled =
+        compile_with(sky(0), {std::make_shared<Instance>(sphere({0, 2, 0}, 1, lamp(1)), Transform::scale(3, 3, 3))});
+    for (const double u : {0.0, 0.3, 0.9})
+        for (const double v : {0.0, 0.2, 0.7}) {
+            const auto a = tracing::sample_light(plain.flat(), Point3{}, 0, 0.5, u, v);
+            const auto b = tracing::sample_light(scaled.flat(), Point3{}, 0, 0.5, u, v);
+            REQUIRE((a && b));
+            CHECK(b->pdf == Approx(a->pdf).epsilon(1e-13));
+            CHECK(length(b->point.position - a->point.position) <= 1e-13);
+        }
 }
