@@ -1,5 +1,8 @@
 // The tree may not lose what the primitives find: flat boxes, and hits exactly where the range ends.
+#include <limits>
+
 #include "catch.h"
+#include "flat/scene.h"
 #include "limn/render/compiled_scene.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
@@ -50,5 +53,23 @@ TEST_CASE("CompiledScene: a hit exactly at t_max is found, and none at t_min", "
         INFO(zoo.name << ": " << tally.first);
         CHECK(tally.wrong == 0);
         CHECK(tally.hits > 1000);
+    }
+}
+
+TEST_CASE("CompiledScene: a box in float is the smallest around the one in double", "[compile][boxes]") {
+    Random random(359);
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < 1000; ++i) {
+        const auto ball = std::make_shared<Sphere>(Point3{} + random.in_cube(100), random.uniform(0.1, 10), nullptr);
+        Scene scene;
+        scene.add(ball);
+        const CompiledScene compiled = compile(scene);
+        const flat::Node& node = compiled.flat().nodes.front();
+        const Box box = ball->bounds();
+        for (std::size_t a = 0; a < 3; ++a) {
+            const float lower = node.lower[0][a], upper = node.upper[0][a];
+            CHECK((lower <= box.lower[a] && std::nextafter(lower, kFar) > box.lower[a]));
+            CHECK((upper >= box.upper[a] && std::nextafter(upper, -kFar) < box.upper[a]));
+        }
     }
 }

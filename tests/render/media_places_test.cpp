@@ -11,13 +11,16 @@ namespace {
 
 Object smoke(const Object& boundary) { return std::make_shared<ConstantMedium>(boundary, 1.0, Color{1, 1, 1}); }
 
-// How much of a ray from the origin along x lies in media of extinction 1, up to t.
-double depth_up_to(double t, const Object& object) {
+// How much of a ray lies in media of extinction 1.
+double depth_along(const Ray& ray, const Object& object) {
     const CompiledScene scene = compile_with(sky(0), {object});
     tracing::MediaAlongRay media;
-    media.trace(scene.flat(), Ray{{0, 0, 0}, {1, 0, 0}, 0, t});
+    media.trace(scene.flat(), ray);
     return -std::log(media.transmittance());
 }
+
+// Of the ray from the origin along x, up to t.
+double depth_up_to(double t, const Object& object) { return depth_along({{0, 0, 0}, {1, 0, 0}, 0, t}, object); }
 
 }  // namespace
 
@@ -28,6 +31,7 @@ TEST_CASE("Media: through nested instances the outer one is applied last", "[ren
     CHECK(depth_up_to(3, ellipsoid) == 0);
     CHECK(depth_up_to(4, ellipsoid) == Approx(1).epsilon(1e-12));
     CHECK(depth_up_to(9, ellipsoid) == Approx(4).epsilon(1e-12));
+    CHECK(depth_along({{4, -3, 0}, {0, 1, 0}}, ellipsoid) == Approx(std::sqrt(3)).epsilon(1e-12));
 }
 
 TEST_CASE("Media: a bubble that touches the skin from inside leaves outside outside", "[render][media]") {

@@ -8,7 +8,9 @@
 #include "limn/texture/perlin.h"
 #include "limn/texture/solid.h"
 #include "property.h"
+#include "render/path.h"
 #include "support/pictures.h"
+#include "support/random_geometry.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -164,4 +166,16 @@ TEST_CASE("Shading: a surface without a material neither emits nor scatters", "[
     CHECK_FALSE(tracing::sample_material(scene, s, {0, 0, 1}, {0.5, 0.5, 0.5}));
     CHECK(is_black(tracing::material_value(scene, s, {0, 0, 1}, {0, 0, 1}).value));
     CHECK_FALSE(tracing::can_be_evaluated(scene, s.material));
+}
+
+TEST_CASE("Shading: a ray that meets nothing brings the background of its direction, to the bit", "[render]") {
+    const Background background = Background::gradient({0.9, 0.1, 0.2}, {0, 0.3, 0.8});
+    const CompiledScene scene = compile_with(background, {});
+    tracing::PathTracer tracer(scene.flat(), 1, Estimator::path);
+    Random random(17);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        const Vec3 direction = random.unit();
+        tracing::Sampler numbers(1, 2, i);
+        CHECK(tracer.radiance(Ray{{1, 2, 3}, direction}, numbers) == background.radiance(direction));
+    }
 }
