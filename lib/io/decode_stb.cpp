@@ -2,6 +2,11 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
+// Zeros where stb would read what a broken file left unset: then it reads the same every time.
+#include <cstdlib>
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(memory, size) std::realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
 #define STBI_ONLY_BMP
 #define STBI_ONLY_HDR
 #define STBI_ONLY_JPEG

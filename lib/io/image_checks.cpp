@@ -38,7 +38,7 @@ void require_whole(std::span<const std::byte> file, const std::string& path) {
     if (format == FileFormat::jpeg) {
         // ITU-T T.81, table B.1: neither marker, start of scan or end of image, occurs within the data of a scan.
         const std::size_t scan = text.rfind("\xff\xda"), end = text.rfind("\xff\xd9");
-        if (end == std::string_view::npos || (scan != std::string_view::npos && scan > end))
+        if (end == std::string_view::npos || scan == std::string_view::npos || scan > end)
             throw FileError(path, "is an image that breaks off before its end");
     }
 }

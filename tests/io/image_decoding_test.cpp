@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.h"
+#include "judge_image.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
 #include "make_png.h"
@@ -36,11 +37,6 @@ using Values = std::vector<float>;
 
 Values values_of(const Image& image) { return {image.values().begin(), image.values().end()}; }
 Values grey(float v) { return {v, v, v}; }
-
-std::string bytes_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 }  // namespace
 
@@ -92,7 +88,7 @@ TEST_CASE("Decoding: a file that states linear values or a power is believed", "
 
 TEST_CASE("Decoding: a JPEG is read from a file and from memory", "[io][image]") {
     const std::string path = std::string(LIMN_TEST_DATA) + "/orange.jpg";  // (204, 102, 26), 8 x 8
-    const std::string bytes = bytes_of(path);
+    const std::string bytes = stored_file("orange.jpg");
     const Color orange{204 / 255.0, 102 / 255.0, 26 / 255.0};
     for (const Image& image :
          {load_image(path, Encoding::raw), load_image_from_memory(std::as_bytes(std::span(bytes)), Encoding::raw)}) {
@@ -118,7 +114,7 @@ TEST_CASE("Decoding: floating-point files are linear unless told otherwise", "[i
 TEST_CASE("Decoding: broken files are refused with their name, never read in part", "[io][image]") {
     const Folder folder;
     const std::string png = make_png(8, 8, PngColor::rgb, std::string(24, 'x'));
-    const std::string jpeg = bytes_of(std::string(LIMN_TEST_DATA) + "/orange.jpg");
+    const std::string jpeg = stored_file("orange.jpg");
     const std::string cases[] = {"",
                                  "x",
                                  "P",

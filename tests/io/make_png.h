@@ -21,23 +21,39 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
 
 enum class PngColor : char { grey = 0, rgb = 2, palette = 3, grey_alpha = 4, rgb_alpha = 6 };
 
-// One row of pixels, whose bytes are `row`; `chunks` come before them.
-inline std::string make_png(int width, char bit_depth, PngColor color, const std::string& row,
-                            const std::string& chunks = "") {
-    const std::string filtered = std::string(1, '\0') + row;  // filter type none
-    std::uint32_t a = 1, b = 0;                               // Adler-32
-    for (const char c : filtered) {
+struct PngParts {
+    std::uint32_t width = 1, height = 1;
+    char bit_depth = 8;
+    PngColor color = PngColor::rgb;
+    char interlace = 0;    // 1: Adam7
+    std::string data{};    // rows with their filter types before them, at most 65535 bytes
+    std::string chunks{};  // that come before the data
+};
+
+inline std::string make_png(const PngParts& png) {
+    std::uint32_t a = 1, b = 0;  // Adler-32
+    for (const char c : png.data) {
         a = (a + static_cast<std::uint8_t>(c)) % 65521;
         b = (b + a) % 65521;
     }
-    const auto size = static_cast<std::uint16_t>(filtered.size());
+    const auto size = static_cast<std::uint16_t>(png.data.size());
     const auto complement = static_cast<std::uint16_t>(~size);
     const std::string stored{1, static_cast<char>(size), static_cast<char>(size >> 8), static_cast<char>(complement),
                              static_cast<char>(complement >> 8)};
-    const std::string header = big_endian(static_cast<std::uint32_t>(width)) + big_endian(1) +
-                               std::string{bit_depth, static_cast<char>(color), 0, 0, 0};
-    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + chunks +
-           png_chunk("IDAT", "\x78\x01" + stored + filtered + big_endian(b << 16 | a)) + png_chunk("IEND", "");
+    const std::string header = big_endian(png.width) + big_endian(png.height) +
+                               std::string{png.bit_depth, static_cast<char>(png.color), 0, 0, png.interlace};
+    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png.chunks +
+           png_chunk("IDAT", "\x78\x01" + stored + png.data + big_endian(b << 16 | a)) + png_chunk("IEND", "");
+}
+
+// One row of pixels, whose bytes are `row`; `chunks` come before them.
+inline std::string make_png(int width, char bit_depth, PngColor color, const std::string& row,
+                            const std::string& chunks = "") {
+    return make_png({.width = static_cast<std::uint32_t>(width),
+                     .bit_depth = bit_depth,
+                     .color = color,
+                     .data = std::string(1, '\0') + row,  // filter type none
+                     .chunks = chunks});
 }
 
 }  // namespace limn::test

@@ -1,6 +1,6 @@
 /// \file
-/// Image files. Formats by suffix: .exr and .png; others that OpenImageIO reads can be loaded. Built without
-/// OpenImageIO: .png, .hdr (and .jpg for loading). All functions are thread-safe, for different files.
+/// Image files. Written, by suffix: EXR and PNG; built without OpenImageIO: PNG and HDR. Read, by contents, whatever
+/// the name: EXR (with OpenImageIO), PNG, JPEG, HDR, BMP and TGA. All functions are thread-safe, for different files.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct SaveOptions {
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
 /// BT.709 stated. Float EXR keeps every bit, infinities and NaN too. The file appears whole or not at all: a temporary
 /// file beside it (`.limn-*.tmp`, left over only if the process is killed) is written, read back and compared, flushed
-/// to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system lets it; a link is
-/// followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
+/// to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system lets it; a link
+/// is followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
 ///
 /// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
 ///
@@ -43,8 +43,11 @@ void check_image_name(const std::string& path);
 /// permissions
 void check_writable(const std::string& path);
 
-/// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey.
-/// \throws FileError naming the file: missing, no picture, broken off
+/// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey. A CMYK
+/// JPEG is converted; an EXR's data window is the picture. Only regular files are read: no pipe, no device. A picture
+/// whose size the file cannot hold or the machine's memory cannot is refused before memory is taken for it. JPEG, HDR,
+/// BMP and TGA have no checksums: damage that leaves them readable is not noticed.
+/// \throws FileError naming the file: missing, no picture, broken off, a wrong checksum
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
 /// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file, which messages call `name`.
