@@ -2,63 +2,19 @@
 // the ray is walked. On numbers of few bits (support/grid.h) most of these laws hold to the bit.
 #include "catch.h"
 #include "limn/shape/instance.h"
-#include "limn/shape/mesh.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
 #include "property.h"
-#include "support/grid.h"
-#include "support/meshes.h"
+#include "support/cases.h"
 
 using namespace limn;
+using test::Case;
+using test::draw_case;
 using test::draw_int;
 using test::draw_point;
 using test::draw_power_of_two;
 using test::draw_vec;
+using test::Kind;
 
 namespace {
-
-enum class Kind { sphere, triangle, quad, mesh };
-
-// A shape at p, spanned by e and f, and a ray that is aimed at it more often than not.
-struct Case {
-    Kind kind = Kind::sphere;
-    Point3 p;
-    Vec3 e, f;
-    double radius = 1;
-    Ray ray;
-
-    std::shared_ptr<const Hittable> shape() const {
-        switch (kind) {
-            case Kind::sphere: return std::make_shared<Sphere>(p, radius, nullptr);
-            case Kind::triangle: return std::make_shared<Triangle>(p, p + e, p + f, nullptr);
-            case Kind::quad: return std::make_shared<Quad>(p, e, f, nullptr);
-            case Kind::mesh: {
-                MeshData data;
-                for (const Vec3& v : {Vec3{}, e, f}) data.vertices.push_back(test::to_float3((p + v) - Point3{}));
-                data.triangles = {{0, 1, 2}};
-                return std::make_shared<Mesh>(data, nullptr);
-            }
-        }
-        return nullptr;
-    }
-    std::optional<Hit> hit() const { return shape()->hit(ray); }
-};
-
-Case draw_case() {
-    Case c;
-    c.kind = static_cast<Kind>(draw_int(0, 3));
-    c.p = draw_point();
-    c.e = draw_vec(), c.f = draw_vec();
-    c.radius = draw_int(1, 512) / 64.0;
-    if (draw_int(0, 4) == 0) c.radius = -c.radius;
-    RC_PRE(!(cross(c.e, c.f) == Vec3{}));
-    const Vec3 inside = draw_int(0, 4) / 4.0 * c.e + draw_int(0, 4) / 4.0 * c.f;
-    c.ray.origin = draw_point();
-    c.ray.direction = c.p + (c.kind == Kind::sphere ? draw_vec(256) : inside) - c.ray.origin;
-    RC_PRE(!(c.ray.direction == Vec3{}));
-    return c;
-}
 
 // Counts what the law was tried on, so that it cannot hold by never hitting.
 template <class Law>
@@ -79,11 +35,7 @@ bool nearly(const Vec3& a, const Vec3& b) { return length(a - b) <= gamma(16); }
 
 TEST_CASE("Shapes: moved together, shape and ray meet as before, to the bit", "[shape][invariance]") {
     holds_for_hits([](const Case& c) {
-        const Vec3 by = 64 * draw_vec();  // whole numbers
-        Case moved = c;
-        moved.p = c.p + by;
-        moved.ray.origin = c.ray.origin + by;
-        const auto a = c.hit(), b = moved.hit();
+        const auto a = c.hit(), b = c.moved(64 * draw_vec()).hit();  // by whole numbers
         RC_ASSERT(same_to_the_bit(a, b));
         if (a) RC_ASSERT(a->normal == b->normal);
         return a.has_value();
@@ -95,11 +47,7 @@ TEST_CASE("Shapes: at 2^k times the size everything is hit at 2^k times the t, t
         // Vertices of a mesh are float32; a planar test multiplies three lengths, a sphere scales where two overflow.
         const int largest = c.kind == Kind::mesh ? 100 : c.kind == Kind::sphere ? 480 : 300;
         const double s = draw_power_of_two(-largest, largest);
-        Case scaled = c;
-        scaled.p = Point3{} + s * (c.p - Point3{});
-        scaled.e = s * c.e, scaled.f = s * c.f, scaled.radius = s * c.radius;
-        scaled.ray.origin = Point3{} + s * (c.ray.origin - Point3{});
-        const auto a = c.hit(), b = scaled.hit();
+        const auto a = c.hit(), b = c.scaled(s).hit();
         RC_ASSERT(same_to_the_bit(a, b, s));
         if (a) RC_ASSERT(a->normal == b->normal);
         if (a) RC_ASSERT(s * a->position_error == b->position_error);
