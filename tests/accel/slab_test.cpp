@@ -107,6 +107,24 @@ TEST_CASE("Slab: axes may change their names and signs", "[accel]") {
         1000);
 }
 
+TEST_CASE("Slab: a ray that ends in a box, on its border, or begins there, meets it", "[accel]") {
+    test::holds(
+        [] {
+            Case c = draw_case();
+            for (std::size_t a = 0; a < 3; ++a) {
+                const int place = test::draw_int(0, 4);
+                const double target = c.box.lower[a] + place / 4.0 * (c.box.upper[a] - c.box.lower[a]);
+                c.ray.direction[a] =
+                    (target - c.ray.origin[a]) / 3;  // rounded, so that the end is off by an ulp or two
+            }
+            c.ray.t_min = 0, c.ray.t_max = 3;
+            RC_ASSERT(entry(c.box, c.ray));
+            c.ray.t_min = 3, c.ray.t_max = kInfinity;
+            RC_ASSERT(entry(c.box, c.ray));
+        },
+        1000);
+}
+
 TEST_CASE("Slab: what meets a box meets every box around it, no later, and by a longer range as well", "[accel]") {
     int met = 0;
     test::holds(

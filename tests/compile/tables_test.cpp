@@ -153,6 +153,9 @@ TEST_CASE("material_of: each kind of shape knows its own, and shapes without one
     CHECK(of(11) != MaterialId::none);
     CHECK(scene.unassigned == 0);
     CHECK(scene.materials.size() == 2);
+    const flat::Scene slotless =
+        flatten({std::make_shared<Mesh>(cube_mesh(), std::vector<std::shared_ptr<const Material>>{nullptr, red})});
+    CHECK(slotless.unassigned == 12);  // all have the first
 
     const auto bare = [](const std::vector<Object>& seen) { return flatten(seen).unassigned; };
     for (std::size_t i = 0; i < 5; ++i) CHECK(bare({objects[i], shapes(nullptr)[i]}) == (i == 4 ? 11u : 1u));
