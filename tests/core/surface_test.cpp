@@ -89,6 +89,28 @@ TEST_CASE("spawn_ray_to: t is the fraction of the way, and the end is left out b
     }
 }
 
+TEST_CASE("spawn_ray_to: where nothing lies between the ends there is no way to be blocked on", "[core][surface]") {
+    Surface s;
+    s.position = {1024, -7, 3};
+    s.position_error = {1e-12, 1e-12, 1e-12};
+    s.normal = {0, 0, 1};
+    for (const double away : {0.0, 1e-13, 1e-12}) {  // less than coordinates of a thousand are known to
+        const Ray ray = s.spawn_ray_to(s.position + Vec3{0, 0, away}, 0.5);
+        CHECK((ray.t_min == 0 && ray.t_max == 0));
+    }
+    // Far enough away t_max leaves out what the target's own coordinates may be off by, and no more.
+    for (const Point3 target : {Point3{1024, -7, 11}, Point3{1024, -7, -5}}) {
+        const Ray ray = s.spawn_ray_to(target, 0.5);
+        const double left_out = (1 - ray.t_max) * 8;
+        CHECK((left_out >= gamma(8) * 1024 && left_out <= 32 * gamma(8) * 1024));
+    }
+    // With nothing to leave out, as between points of small coordinates, the end is still left out.
+    Surface origin;
+    origin.normal = {0, 0, 1};
+    CHECK(origin.spawn_ray_to(Point3{0, 0, 1}, 0).t_max < 1);
+    CHECK(origin.spawn_ray_to(origin, 0).t_max <= 1 - gamma(16));
+}
+
 TEST_CASE("spawn_ray_to: a ray to another surface leaves both ends by their error bounds", "[core][surface]") {
     Random random(15);
     for (int i = 0; i < 5000; ++i) {
