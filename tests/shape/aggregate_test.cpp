@@ -131,6 +131,36 @@ TEST_CASE("HittableList: elements are numbered through, and equal hits go to the
     CHECK(outer.bounds().contains(list.bounds()));
 }
 
+TEST_CASE("HittableList and Bvh: whoever is asked later is asked for nothing farther than what is found",
+          "[shape][list]") {
+    class Recorder final : public Hittable {
+    public:
+        Box bounds() const override { return {{-1, -1, -9}, {1, 1, 9}}; }
+        std::optional<Hit> hit(const Ray& ray) const override {
+            farthest = ray.t_max;
+            return std::nullopt;
+        }
+        mutable double farthest = 0;
+    };
+    const auto recorder = std::make_shared<Recorder>();
+    // Its box begins before the ball and ends behind it.
+    const Objects objects{std::make_shared<Sphere>(Point3{0, 0, 0}, 8.5, nullptr), recorder};
+    const Ray ray{.origin = {0, 0, 20}, .direction = {0, 0, -1}, .t_max = 30};
+    CHECK(HittableList(objects).hit(ray)->t == 11.5);
+    CHECK(recorder->farthest == 11.5);
+    CHECK(HittableList({recorder, objects[0]}).hit(ray)->t == 11.5);
+    CHECK(recorder->farthest == 30);
+    const Objects nested{std::make_shared<HittableList>(objects), recorder};
+    CHECK(Bvh(nested).hit(ray)->t == 11.5);
+    CHECK(recorder->farthest == 11.5);
+}
+
+TEST_CASE("HittableList: one that holds itself is refused", "[shape][list]") {
+    const auto list = std::make_shared<HittableList>();
+    CHECK_THROWS_AS(list->add(list), ArgumentError);
+    CHECK(list->bounds().is_empty());
+}
+
 TEST_CASE("HittableList and Bvh: a null object is refused, an empty list hits nothing", "[shape][list]") {
     HittableList list;
     CHECK_THROWS_AS(list.add(nullptr), ArgumentError);
