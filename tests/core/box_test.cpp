@@ -47,6 +47,35 @@ TEST_CASE("Box: one point and a flat box are not empty, and the border belongs t
     CHECK(Box({big, 0, 0}, {big, 1, 1}).center().x == big);  // no overflow on the way
 }
 
+TEST_CASE("Box: each of its six sides bounds it, for points and for boxes", "[core][box]") {
+    const Box box{{0, 10, 20}, {1, 12, 24}};
+    CHECK(box.center() == Point3{0.5, 11, 22});
+    CHECK(box.diagonal() == Vec3{1, 2, 4});
+    CHECK(surface_area(box) == 2 * (1 * 2 + 2 * 4 + 4 * 1));
+    CHECK((box.contains(box) && box.contains(Box{box.center(), box.upper})));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Point3 border = box.center(), beyond = border;
+            border[axis] = side < 0 ? box.lower[axis] : box.upper[axis];
+            beyond[axis] = std::nextafter(border[axis], side * kInfinity);
+            CHECK(box.contains(border));
+            CHECK_FALSE(box.contains(beyond));
+            Box wider = box, turned = box;
+            wider.extend(beyond);
+            CHECK_FALSE(box.contains(wider));
+            CHECK(wider.contains(box));
+            CHECK((wider.lower[axis] == box.lower[axis]) == (side > 0));
+            CHECK((wider.upper[axis] == box.upper[axis]) == (side < 0));
+            (side < 0 ? turned.lower : turned.upper)[axis] = side < 0 ? 100 : -100;
+            CHECK(turned.is_empty());
+            CHECK(box.contains(turned));  // nothing is in it that is not in any other
+            CHECK(surface_area(turned) == 0);
+            Box nan = box;
+            (side < 0 ? nan.lower : nan.upper)[axis] = std::nan("");
+            CHECK(nan.is_empty());
+        }
+}
+
 TEST_CASE("Box: merging gives the smallest box around both, in either order", "[core][box]") {
     using Corner = std::array<double, 3>;
     const auto spanned = [](const Corner& p, const Corner& q) {

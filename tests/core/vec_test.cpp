@@ -5,6 +5,7 @@
 
 #include "catch.h"
 #include "limn/core/math.h"
+#include "limn/core/ray.h"
 #include "property.h"
 #include "support/grid.h"
 #include "support/random_geometry.h"
@@ -73,6 +74,26 @@ TEST_CASE("Points, vectors and normals do not turn into each other by accident",
     STATIC_REQUIRE(std::is_same_v<decltype(Point3{} + Vec3{}), Point3>);
     CHECK(Vec3(Normal3(Vec3{1, -2, 3})) == Vec3{1, -2, 3});
     CHECK(-Normal3{1, -2, 3} == Normal3{-1, 2, -3});
+}
+
+TEST_CASE("Vec3: sums, differences and multiples go component by component, for points as well", "[core][vec]") {
+    const Vec3 a{1, 2, 4}, b{16, -8, 32};
+    const Point3 p{3, 5, 7};
+    CHECK(a + b == Vec3{17, -6, 36});
+    CHECK(a - b == Vec3{-15, 10, -28});
+    CHECK(-a == Vec3{-1, -2, -4});
+    CHECK((2 * a == Vec3{2, 4, 8} && a * 2 == Vec3{2, 4, 8} && a / 2 == Vec3{0.5, 1, 2}));
+    CHECK((p + a == Point3{4, 7, 11} && p - a == Point3{2, 3, 3} && (p + a) - p == a));
+    CHECK((dot(a, b) == 128 && dot(Normal3(a), b) == 128 && dot(b, Normal3(a)) == 128));
+    CHECK((dot(Normal3(a), Normal3(b)) == 128 && length_squared(a) == 21));
+    CHECK(cross(a, b) == Vec3{64 + 32, 64 - 32, -8 - 32});
+    for (const Vec3& v :
+         {Vec3{-9, 2, 3}, Vec3{2, -9, 3}, Vec3{2, 3, -9}, Vec3{9, -2, 3}, Vec3{2, 9, -3}, Vec3{-2, 3, 9}})
+        CHECK((max_abs(v) == 9 && max_abs(Point3{} + v) == 9));
+    const Ray ray{.origin = p, .direction = a};
+    CHECK((ray.at(0) == p && ray.at(2) == Point3{5, 9, 15} && ray.at(-1) == Point3{2, 3, 3}));
+    CHECK((gamma(1) >= kRoundoff && gamma(1) < 1.0001 * kRoundoff && gamma(8) / kRoundoff == Approx(8)));
+    CHECK((radians(180) == kPi && radians(-90) == -kPi / 2));
 }
 
 TEST_CASE("Vec3: an axis number reads and writes the component", "[core][vec]") {
