@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "catch.h"
+#include "limn/material/lambertian.h"
 #include "limn/render/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"
+#include "limn/texture/image_texture.h"
+#include "limn/texture/perlin.h"
 #include "property.h"
 #include "support/cases.h"
 
@@ -179,4 +182,12 @@ TEST_CASE("compile: memory counts what each shape, array, image and lattice take
     CHECK(each(mesh) == bare + 8 * sizeof(Float3) + 8 * sizeof(Float2));
     data.material_slots.assign(12, 0);
     CHECK(each(mesh) == bare + 8 * sizeof(Float3) + 8 * sizeof(Float2) + 12 * sizeof(std::uint32_t));
+    // A material, a texture and their owners come to about 200 bytes; what a texture looks up counts in full.
+    const auto painted = [&](const std::function<std::shared_ptr<const Texture>()>& texture) {
+        return each([&] { return std::make_shared<Sphere>(Point3{}, 1.0, std::make_shared<Lambertian>(texture())); });
+    };
+    within(painted([] { return std::make_shared<ImageTexture>(Image(20, 10)); }), 20 * 10 * 3 * sizeof(float), 500);
+    within(painted([] { return std::make_shared<Noise>(1, 1); }), sizeof(PerlinLattice), 500);
+    const std::vector<std::shared_ptr<const Material>> slots(8, std::make_shared<Lambertian>(Color{}));
+    CHECK(each([&] { return std::make_shared<Mesh>(cube_mesh(), slots); }) == bare + 7 * sizeof(MaterialId));
 }
