@@ -19,11 +19,8 @@ inline TriangleVertices triangle_vertices(const MeshView& mesh, std::size_t i) {
 }
 
 // Exactly no area. Differences of float32 are exact in double unless their magnitudes are far apart, and then the
-// area is not zero; products of them may underflow for subnormals, so the edges are scaled up first, exactly.
-inline bool is_degenerate(const TriangleVertices& v) {
-    const Vec3 ab = 0x1p200 * (v.b - v.a), ac = 0x1p200 * (v.c - v.a);
-    return cross(ab, ac) == Vec3{};
-}
+// area is not zero; their products, 1e-90 at least, neither underflow nor overflow.
+inline bool is_degenerate(const TriangleVertices& v) { return cross(v.b - v.a, v.c - v.a) == Vec3{}; }
 
 inline Box triangle_bounds(const TriangleVertices& v) {
     Box box;

@@ -13,6 +13,7 @@
 #include "limn/texture/perlin.h"
 #include "property.h"
 #include "support/cases.h"
+#include "support/scene_zoo.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -190,4 +191,16 @@ TEST_CASE("compile: memory counts what each shape, array, image and lattice take
     within(painted([] { return std::make_shared<Noise>(1, 1); }), sizeof(PerlinLattice), 500);
     const std::vector<std::shared_ptr<const Material>> slots(8, std::make_shared<Lambertian>(Color{}));
     CHECK(each([&] { return std::make_shared<Mesh>(cube_mesh(), slots); }) == bare + 7 * sizeof(MaterialId));
+}
+
+TEST_CASE("compile: of two users' shapes in each other's boxes the nearer is hit, not the one with the lower number",
+          "[compile][laws]") {
+    Scene scene;
+    scene.add(std::make_shared<Stranger>(ball({0, 0, 0}, 1)));
+    scene.add(std::make_shared<Stranger>(ball({0, 0, 0.5}, 1)));
+    // Beside the middle the first one's box begins before the second one's surface.
+    const auto hit = compile(scene).closest_hit({.origin = {0.9, 0, 9}, .direction = {0, 0, -1}});
+    REQUIRE(hit);
+    CHECK(hit->object == 1);
+    CHECK(hit->t == Approx(9 - 0.5 - std::sqrt(1 - 0.81)));
 }

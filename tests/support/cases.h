@@ -53,11 +53,19 @@ struct Case {
     }
 };
 
+// One component in four is zero: edges along the axes and in their planes are cases of their own.
+inline Vec3 draw_edge() {
+    Vec3 e = draw_vec();
+    for (std::size_t a = 0; a < 3; ++a)
+        if (draw_int(0, 3) == 3) e[a] = 0;
+    return e;
+}
+
 inline Case draw_case() {
     Case c;
     c.kind = static_cast<Kind>(draw_int(0, 3));
     c.p = draw_point();
-    c.e = draw_vec(), c.f = draw_vec();
+    c.e = draw_edge(), c.f = draw_edge();
     c.radius = draw_int(1, 512) / 64.0;
     if (draw_int(0, 4) == 0) c.radius = -c.radius;
     RC_PRE(!(cross(c.e, c.f) == Vec3{}));
