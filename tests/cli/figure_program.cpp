@@ -1,4 +1,5 @@
 // Programs on top of figure_main.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -11,12 +12,17 @@ namespace {
 
 TEST_CASE("Figure program: writes NAME.exr and NAME.png in the current folder, or what -o names", "[cli]") {
     const Folder folder;
-    REQUIRE(run(TINY_FIGURE_PROGRAM, {"--quiet"}, folder.path()).status == 0);
+    const Outcome plain = run(TINY_FIGURE_PROGRAM, {"--quiet"}, folder.path());
+    REQUIRE(plain.status == 0);
+    CHECK(plain.err.empty());
     CHECK(folder.names() == Names{"tiny.exr", "tiny.png"});
     const Image image = load_image(folder.path("tiny.exr"));
     CHECK(image.width() == 6);
     CHECK(image.height() == 4);
     CHECK(image.at(3, 2) == Color{1, 1, 1});
+    const auto facts = load_image_facts(folder.path("tiny.exr"));
+    const std::pair<std::string, std::string> command{"command_line", std::string(TINY_FIGURE_PROGRAM) + " --quiet"};
+    CHECK(std::find(facts.begin(), facts.end(), command) != facts.end());
 
     const Outcome named = run(TINY_FIGURE_PROGRAM, {"-o", "x.exr", "--size", "3x2", "--report", "-"}, folder.path());
     REQUIRE(named.status == 0);
@@ -38,12 +44,21 @@ TEST_CASE("Figure program: the texture is read in the encoding that is asked for
     };
     // The 128th of 256 grey levels, at the precision of a float image.
     CHECK(centre({}) == Approx(half).epsilon(1e-6));
+    CHECK(centre({"--texture-encoding", "auto"}) == Approx(half).epsilon(1e-6));
     CHECK(centre({"--texture-encoding", "srgb"}) == Approx(half).epsilon(1e-6));
     CHECK(centre({"--texture-encoding", "raw"}) == Approx(128.0 / 255).epsilon(1e-6));
 
     const Outcome replaced = run(TINY_FIGURE_PROGRAM, {"--texture", "grey.png", "-o", "grey.png"}, folder.path());
     CHECK(replaced.status == 2);
     CHECK(folder.read("grey.png") == before);
+}
+
+TEST_CASE("Figure program: interrupted before the first sample it saves nothing and says so", "[cli]") {
+    const Folder folder;
+    const Outcome outcome = run(TINY_FIGURE_PROGRAM, {"--texture", "interrupt", "--report", "r.json"}, folder.path());
+    CHECK(outcome.status == 130);
+    CHECK(outcome.err.find("nothing was saved") != std::string::npos);
+    CHECK(folder.names().empty());
 }
 
 TEST_CASE("Figure program: refuses as limn does, under its own name", "[cli]") {

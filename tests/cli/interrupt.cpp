@@ -27,7 +27,9 @@ void check_partial_picture(int signal, int status) {
     REQUIRE(program.wait_for(" %"));  // the bar: rendering has begun
     REQUIRE(program.wait_for(" %"));  // drawn anew: a part of the picture is done
     program.send(signal);
-    CHECK(program.finish().status == status);
+    const Outcome outcome = program.finish();
+    CHECK(outcome.status == status);
+    CHECK(outcome.err.find("limn: interrupted; " + folder.path("a.exr")) != std::string::npos);
     CHECK(folder.names() == Names{"a.exr", "house.obj", "r.json"});
 
     const Image image = load_image(folder.path("a.exr"));
@@ -47,6 +49,23 @@ TEST_CASE("Interruption: SIGINT saves the partial picture and ends with 130", "[
 
 TEST_CASE("Interruption: SIGTERM saves the partial picture and ends with 143", "[cli]") {
     check_partial_picture(SIGTERM, 143);
+}
+
+TEST_CASE("Interruption: a picture that cannot be saved any more costs neither the others nor the report", "[cli]") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path("gone"));
+    OnTerminal program(LIMN_PROGRAM,
+                       {"render", folder.write("house.obj", house_obj()), "-o", folder.path("gone/a.exr"), "-o",
+                        folder.path("b.png"), "--size", "16x12", "--spp", kEndless, "--report", folder.path("r.json")});
+    REQUIRE(program.wait_for(" %"));
+    REQUIRE(program.wait_for(" %"));
+    std::filesystem::remove(folder.path("gone"));
+    program.send(SIGINT);
+    const Outcome outcome = program.finish();
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("gone/a.exr") != std::string::npos);
+    CHECK(outcome.err.find("samples a pixel") == std::string::npos);  // what was not done is not reported as done
+    CHECK(folder.names() == Names{"b.png", "house.obj", "r.json"});
 }
 
 TEST_CASE("Interruption: the first signal is remembered, the second one ends the program", "[cli]") {

@@ -1,11 +1,14 @@
 // The options, without running a program.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
 #include "catch.h"
 #include "limn/core/error.h"
+#include "process.h"
 #include "program.h"
+#include "property.h"
 #include "render_options.h"
 
 namespace limn::app {
@@ -116,6 +119,13 @@ TEST_CASE("Options: a value that cannot be right is refused by name", "[cli]") {
         }
 }
 
+TEST_CASE("Options: a number out of range is told the range, and what is no number that it is none", "[cli]") {
+    for (const char* value : {"0", "2147483648", "99999999999999999999", "-99999999999999999999"})
+        CHECK(refusal({"--spp", value}).find("must lie in 1 .. 2147483647") != std::string::npos);
+    for (const char* value : {"4.5", "x", "99999999999999999999x"})
+        CHECK(refusal({"--spp", value}).find("is not a whole number") != std::string::npos);
+}
+
 TEST_CASE("Options: the ends of each range are allowed", "[cli]") {
     CHECK(parsed({"--size", "1x65536"}).size->height == 65536);
     CHECK(parsed({"--spp", "1"}).samples_per_pixel == 1);
@@ -133,6 +143,7 @@ TEST_CASE("Options: what is reserved for later versions is refused as such", "[c
         const std::string message = refusal({option, "1"});
         CHECK(message.find(option) != std::string::npos);
         CHECK(message.find("reserved") != std::string::npos);
+        CHECK(refusal({option}).find("reserved") != std::string::npos);
     }
 }
 
@@ -142,6 +153,8 @@ TEST_CASE("Options: unknown, repeated and incomplete ones are refused by name", 
     CHECK(refusal({"--spp"}).find("--spp") != std::string::npos);
     CHECK(refusal({"--spp", "4", "--spp", "5"}).find("--spp") != std::string::npos);
     CHECK(refusal({"-o"}).find("-o") != std::string::npos);
+    CHECK(refusal({"-o", "a.exr", "b.exr"}).find("b.exr") != std::string::npos);  // one file for each -o
+    CHECK(refusal({"--bogus"}).find("(see test --help)") != std::string::npos);
 }
 
 TEST_CASE("Options: a camera that no figure could have is refused", "[cli]") {
@@ -150,11 +163,25 @@ TEST_CASE("Options: a camera that no figure could have is refused", "[cli]") {
     CHECK_THROWS_AS(check({"--look-from", "0,5,0", "--look-at", "0,0,0", "--vup", "0,-1,0"}), ArgumentError);
     CHECK_NOTHROW(check({"--look-from", "0,5,0", "--look-at", "0,0,0", "--vup", "0,0,1"}));
     CHECK_NOTHROW(check({"--look-from", "0,0,0"}));
+    CHECK_NOTHROW(check({"--look-at", "0,0,0"}));
+    CHECK_NOTHROW(check({"--look-from", "0,5,0", "--look-at", "0,0,0"}));  // the figure may have another up
 }
 
 TEST_CASE("Options: the command line is kept as a shell would read it back", "[cli]") {
     const char* const argv[] = {"limn", "render", "a b.obj", "it's", "-o", "x.exr", ""};
     CHECK(command_line(7, argv) == R"(limn render 'a b.obj' 'it'\''s' -o x.exr '')");
+    test::holds([](std::vector<std::string> words) {
+        std::vector<const char*> pointers;
+        std::string expected;
+        for (std::string& word : words) {
+            std::replace(word.begin(), word.end(), '\0', '$');  // no argument can hold it
+            pointers.push_back(word.c_str());
+            expected += word + "|";
+        }
+        if (words.empty()) RC_DISCARD("printf would write its format once");
+        const std::string line = command_line(static_cast<int>(words.size()), pointers.data());
+        RC_ASSERT(test::run("/bin/sh", {"-c", "printf '%s|' " + line}).out == expected);
+    });
 }
 
 }  // namespace

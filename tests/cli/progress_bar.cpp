@@ -1,37 +1,17 @@
 // The line that the progress bar draws.
 #include "progress_bar.h"
 
-#include <unistd.h>
-
-#include <cstdio>
-
 #include "catch.h"
-#include "support/folder.h"
+#include "stderr.h"
 
 namespace limn::test {
 namespace {
 
-// What `speak` writes to stderr.
-template <class Speak>
-std::string written_by(const Speak& speak) {
-    const Folder folder;
-    std::fflush(stderr);
-    const int terminal = dup(STDERR_FILENO);
-    std::FILE* const file = std::fopen(folder.path("stderr").c_str(), "w");
-    REQUIRE(dup2(fileno(file), STDERR_FILENO) >= 0);
-    speak();
-    std::fflush(stderr);
-    dup2(terminal, STDERR_FILENO);
-    close(terminal);
-    std::fclose(file);
-    return folder.read("stderr");
-}
-
 std::string bar_at(double fraction, double seconds) {
     std::string line;
     app::ProgressBar bar(true);
-    line = written_by([&] { bar.update({fraction, seconds}); });
-    written_by([&] { bar.clear(); });
+    line = written_to_stderr([&] { bar.update({fraction, seconds}); });
+    written_to_stderr([&] { bar.clear(); });
     return line;
 }
 
@@ -57,21 +37,21 @@ TEST_CASE("Progress bar: minutes from 60 seconds on, hours from 60 minutes on", 
 TEST_CASE("Progress bar: drawn five times a second at most, erased once, and never if it is not wanted",
           "[cli][progress]") {
     app::ProgressBar bar(true);
-    CHECK_FALSE(written_by([&] { bar.update({0.1, 1}); }).empty());
-    CHECK(written_by([&] { bar.update({0.2, 1.1}); }).empty());
-    CHECK_FALSE(written_by([&] { bar.update({0.3, 1.25}); }).empty());
-    CHECK(written_by([&] { bar.update({0.4, 1.4}); }).empty());
-    CHECK(written_by([&] { bar.clear(); }) == kErase);
-    CHECK(written_by([&] { bar.clear(); }).empty());
-    CHECK_FALSE(written_by([&] { bar.update({0.4, 1.41}); }).empty());  // drawn anew, whenever that is
-    CHECK(written_by([&] { bar.clear(); }) == kErase);
+    CHECK_FALSE(written_to_stderr([&] { bar.update({0.1, 1}); }).empty());
+    CHECK(written_to_stderr([&] { bar.update({0.2, 1.1}); }).empty());
+    CHECK_FALSE(written_to_stderr([&] { bar.update({0.3, 1.25}); }).empty());
+    CHECK(written_to_stderr([&] { bar.update({0.4, 1.4}); }).empty());
+    CHECK(written_to_stderr([&] { bar.clear(); }) == kErase);
+    CHECK(written_to_stderr([&] { bar.clear(); }).empty());
+    CHECK_FALSE(written_to_stderr([&] { bar.update({0.4, 1.41}); }).empty());  // drawn anew, whenever that is
+    CHECK(written_to_stderr([&] { bar.clear(); }) == kErase);
 
-    const std::string all = written_by([] {
+    const std::string all = written_to_stderr([] {
         app::ProgressBar gone(true);
         gone.update({0.5, 1});
     });
     CHECK(all.ends_with(kErase));
-    CHECK(written_by([] { app::ProgressBar(false).update({0.5, 1}); }).empty());
+    CHECK(written_to_stderr([] { app::ProgressBar(false).update({0.5, 1}); }).empty());
 }
 
 }  // namespace

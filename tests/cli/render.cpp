@@ -79,8 +79,30 @@ TEST_CASE("limn render: a lamp too bright for half is clamped, with a warning, a
         {"render", model, "-o", folder.path("a.exr"), "--half", "--size", "16x16", "--spp", "4", "--no-antialias"});
     CHECK(outcome.status == 0);
     CHECK(outcome.err.find("65504") != std::string::npos);
+    const auto brightest = [&] {
+        const Image image = load_image(folder.path("a.exr"));
+        return *std::max_element(image.values().begin(), image.values().end());
+    };
+    CHECK(brightest() == 65504.0F);
+    // Values of 16 bits have 11 significant ones.
+    const auto significant = [](float v) {
+        int exponent = 0;
+        const float m = std::ldexp(std::frexp(v, &exponent), 11);
+        return m == std::nearbyint(m);
+    };
     const Image image = load_image(folder.path("a.exr"));
-    CHECK(*std::max_element(image.values().begin(), image.values().end()) == 65504.0F);
+    CHECK(std::all_of(image.values().begin(), image.values().end(), significant));
+
+    const auto warns = [&](const std::string& radiance, const Words& more) {
+        folder.write("lamp.mtl", "newmtl lamp\nKe " + radiance + " " + radiance + " " + radiance + "\n");
+        Words words = {"render", model, "-o", folder.path("a.exr"), "--size", "16x16", "--spp", "4"};
+        words.insert(words.end(), more.begin(), more.end());
+        return limn(words).err.find("65504") != std::string::npos;
+    };
+    CHECK_FALSE(warns("65504", {"--half", "--no-antialias"}));
+    CHECK(brightest() == 65504.0F);
+    CHECK_FALSE(warns("1e6", {"--no-antialias"}));  // 32 bits hold it
+    CHECK(brightest() == 1e6F);
 }
 
 TEST_CASE("limn render: the report goes to stdout alone for -", "[cli]") {

@@ -1,4 +1,7 @@
-// A lamp in the colour of a texture's first pixel, for the tests of figure_main.
+// A lamp in the colour of a texture's first pixel, for the tests of figure_main. A texture named "interrupt" is a
+// signal.
+#include <csignal>
+
 #include "figure.h"
 #include "limn/limn.h"
 
@@ -7,7 +10,10 @@ namespace {
 limn::Figure lamp(const limn::FigureInputs& inputs) {
     using namespace limn;
     Color color{1, 1, 1};
-    if (!inputs.texture.empty()) color = load_image(inputs.texture, inputs.texture_encoding).at(0, 0);
+    if (inputs.texture == "interrupt")
+        std::raise(SIGINT);
+    else if (!inputs.texture.empty())
+        color = load_image(inputs.texture, inputs.texture_encoding).at(0, 0);
     Scene scene;
     scene.add(std::make_shared<Sphere>(Point3{0, 0, 0}, 10.0, std::make_shared<DiffuseLight>(color)));
     return {.name = "tiny",
