@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kAlbedo = 0.6, kRadiance = 7;
 
-Object floor_of(MaterialPtr m) { return quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, std::move(m)); }
-
 // Irradiance at the origin, normal +y, from a polygon of radiance 1 wholly above the floor.
 double irradiance_of_polygon(const std::vector<Point3>& corners) { return std::abs(vector_irradiance(corners, {}).y); }
 

@@ -1,11 +1,10 @@
 // Single rays through the path tracer: the radiance that comes back along them, against integrals.
-#include "render/path.h"
-
 #include "bsdf/metal.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
+#include "limn/texture/image_texture.h"
 #include "property.h"
-#include "support/pictures.h"
+#include "render/single_ray.h"
 #include "support/solid_angle.h"
 
 using namespace limn;
@@ -14,34 +13,6 @@ using tracing::PathTracer;
 using tracing::Sampler;
 
 namespace {
-
-constexpr double kAlbedo = 0.6;
-
-Object floor_of(MaterialPtr m) { return quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, std::move(m)); }
-
-// At the floor's origin from the side.
-Ray at_floor(double time = 0) { return {.origin = {0, 0.4, 0.3}, .direction = {0, -0.4, -0.3}, .time = time}; }
-const Vec3 kOut = normalize(Vec3{0, 0.4, 0.3});
-
-// The mean radiance of one channel over samples of one ray, and its standard error.
-Measured along(const CompiledScene& scene, const Ray& ray, int depth, Estimator estimator, std::uint64_t samples) {
-    PathTracer tracer(scene.flat(), depth, estimator);
-    double sum = 0, squares = 0;
-    for (std::uint64_t i = 0; i < samples; ++i) {
-        Sampler sampler(300, i, 0);
-        const double value = tracer.radiance(ray, sampler).g;
-        sum += value, squares += value * value;
-    }
-    const double n = static_cast<double>(samples), average = sum / n;
-    return {average, std::sqrt(std::max(0.0, squares / n - average * average) / n)};
-}
-
-void check_both(const CompiledScene& scene, const Ray& ray, int depth, double truth, std::uint64_t naive_samples) {
-    INFO("by light sampling");
-    check_mean(along(scene, ray, depth, Estimator::path, 50'000), truth, 8e-3);
-    INFO("by scattering");
-    check_mean(along(scene, ray, depth, Estimator::naive, naive_samples), truth, 2e-2);
-}
 
 // The integral over a quad lamp of radiance 1, seen from the floor's origin, of `weight` of the unit direction, by the
 // midpoint rule.
@@ -196,33 +167,15 @@ TEST_CASE("Path: light that is reflected twice is the same by both estimators, i
     }
 }
 
-TEST_CASE("Path: roulette ends paths without a change of their mean, wherever they go", "[render][path]") {
-    // A room lit at one end, so that a path's direction matters; after 40 segments 1e-6 of the light is left.
-    const CompiledScene scene = compile_with(sky(0), {make_box({-1, -1, -1.5}, {1, 1, 1.5}, grey(0.7)),
-                                                      quad({-0.9, -0.9, -1.4}, {1.8, 0, 0}, {0, 1.8, 0}, lamp(3))});
-    const Ray ray{.origin = {0, 0, 0}, .direction = {0.2, 0.1, 1}};
-    for (const Estimator estimator : {Estimator::path, Estimator::naive})
-        check_same(along(scene, ray, kUnlimitedDepth, estimator, 20'000), along(scene, ray, 40, estimator, 10'000),
-                   2e-2);
-}
-
-TEST_CASE("Path: roulette does not choose among directions", "[render][path]") {
-    // Panes that do not bend light make the floor the fourth vertex, where roulette begins; it survives one of 10
-    // times.
-    std::vector<Object> objects{floor_of(grey(0.1))};
-    for (const double y : {0.1, 0.2, 0.3})
-        objects.push_back(quad({-0.3, y, 0.0}, {0.6, 0, 0}, {0, 0.01, 0.6}, std::make_shared<Dielectric>(1.0)));
-    for (const Vec3& side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
-        const Vec3 along_floor = cross(side, Vec3{0, 1, 0});
-        const Point3 q = Point3{} + 3 * side - 4 * along_floor + Vec3{0, 1.5, 0};
-        const Vec3 u = 8 * along_floor, v{0, 4, 0};
-        std::vector<Object> with_lamp = objects;
-        with_lamp.push_back(quad(q, u, v, lamp(2)));
-        const double truth = 0.1 * 2 / kPi * std::abs(vector_irradiance({q, q + u, q + u + v, q + v}, {}).y);
-        const Ray ray{.origin = {0, 0.4, 0.4}, .direction = {0, -1, -1}};
-        CAPTURE(side.x, side.z);
-        check_mean(along(compile_with(sky(0), with_lamp), ray, kUnlimitedDepth, Estimator::naive, 60'000), truth, 4e-2);
-    }
+TEST_CASE("Path: in a medium there are no texture coordinates, whatever the path met before", "[render][path]") {
+    Image image(4, 4);
+    image.set(0, 3, {1, 1, 1});  // at u = v = 0
+    const auto texture = std::make_shared<ImageTexture>(image, ImageTextureOptions{Filter::nearest, Wrap::clamp});
+    const CompiledScene scene =
+        compile_with(sky(1), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, std::make_shared<Metal>(Color{1, 1, 1})),
+                              std::make_shared<ConstantMedium>(sphere({0, 1.5, 0}, 1, nullptr), 5, texture)});
+    const Measured m = along(scene, {.origin = {0, 3, 4}, .direction = {0, -1, -1}}, 1000, Estimator::path, 2000);
+    CHECK(m.mean == 1);  // all is white
 }
 
 TEST_CASE("Path: how far light comes in overlapping media says nothing of which one scatters it", "[render][path]") {

@@ -242,6 +242,14 @@ TEST_CASE("render: stopping leaves a whole picture with fewer samples, and says 
     for (const float v : none.image.values()) CHECK(std::isfinite(v));
 }
 
+TEST_CASE("render: told to stop when all is done, a picture is complete", "[render][settings]") {
+    RenderSettings settings = square(8, 4, 2);
+    settings.progress = [](const Progress& p) { return p.fraction < 1; };
+    const RenderReport r = render(compile_with(sky(1), {}), kEye, settings).report;
+    CHECK(r.complete);
+    CHECK(r.samples_per_pixel == 4);
+}
+
 TEST_CASE("render: what the progress callback throws comes out of render", "[render][settings]") {
     const CompiledScene scene = compile_with(sky(1), {sphere({0, 0, 0}, 1, grey(0.5))});
     for (const int threads : {1, 2}) {

@@ -21,6 +21,8 @@ inline Object sphere(const Point3& c, double r, MaterialPtr m) { return std::mak
 inline Object quad(const Point3& q, const Vec3& u, const Vec3& v, MaterialPtr m) {
     return std::make_shared<Quad>(q, u, v, std::move(m));
 }
+/// Wide, at y = 0, facing up.
+inline Object floor_of(MaterialPtr m) { return quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, std::move(m)); }
 
 inline CompiledScene compile_with(const Background& background, const std::vector<Object>& objects) {
     Scene scene;
