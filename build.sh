@@ -80,7 +80,8 @@ docs() {
     install_missing doxygen doxygen-awesome-css
     rm -rf build/docs
     mkdir -p build/docs
-    LIMN_VERSION=$(sed -n 's/^project(limn VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
+    LIMN_DOCS=build/docs LIMN_VERSION=$(sed -n 's/^project(limn VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) \
+        doxygen docs/Doxyfile
     echo "build/docs/html/index.html"
 }
 

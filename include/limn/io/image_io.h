@@ -54,6 +54,7 @@ Image load_image(const std::string& path, Encoding encoding = Encoding::automati
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
+/// One channel of a picture file.
 struct ImageChannel {
     std::string name;  ///< "R", "G", "B"; "Y" where there is only grey; "A"; others as the file names them
     std::string type;  ///< of its values as stored: "uint8", "uint16", "half", "float" ...
@@ -61,8 +62,9 @@ struct ImageChannel {
 
 /// What the header of a picture says.
 struct ImageInfo {
-    int width = 0, height = 0;
-    std::vector<ImageChannel> channels;
+    int width = 0;                       ///< in pixels
+    int height = 0;                      ///< in pixels
+    std::vector<ImageChannel> channels;  ///< in the order of the file
 };
 
 /// Reads size and channels, all of them, and no pixels.

@@ -10,7 +10,7 @@ namespace limn {
 
 /// Edges by the number of triangles that share them.
 struct EdgeCounts {
-    std::size_t edges = 0;
+    std::size_t edges = 0;        ///< all of them
     std::size_t open = 0;         ///< of one triangle: the border of a hole or of the surface
     std::size_t nonmanifold = 0;  ///< of more than two: where sheets meet, or triangles lie twice
 
