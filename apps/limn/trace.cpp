@@ -20,16 +20,16 @@ namespace limn::app {
 namespace {
 
 constexpr const char* kForms =
-    "A ray is a line of six or eight numbers, ox oy oz dx dy dz [tmin tmax]: its origin, its direction, and the\n"
-    "interval (tmin, tmax], which is (0, inf] unless given. Blank lines and lines that begin with # are passed over.\n"
-    "Its answer is a line: t face u v with 17 digits, or miss; with --any 1 or 0. t is in units of the direction,\n"
-    "which need not have unit length. face counts the faces of the file from 0. u and v are the weights of the second\n"
-    "and third corner of the triangle that was hit; a polygon's triangles have the same face.\n"
-    "Answers come in the order of the rays, and as soon as a ray has arrived. A ray that cannot be used (not a "
-    "number,\n"
-    "no direction, something infinite in origin or direction, an empty interval) is a miss, and counted at the end.\n"
-    "With --binary a ray is 8 little-endian float64 (origin, direction, tmin, tmax), its answer 4 (t or inf, face or\n"
-    "-1, u, v), or 1 with --any.";
+    R"(A ray is a line of six or eight numbers, ox oy oz dx dy dz [tmin tmax]: its origin, its direction, and the
+interval (tmin, tmax], which is (0, inf] unless given. Blank lines and lines that begin with # are passed over.
+Its answer is a line: t face u v with 17 digits, or miss; with --any 1 or 0. t is in units of the direction,
+which need not have unit length. face counts the faces of the file from 0, the triangles of a polygon share it.
+u and v are the weights of the second and third corner of the triangle that was hit.
+Answers come in the order of the rays, each as soon as its ray has arrived. A ray that cannot be used (not a
+number, no direction, something infinite in origin or direction, tmin = inf, tmin above tmax) is a miss, and
+counted on stderr at the end.
+With --binary a ray is 8 little-endian float64 (origin, direction, tmin, tmax), its answer 4 (t or inf, face or
+-1, u, v), or 1 with --any.)";
 
 struct Arguments {
     std::string model, rays = "-";
