@@ -1,9 +1,11 @@
 // Odd and broken pictures, and what load_image and load_image_from_memory make of them.
 #include <sys/resource.h>
 
+#include <limits>
 #include <variant>
 
 #include "formats.h"
+#include "io/image_checks.h"
 #include "judge_image.h"
 #include "make_png.h"
 
@@ -233,4 +235,18 @@ TEST_CASE("Image corpus: sizes that a header only claims take no memory", "[io][
         check(load_from_memory(bytes), "");
     }
     CHECK(peak() - before < 1 << 20);
+}
+
+TEST_CASE("Image corpus: a picture is read only where the file can hold it and the machine too", "[io][image]") {
+    constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
+    constexpr int kLargest = std::numeric_limits<int>::max();
+    CHECK_NOTHROW(require_possible_size(1, 1, 1, 1, "a"));
+    CHECK_NOTHROW(require_possible_size(4096, 4096, 3, 1, "a"));             // under a gibibyte
+    CHECK_NOTHROW(require_possible_size(10'000, 9'000, 3, 1'080'000, "a"));  // 1.08e9 bytes, 1000 to 1
+    CHECK_THROWS_WITH(require_possible_size(50'000, 50'000, 3, 5'999'999, "a"),
+                      "a: is too short for a picture of 50000 x 50000");
+    CHECK_THROWS_WITH(require_possible_size(kLargest, kLargest, 3, kAnySize, "a"),
+                      "a: there is not enough memory for its 2147483647 x 2147483647 pixels");
+    CHECK_THROWS_AS(require_possible_size(0, 1, 3, 100, "a"), FileError);
+    CHECK_THROWS_AS(require_possible_size(1, -1, 3, 100, "a"), FileError);
 }
