@@ -170,17 +170,20 @@ TEST_CASE("Options: a camera that no figure could have is refused", "[cli]") {
 TEST_CASE("Options: the command line is kept as a shell would read it back", "[cli]") {
     const char* const argv[] = {"limn", "render", "a b.obj", "it's", "-o", "x.exr", ""};
     CHECK(command_line(7, argv) == R"(limn render 'a b.obj' 'it'\''s' -o x.exr '')");
-    test::holds([](std::vector<std::string> words) {
+    const auto read_back = [](const std::vector<std::string>& words) {
         std::vector<const char*> pointers;
         std::string expected;
-        for (std::string& word : words) {
-            std::replace(word.begin(), word.end(), '\0', '$');  // no argument can hold it
-            pointers.push_back(word.c_str());
-            expected += word + "|";
-        }
-        if (words.empty()) RC_DISCARD("printf would write its format once");
+        for (const std::string& word : words) pointers.push_back(word.c_str()), expected += word + "|";
         const std::string line = command_line(static_cast<int>(words.size()), pointers.data());
-        RC_ASSERT(test::run("/bin/sh", {"-c", "printf '%s|' " + line}).out == expected);
+        return test::run("/bin/sh", {"-c", "printf '%s|' " + line}).out == expected;
+    };
+    std::vector<std::string> names;  // every character before what might be a variable, a file or a command
+    for (char c = 1; c < 127; ++c) names.insert(names.end(), {std::string(1, c), c + std::string("HOME")});
+    CHECK(read_back(names));
+    test::holds([&](std::vector<std::string> words) {
+        if (words.empty()) RC_DISCARD("printf would write its format once");
+        for (std::string& word : words) std::replace(word.begin(), word.end(), '\0', '$');  // no argument can hold it
+        RC_ASSERT(read_back(words));
     });
 }
 

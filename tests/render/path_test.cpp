@@ -87,6 +87,20 @@ TEST_CASE("Path: a moving roof keeps light off while it is there", "[render][pat
                kAlbedo * 5 * std::abs(vector_irradiance({q, q + u, q + u + v, q + v}, {}).y) / kPi, 100'000);
 }
 
+TEST_CASE("Path: a lamp does not shade itself, though its points are rounded as coarsely as its far-off coordinates",
+          "[render][path]") {
+    // Described a million units away and brought near by an instance: its points are off by some 1e-9.
+    const Vec3 away{1e6, 2e6, -1e6};
+    const Transform near = Transform::translate({0.3, 1.5, -0.2}) * Transform::rotate({1, 2, 0}, 20);
+    const Vec3 u{1, 0, 0}, v{0, 0, 1};
+    const Point3 q{-0.5, 0, -0.5};
+    const Object light = std::make_shared<Instance>(quad(q + away, u, v, lamp(4)), near * Transform::translate(-away));
+    const auto at = [&](const Point3& p) { return transform_point(near, p); };
+    const double irradiance = std::abs(vector_irradiance({at(q), at(q + u), at(q + u + v), at(q + v)}, {}).y);
+    check_both(compile_with(sky(0), {floor_of(grey(kAlbedo)), light}), at_floor(), 2, kAlbedo * 4 * irradiance / kPi,
+               100'000);
+}
+
 TEST_CASE("Path: behind a boundary that is not there the ray goes on at its own time", "[render][path]") {
     const Object veil =
         std::make_shared<Stranger>(std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1, nullptr), 0, Color{}));
