@@ -119,7 +119,9 @@ TEST_CASE("Image corpus: PNG", "[io][image]") {
 }
 
 TEST_CASE("Image corpus: JPEG", "[io][image]") {
-    const std::string plain = stored_file("orange.jpg"), cut = "breaks off before its end";
+    const std::string plain = stored_file("orange.jpg"), broken = "is not a whole JPEG: ";
+    const std::string cut = broken + "it breaks off";
+    const std::size_t table = plain.find("\xff\xc4");  // length, name, then the numbers of codes
     const std::size_t frame = plain.find("\xff\xc0");  // length, precision, then height and width
     REQUIRE(frame != std::string::npos);
     const Row rows[] = {
@@ -129,7 +131,12 @@ TEST_CASE("Image corpus: JPEG", "[io][image]") {
         {"CMYK", stored_file("images/cmyk.jpg"), Loads{8, 8, kOrange}},
         {"more behind its end", plain + "and so on", Loads{8, 8, kOrange}},
         {"only its mark", "\xff\xd8", cut},
-        {"only its mark and end", "\xff\xd8\xff\xd9", ""},
+        {"only its mark and end", "\xff\xd8\xff\xd9", broken + "it has no pixels"},
+        {"a table of 4080 codes", changed(plain, table + 5, std::string(16, '\xff')), broken + "a Huffman table"},
+        {"a table longer than its segment", changed(plain, table + 2, std::string("\0\x13", 2)), broken},
+        {"a byte between segments", plain.substr(0, table) + "x" + plain.substr(table), broken + "there is no marker"},
+        {"fill bytes between segments", plain.substr(0, table) + "\xff\xff" + plain.substr(table),
+         Loads{8, 8, kOrange}},
         {"no pixels", plain.substr(0, plain.find("\xff\xda")) + "\xff\xd9", ""},
         {"no columns", changed(plain, frame + 7, zeros(2)), ""},
         {"65500 squared", changed(plain, frame + 5, "\xff\xdc\xff\xdc"), "is too short for a picture of 65500 x 65500"},
