@@ -190,5 +190,17 @@ TEST_CASE("limn render: the default view shows the whole model, lit and shaded",
     CHECK_FALSE(far == view);
 }
 
+TEST_CASE("limn render: the default view shows the whole model in a tall picture too", "[cli]") {
+    const Folder folder;
+    folder.write("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
+    const std::string model = folder.write("house.obj", "mtllib red.mtl\nusemtl red\n" + house_obj());
+    const std::string picture = folder.path("a.exr");
+    REQUIRE(limn({"render", model, "-o", picture, "--size", "16x48", "--spp", "4", "--quiet"}).status == 0);
+    const Image view = load_image(picture);
+    const auto is_sky = [&](int x, int y) { return view.at(x, y).b > view.at(x, y).r; };
+    for (int y = 0; y < 48; ++y) CHECK((is_sky(0, y) && is_sky(15, y)));
+    CHECK_FALSE(is_sky(8, 24));
+}
+
 }  // namespace
 }  // namespace limn::test
