@@ -104,6 +104,11 @@ TEST_CASE("spawn_ray_to: where nothing lies between the ends there is no way to 
         const double left_out = (1 - ray.t_max) * 8;
         CHECK((left_out >= gamma(8) * 1024 && left_out <= 32 * gamma(8) * 1024));
     }
+    // The coordinates of either end count; the difference from 1 is itself rounded.
+    Surface at_home;
+    at_home.normal = {1, 0, 0};
+    CHECK((1 - s.spawn_ray_to(Point3{0, 0, 0.5}, 0).t_max) >= 7.9 * gamma(8));
+    CHECK((1 - at_home.spawn_ray_to(Point3{1024, 0, 0}, 0).t_max) >= 7.9 * gamma(8));
     // With nothing to leave out, as between points of small coordinates, the end is still left out.
     Surface origin;
     origin.normal = {0, 0, 1};

@@ -155,6 +155,17 @@ TEST_CASE("HittableList and Bvh: whoever is asked later is asked for nothing far
     CHECK(recorder->farthest == 11.5);
 }
 
+TEST_CASE("Bvh: of equal hits in leaves apart the lowest number wins, whichever is asked first", "[shape][bvh]") {
+    // An L in one plane: only its corner belongs to both.
+    const auto wide = std::make_shared<Quad>(Point3{0, 0, 0}, Vec3{100, 0, 0}, Vec3{0, 1, 0}, nullptr);
+    const auto high = std::make_shared<Quad>(Point3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 100, 0}, nullptr);
+    for (const double side : {1.0, -1.0}) {
+        const Ray ray{.origin = {0.5, 0.5, side}, .direction = {0, 0, -side}};
+        CHECK(Bvh({wide, high}).hit(ray)->element == 0);
+        CHECK(Bvh({high, wide}).hit(ray)->element == 0);
+    }
+}
+
 TEST_CASE("HittableList: one that holds itself is refused", "[shape][list]") {
     const auto list = std::make_shared<HittableList>();
     CHECK_THROWS_AS(list->add(list), ArgumentError);
