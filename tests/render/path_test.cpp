@@ -89,8 +89,8 @@ TEST_CASE("Path: a moving roof keeps light off while it is there", "[render][pat
 
 TEST_CASE("Path: a lamp does not shade itself, though its points are rounded as coarsely as its far-off coordinates",
           "[render][path]") {
-    // Described a million units away and brought near by an instance: its points are off by some 1e-9.
-    const Vec3 away{1e6, 2e6, -1e6};
+    // Described some 1e8 units away and brought near by an instance: its points are off by some 1e-7.
+    const Vec3 away{1e8, 2e8, -1e8};
     const Transform near = Transform::translate({0.3, 1.5, -0.2}) * Transform::rotate({1, 2, 0}, 20);
     const Vec3 u{1, 0, 0}, v{0, 0, 1};
     const Point3 q{-0.5, 0, -0.5};
