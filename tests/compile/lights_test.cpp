@@ -102,6 +102,15 @@ TEST_CASE("Lights: seen through instances they stand where the instances put the
     CHECK(lights[1].radius == Approx(6).epsilon(1e-15));
 }
 
+TEST_CASE("Lights: a group that was described before the one that holds it is found there as well",
+          "[compile][lights]") {
+    const Object quad = unit_quad(white_lamp());
+    const Object plain = seen(quad, Transform::translate({1, 0, 0})),
+                 around = seen(plain, Transform::translate({0, 5, 0}));
+    CHECK(lights_of({plain, around, seen(around, Transform::translate({0, 0, 7}))}).size() == 3);
+    CHECK(lights_of({seen(around, Transform::translate({0, 0, 7})), around, plain}).size() == 3);
+}
+
 TEST_CASE("Lights: what an instance moves, or bends from a sphere, is left to scattering", "[compile][lights]") {
     const Object quad = unit_quad(white_lamp()), ball = std::make_shared<Sphere>(Point3{}, 1.0, white_lamp());
     CHECK(lights_of({std::make_shared<Instance>(quad, Transform{}, Transform::translate({1, 0, 0}))}).empty());
