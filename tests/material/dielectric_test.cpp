@@ -89,7 +89,7 @@ TEST_CASE("Dielectric: the reflectance is the same from both sides of a refracte
     }
 }
 
-TEST_CASE("Dielectric: reflectances stay in [0, 1] at the edges of their domain", "[material][dielectric]") {
+TEST_CASE("Dielectric: reflectances stay between 0 and 1 at the edges of their domain", "[material][dielectric]") {
     std::vector<double> cosines{1, 1 + 0x1p-23, 0, -1e-9, 1e-300, 1e-9, kAlmostOne};
     for (const double eta : {1 / 1.5, 1e-3, .999999}) {  // around the critical angle
         const double critical = std::sqrt(1 - eta * eta);

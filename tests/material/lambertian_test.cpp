@@ -82,7 +82,7 @@ TEST_CASE("Isotropic: samples follow the density on the whole sphere, and nothin
     CHECK(lobe.worst_ratio < 1e-12);
 }
 
-TEMPLATE_TEST_CASE("Diffuse materials: an albedo outside [0, 1] is refused", "[material]", Lambertian, Isotropic) {
+TEMPLATE_TEST_CASE("Diffuse materials: an albedo below 0 or above 1 is refused", "[material]", Lambertian, Isotropic) {
     for (const double bad : {-0.1, 1.1, std::nan(""), kInfinity}) {
         CHECK_THROWS_AS(TestType(Color{bad, 0, 0}), ArgumentError);
         CHECK_THROWS_AS(TestType(Color{0, bad, 0}), ArgumentError);

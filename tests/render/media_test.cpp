@@ -69,7 +69,7 @@ TEST_CASE("Media: a ball of smoke has the exact transmittance of its chords, at 
                0.820832, 1e-3);
 }
 
-TEST_CASE("Media: from inside, what is left of the way counts; and for lamps inside, the way to them",
+TEST_CASE("Media: from inside, what is left of the way counts, and for lamps inside, the way to them",
           "[render][media]") {
     const Object ball = sphere({0, 0, 0}, 2, kBoundary);
     check_transmittance({smoke(ball, 0.7)}, {0, 0, 0.5}, {0, 0, 0}, std::exp(-0.7 * 2.5));

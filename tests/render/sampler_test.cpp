@@ -29,7 +29,8 @@ TEST_CASE("Sampler: seed, pixel and sample 0 give the published first block of P
     for (const std::uint64_t word : published) CHECK(sampler.next() == static_cast<double>(word >> 11) * 0x1p-53);
 }
 
-TEST_CASE("Sampler: numbers lie in [0, 1), and pairs and triples are the next two and three", "[render][sampler]") {
+TEST_CASE("Sampler: numbers lie between 0 and 1, 1 left out, and pairs and triples are the next two and three",
+          "[render][sampler]") {
     holds([](std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample) {
         const std::vector<double> plain = numbers(seed, pixel, sample);
         for (const double x : plain) RC_ASSERT(x >= 0 && x < 1);

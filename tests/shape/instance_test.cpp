@@ -147,7 +147,7 @@ TEST_CASE("Instance: elements, u, v and texture coordinates are the object's own
     CHECK((a->uv && b->uv && *a->uv == *b->uv));
 }
 
-TEST_CASE("Instance: shading normals go by the inverse transpose as well, and are unit; none stays none",
+TEST_CASE("Instance: shading normals go by the inverse transpose as well, and are unit, and none stays none",
           "[shape][instance]") {
     MeshData data = test::icosphere(1);
     for (const Float3& p : data.vertices) data.normals.push_back({p.x, 2 * p.y, p.z});

@@ -48,7 +48,8 @@ TEST_CASE("Mesh: where the normals cancel, or there are none, the shading is fla
     CHECK(hit_inside(data).shading_normal == Normal3{0, 0, 1});
 }
 
-TEST_CASE("Mesh: texture coordinates are weighted as the vertices are; without any they are u and v", "[shape][mesh]") {
+TEST_CASE("Mesh: texture coordinates are weighted as the vertices are, and without any they are u and v",
+          "[shape][mesh]") {
     MeshData data = right_triangle();
     CHECK(*hit_inside(data).uv == Uv{0.25, 0.5});
     data.uvs = {{4, 400}, {8, 800}, {16, 1600}};
