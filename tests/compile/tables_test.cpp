@@ -111,7 +111,7 @@ TEST_CASE("locate: each number leads to its range, element and instances, outerm
     CHECK(scene.primitives == 1 + (1 + 2 * 15) + 15 + 1);
     CHECK((kind(0) == PrimitiveKind::quad && at(0).depth == 0 && at(0).element == 0));
     CHECK((kind(1) == PrimitiveKind::sphere && at(1).depth == 1));
-    for (const std::uint64_t first : {2, 17}) {  // the two inner copies
+    for (const std::uint64_t first : {2u, 17u}) {  // the two inner copies
         CHECK((kind(first) == PrimitiveKind::quad && at(first).element == 0));
         for (std::uint64_t i = 0; i < 12; ++i)
             CHECK((kind(first + 1 + i) == PrimitiveKind::mesh && at(first + 1 + i).element == i));
@@ -269,7 +269,7 @@ TEST_CASE("CompiledScene: of shapes in a row only the first on the way is asked"
     const CompiledScene compiled = compile(zoo_of("row", objects).scene);
     const Bvh bvh(objects);
     for (const double way : {1.0, -1.0})
-        for (const std::size_t from : {0, 20, 63}) {
+        for (const std::size_t from : {0u, 20u, 63u}) {
             const Ray ray{.origin = {2.0 * static_cast<double>(from) - way, 0, 0}, .direction = {way, 0, 0}};
             const auto asked_by = [&](const auto& query) {
                 for (const auto& shape : row) shape->asked = 0;

@@ -54,7 +54,7 @@ TEST_CASE("Damaged images: a PNG with any byte changed is refused", "[io][image]
     for (int i = 0; i < flips(); ++i) {
         std::string bytes = whole;
         const std::size_t place = generator() % whole.size();
-        bytes[place] = static_cast<char>(bytes[place] ^ (1 + generator() % 255));
+        bytes[place] = static_cast<char>(static_cast<unsigned char>(bytes[place]) ^ (1 + generator() % 255));
         CAPTURE(place);
         CHECK_FALSE(load_from_file(bytes).image);
         CHECK_FALSE(load_from_memory(bytes).image);
