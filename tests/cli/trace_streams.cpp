@@ -106,7 +106,7 @@ TEST_CASE("limn trace: binary input that ends within a ray ends with status 1 af
           "[cli][trace]") {
     const Triangle t;
     const std::string ray = to_binary({1, 2, 3, 0, 0, -2, 0, kInfinity});
-    for (const std::size_t extra : {1, 8, 63}) {
+    for (const std::size_t extra : {1u, 8u, 63u}) {
         const Outcome outcome = limn_reads(ray + ray + ray.substr(0, extra), {"trace", t.model, "--binary"});
         CHECK(outcome.status == 1);
         CHECK(outcome.out == to_binary({1.5, 0, 0.25, 0.5, 1.5, 0, 0.25, 0.5}));
