@@ -40,7 +40,6 @@ private:
     void take();
     void take_lines();
     void take_binary();
-    void refuse_line(const std::string& problem);
     std::string_view waiting() const { return {&buffer_[begin_], end_ - begin_}; }
 
     std::string name_;
