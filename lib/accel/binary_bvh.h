@@ -33,13 +33,11 @@ inline constexpr int kMaxDepth = 96;
 // 2007).
 BinaryBvh build_binary_bvh(std::span<const Box> boxes);
 
-// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first. `visit` returns the t beyond
-// which the rest does not matter.
+// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first, up to t_max. `visit` returns the
+// t beyond which the rest does not matter.
 template <class Visit>
-void for_each_met(const BinaryBvh& bvh, const Ray& ray, const Visit& visit) {
+void for_each_met(const BinaryBvh& bvh, const SlabRay& slab, double t_max, const Visit& visit) {
     if (bvh.nodes.empty()) return;
-    const SlabRay slab(ray, bvh.extent);
-    double t_max = ray.t_max;
     struct Entry {
         std::uint32_t node;
         double near;

@@ -17,7 +17,7 @@ namespace limn::accel {
 // much of the largest coordinate, in units of t; and since the edges of primitives are decided by numbers rounded
 // likewise, boxes count as larger by as much, in units of length. That is 2^9 times what moved origin, difference,
 // reciprocal and product lose together in a slab: at most 4 * 2^-53 of (|origin| + extent) * inverse. It only costs a
-// visit now and then.
+// visit now and then. A ray inside an instance counts as wider by what its own numbers lost.
 inline constexpr double kSlack = 0x1p-42;
 
 struct SlabRay {
@@ -26,27 +26,40 @@ struct SlabRay {
     bool negative[3];
     double slack;
     double t_min;
+    double scale = 1;  // of t: a power of two that keeps `inverse` in range
 
-    // `extent`: the largest finite coordinate of the boxes to come.
-    SlabRay(const Ray& ray, double extent)
-        : slack(kSlack * (max_abs(ray.origin) + extent) / max_abs(ray.direction)), t_min(ray.t_min - slack) {
-        const double wider = kSlack * (max_abs(ray.origin) + extent);
+    // `extent`: the largest finite coordinate of the boxes to come. The ray may be the rounded image of another: its
+    // origin off by origin_error along each axis, its direction by direction_error.
+    SlabRay(const Ray& ray, double extent, double origin_error = 0, double direction_error = 0) {
+        Vec3 direction = ray.direction;
+        double length = max_abs(direction);
+        if (length < 0x1p-900) {
+            scale = 0x1p-900;
+            direction = 0x1p900 * direction;
+            direction_error *= 0x1p900;
+            length *= 0x1p900;
+        }
+        const double reach = max_abs(ray.origin) + extent;
+        const double wider = kSlack * reach + 2 * (origin_error + direction_error / length * reach) + 0x1p-1000;
+        slack = wider / length;
+        t_min = ray.t_min * scale - slack;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double step = std::signbit(ray.direction[a]) ? -wider : wider;
-            origin_near[a] = ray.origin[a] + step;
-            origin_far[a] = ray.origin[a] - step;
-            inverse[a] = 1 / ray.direction[a];
-            negative[a] = std::signbit(ray.direction[a]);
+            // A direction that hardly moves along an axis stays within what `wider` allows.
+            const double along = std::abs(direction[a]) < 0x1p-1000 ? std::copysign(0.0, direction[a]) : direction[a];
+            negative[a] = std::signbit(along);
+            origin_near[a] = ray.origin[a] + (negative[a] ? -wider : wider);
+            origin_far[a] = ray.origin[a] - (negative[a] ? -wider : wider);
+            inverse[a] = 1 / along;
         }
     }
 
     // Whether a box entered at `near` cannot hold a hit up to t_max.
-    bool is_beyond(double near, double t_max) const { return near > t_max + slack; }
+    bool is_beyond(double near, double t_max) const { return near > t_max * scale + slack; }
 
-    // The box from lower to upper, in float or double; `near` gets where the ray enters it, or t_min.
+    // The box from lower to upper, in float or double; `near` gets where the ray enters it, or t_min, in t times scale.
     template <class Real>
     bool meets(const Real* lower, const Real* upper, double t_max, double& near) const {
-        double enter = t_min, leave = t_max + slack;
+        double enter = t_min, leave = t_max * scale + slack;
         for (std::size_t a = 0; a < 3; ++a) {
             const double to_near =
                 (static_cast<double>(negative[a] ? upper[a] : lower[a]) - origin_near[a]) * inverse[a];

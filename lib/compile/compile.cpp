@@ -31,7 +31,9 @@ void split_spheres(const std::vector<SphereRecord>& spheres, std::vector<Primiti
 
 flat::Instance pack(const InstanceRecord& record) {
     flat::Instance instance{record.world_from_object0, record.world_from_object1, {}, record.group, record.moving};
-    if (!record.moving) instance.object_from_world = inverse(record.world_from_object0);
+    if (record.moving) return instance;  // inverted anew for each ray
+    instance.object_from_world = inverse(record.world_from_object0);
+    instance.lost = inverse_error(record.world_from_object0);
     return instance;
 }
 

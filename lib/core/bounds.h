@@ -11,10 +11,23 @@
 
 namespace limn {
 
+// a - b rounded up, a + b rounded down. The error of a sum is exact in double: Knuth, The Art of Computer Programming,
+// vol. 2, section 4.2.2, theorem B.
+inline double difference_up(double a, double b) {
+    const double difference = a - b, b_seen = a - difference, a_seen = difference + b_seen;
+    const double error = (a - a_seen) + (b_seen - b);
+    return error > 0 ? std::nextafter(difference, kInfinity) : difference;
+}
+inline double difference_down(double a, double b) { return -difference_up(b, a); }
+
 inline Box sphere_bounds(const Point3& center0, const Point3& center1, double radius) {
     const double r = std::abs(radius);
     Box box;
-    for (const Point3& c : {center0, center1}) box.extend(Box{c - Vec3{r, r, r}, c + Vec3{r, r, r}});
+    for (const Point3& c : {center0, center1})
+        for (std::size_t a = 0; a < 3; ++a) {
+            box.lower[a] = std::min(box.lower[a], difference_down(c[a], r));
+            box.upper[a] = std::max(box.upper[a], difference_up(c[a], -r));
+        }
     // A moving centre is rounded on its way; a still one is where it is.
     const double rounding = center0 == center1 ? 0 : gamma(4) * std::max(max_abs(center0), max_abs(center1));
     return grow(box, along_every_axis(rounding));

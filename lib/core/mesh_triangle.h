@@ -3,11 +3,15 @@
 
 #include <span>
 
-#include "core/intersect_triangle.h"
+#include "core/plane_normal.h"
+#include "core/sheared_ray.h"
 #include "limn/core/box.h"
 #include "limn/core/mesh_view.h"
 
 namespace limn {
+
+inline Point3 to_point(const Float3& p) { return {p.x, p.y, p.z}; }
+inline Vec3 to_vec(const Float3& v) { return {v.x, v.y, v.z}; }
 
 struct TriangleVertices {
     Point3 a, b, c;
@@ -18,9 +22,8 @@ inline TriangleVertices triangle_vertices(const MeshView& mesh, std::size_t i) {
     return {to_point(mesh.vertices[t.a]), to_point(mesh.vertices[t.b]), to_point(mesh.vertices[t.c])};
 }
 
-// Exactly no area. Differences of float32 are exact in double unless their magnitudes are far apart, and then the
-// area is not zero; their products, 1e-90 at least, neither underflow nor overflow.
-inline bool is_degenerate(const TriangleVertices& v) { return cross(v.b - v.a, v.c - v.a) == Vec3{}; }
+// Exactly no area.
+inline bool is_degenerate(const TriangleVertices& v) { return are_collinear(v.a, v.b, v.c); }
 
 inline Box triangle_bounds(const TriangleVertices& v) {
     Box box;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ray_frame.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
 #include "limn/core/math.h"
@@ -56,6 +57,7 @@ struct Instance {
     Transform object_from_world;  // of a still one
     GroupId group = GroupId::root;
     bool moving = false;
+    InverseError lost{};  // by object_from_world
 };
 
 // Primitives under one tree. Numbers count from 0 in each group.

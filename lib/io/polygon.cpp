@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/intersect_triangle.h"
+#include "core/mesh_triangle.h"
 
 namespace limn {
 

@@ -4,9 +4,10 @@
 
 #include "accel/binary_bvh.h"
 #include "accel/slab.h"
+#include "core/intersect_quad.h"
 #include "core/intersect_sphere.h"
+#include "core/intersect_triangle.h"
 #include "core/mesh_triangle.h"
-#include "core/object_ray.h"
 #include "core/sphere_uv.h"
 
 namespace limn::kernels {
@@ -51,13 +52,16 @@ struct Every {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, std::uint64_t first_number,
+    // `frame` and `query` are kept by reference.
+    Traversal(const flat::Scene& scene, const flat::Group& group, const RayFrame& frame, std::uint64_t first_number,
               Query& query)
         : scene_(scene),
           group_(group),
-          ray_(ray),
-          slab_(ray, group.extent),
-          sheared_(ray),
+          frame_(frame),
+          ray_(frame.ray),
+          slab_(frame.ray, group.extent, frame.origin_error, frame.direction_error),
+          sheared_(frame),
+          sphere_ray_(frame),
           first_number_(first_number),
           query_(query) {}
 
@@ -128,16 +132,17 @@ private:
                 if constexpr (has(PrimitiveKind::quad)) {
                     const flat::Quad& q = scene_.quads[row];
                     PlanarHit hit;
-                    return intersect_quad(q.corner, q.edge_u, q.edge_v, sheared_, ray_.t_min, query_.limit(), hit) &&
+                    return intersect_quad(q.corner, q.edge_u, q.edge_v, sheared_, search(), hit) &&
                            query_.report(hit.t, number, inward(cross(q.edge_u, q.edge_v)));
                 }
                 break;
             case PrimitiveKind::instance:
                 if constexpr (has(PrimitiveKind::instance)) {
                     const flat::Instance& instance = scene_.instances[range.first_row];
-                    const Ray local = enter_instance(instance, ray_);
                     const flat::Group& group = flat::group_at(scene_, instance.group);
-                    return is_usable(local) && Traversal(scene_, group, local, number, query_).run();
+                    return inside(instance, frame_, [&](const RayFrame& frame) {
+                        return is_usable(frame.ray) && Traversal(scene_, group, frame, number, query_).run();
+                    });
                 }
                 break;
             case PrimitiveKind::foreign:
@@ -150,27 +155,33 @@ private:
 
     bool inward(const Vec3& outward) const { return Query::kEveryHit && dot(outward, ray_.direction) < 0; }
 
+    Search search() const { return {ray_.t_min, query_.limit()}; }
+
     bool sphere(const Point3& center, double radius, std::uint64_t number) {
         if constexpr (Query::kEveryHit) {
-            const SphereRoots roots = sphere_roots(center, std::abs(radius), ray_);
-            const auto report = [&](double t, bool enters) {
-                return t > ray_.t_min && t <= query_.limit() && query_.report(t, number, enters == (radius > 0));
-            };
-            return roots.any && (report(roots.near, true) || report(roots.far, false));
+            const SphereHits hits = intersect_sphere(center, std::abs(radius), sphere_ray_, search(), true);
+            return (hits.near_found && query_.report(hits.near, number, radius > 0)) ||
+                   (hits.far_found && query_.report(hits.far, number, radius < 0));
         } else {
             double t = 0;
-            return intersect_sphere(center, std::abs(radius), ray_, query_.limit(), t) &&
+            return intersect_sphere(center, std::abs(radius), sphere_ray_, search(), t) &&
                    query_.report(t, number, false);
         }
     }
 
     bool triangle(const Point3& a, const Point3& b, const Point3& c, std::uint64_t number) {
         PlanarHit hit;
-        return intersect_triangle(a, b, c, sheared_, ray_.t_min, query_.limit(), hit) &&
+        return intersect_triangle(a, b, c, sheared_, search(), hit) &&
                query_.report(hit.t, number, Query::kEveryHit && inward(cross(b - a, c - a)));
     }
 
     bool foreign(const flat::Foreign& shape, std::uint64_t number) {
+        if (frame_.outer == nullptr) return foreign_here(shape, number);
+        const FrameScope scope(frame_);  // it may consist of limn's own shapes
+        return foreign_here(shape, number);
+    }
+
+    bool foreign_here(const flat::Foreign& shape, std::uint64_t number) {
         Ray rest = ray_;
         rest.t_max = query_.limit();
         ForeignHit hit;
@@ -186,9 +197,11 @@ private:
 
     const flat::Scene& scene_;
     const flat::Group& group_;
-    const Ray ray_;
+    const RayFrame& frame_;
+    const Ray& ray_;
     const accel::SlabRay slab_;
     const ShearedRay sheared_;
+    const SphereRay sphere_ray_;
     const std::uint64_t first_number_;
     Query& query_;
 };
@@ -206,10 +219,10 @@ constexpr unsigned kStill =
 constexpr unsigned kAll = ~0u;
 
 template <class Query>
-void search(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t first_number, Query& query) {
+void search(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first_number, Query& query) {
     const flat::Group& group = flat::group_at(scene, id);
     const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) {
-        Traversal<kKinds, Query>(scene, group, ray, first_number, query).run();
+        Traversal<kKinds, Query>(scene, group, frame, first_number, query).run();
     };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
@@ -218,17 +231,23 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t 
     run(std::integral_constant<unsigned, kAll>{});
 }
 
-flat::RawHit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, std::uint64_t first_number) {
-    Closest query{{ray.t_max, flat::RawHit::kMiss}};
-    search(scene, id, ray, first_number, query);
+flat::RawHit nearest(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first_number) {
+    Closest query{{frame.ray.t_max, flat::RawHit::kMiss}};
+    search(scene, id, frame, first_number, query);
     return query.best.primitive == flat::RawHit::kMiss ? flat::RawHit{} : query.best;
 }
 
-// The ray as a medium's boundary sees it.
-Ray enter_medium(const flat::Scene& scene, const flat::Medium& medium, Ray ray) {
-    for (std::uint32_t i = 0; i < medium.instance_count; ++i)
-        ray = enter_instance(scene.instances[scene.medium_instances[medium.first_instance + i]], ray);
-    return ray;
+// visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
+// hit.
+template <class Visit>
+void inside_medium(const flat::Scene& scene, const flat::Medium& medium, const RayFrame& frame, const Visit& visit,
+                   std::uint32_t level = 0) {
+    if (level < medium.instance_count) {
+        const std::uint32_t instance = scene.medium_instances[medium.first_instance + level];
+        return inside(scene.instances[instance], frame,
+                      [&](const RayFrame& inner) { inside_medium(scene, medium, inner, visit, level + 1); });
+    }
+    if (is_usable(frame.ray)) visit(frame);
 }
 
 GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
@@ -242,40 +261,38 @@ bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
 
 }  // namespace
 
-Ray enter_instance(const flat::Instance& instance, const Ray& ray) {
-    if (!instance.moving) return to_object_ray(instance.world_from_object0, instance.object_from_world, ray);
-    const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, ray.time);
-    return to_object_ray(m, inverse(m), ray);
+flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray) {
+    return nearest(scene, GroupId::root, RayFrame(ray), 0);
 }
-
-flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, ray, 0); }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any<false> query{ray.t_max};
-    search(scene, GroupId::root, ray, 0, query);
+    search(scene, GroupId::root, RayFrame(ray), 0, query);
     return query.found;
 }
 
 bool is_occluded(const flat::Scene& scene, const Ray& ray) {
     Any<true> query{ray.t_max};
-    search(scene, GroupId::root, ray, 0, query);
+    search(scene, GroupId::root, RayFrame(ray), 0, query);
     return query.found;
 }
 
 flat::RawHit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray) {
-    if (!meets_bounds(medium, ray)) return {};
-    const Ray local = enter_medium(scene, medium, ray);
-    if (!is_usable(local)) return {};
-    return nearest(scene, boundary_of(scene, medium), local, medium.first_number);
+    flat::RawHit hit;
+    if (!meets_bounds(medium, ray)) return hit;
+    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+        hit = nearest(scene, boundary_of(scene, medium), frame, medium.first_number);
+    });
+    return hit;
 }
 
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     out.clear();
     if (!meets_bounds(medium, ray)) return;
-    const Ray local = enter_medium(scene, medium, ray);
-    if (!is_usable(local)) return;
-    Every query{ray.t_max, out};
-    search(scene, boundary_of(scene, medium), local, medium.first_number, query);
+    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+        Every query{ray.t_max, out};
+        search(scene, boundary_of(scene, medium), frame, medium.first_number, query);
+    });
 }
 
 }  // namespace limn::kernels

@@ -1,5 +1,5 @@
-// Rays against the compiled scene. Scalar so far: each function has one definition of a hit, shared with the described
-// shapes through lib/core/intersect_*.h.
+// Rays against the compiled scene, exactly. Scalar so far: each function has one definition of a hit, shared with the
+// described shapes through lib/core/intersect_*.h.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,13 @@ struct Crossing {
 // Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
-// The ray as an instance's group sees it.
-Ray enter_instance(const flat::Instance& instance, const Ray& ray);
+// visit(frame) with the ray as an instance's group sees it, and the answer of that.
+template <class Visit>
+auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
+    if (!instance.moving)
+        return visit(RayFrame(outside, instance.world_from_object0, instance.object_from_world, instance.lost));
+    const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.ray.time);
+    return visit(RayFrame(outside, m));
+}
 
 }  // namespace limn::kernels

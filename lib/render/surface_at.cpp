@@ -1,7 +1,10 @@
 #include "render/surface_at.h"
 
 #include "core/hit_error.h"
+#include "core/intersect_quad.h"
+#include "core/intersect_triangle.h"
 #include "core/mesh_triangle.h"
+#include "core/plane_normal.h"
 #include "core/sphere_uv.h"
 #include "kernels/traverse.h"
 
@@ -30,32 +33,43 @@ LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t
     return hit;
 }
 
-LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const PlanarHit& planar) {
+constexpr Search kAnywhere{-kInfinity, kInfinity};
+
+LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Normal3& normal,
+                  const PlanarHit& planar) {
     LocalHit hit;
     hit.position = corner + (planar.u * edge_u + planar.v * edge_v);
     hit.position_error = planar_error(corner, edge_u, edge_v);
-    hit.normal = hit.shading_normal = Normal3(unit_cross(edge_u, edge_v));
+    hit.normal = hit.shading_normal = normal;
     hit.u = planar.u, hit.v = planar.v;
     hit.uv = {planar.u, planar.v};
     return hit;
 }
 
-LocalHit on_triangle(const TriangleVertices& v, const Ray& ray, PlanarHit& planar) {
+LocalHit on_triangle(const TriangleVertices& v, const RayFrame& frame, PlanarHit& planar) {
     planar = {};
-    intersect_triangle(v.a, v.b, v.c, ShearedRay(ray), -kInfinity, kInfinity, planar);
-    return on_plane(v.a, v.b - v.a, v.c - v.a, planar);
+    intersect_triangle(v.a, v.b, v.c, ShearedRay(frame), kAnywhere, planar);
+    return on_plane(v.a, v.b - v.a, v.c - v.a, triangle_normal(v.a, v.b, v.c), planar);
 }
 
-LocalHit on_mesh(const flat::Mesh& mesh, std::uint64_t element, const Ray& ray) {
+LocalHit on_quad(const flat::Quad& q, const RayFrame& frame) {
+    PlanarHit planar{};
+    intersect_quad(q.corner, q.edge_u, q.edge_v, ShearedRay(frame), kAnywhere, planar);
+    return on_plane(q.corner, q.edge_u, q.edge_v, quad_normal(q.edge_u, q.edge_v), planar);
+}
+
+LocalHit on_mesh(const flat::Mesh& mesh, std::uint64_t element, const RayFrame& frame) {
     PlanarHit planar;
-    LocalHit hit = on_triangle(triangle_vertices(mesh.arrays, element), ray, planar);
+    LocalHit hit = on_triangle(triangle_vertices(mesh.arrays, element), frame, planar);
     hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
     hit.uv = texture_coordinates(mesh.arrays, element, planar);
     return hit;
 }
 
-LocalHit on_foreign(const flat::Foreign& shape, Ray ray, double t) {
+LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
+    const FrameScope scope(frame);
+    Ray ray = frame.ray;
     ray.t_max = t;
     ForeignHit foreign;
     LocalHit hit;
@@ -71,7 +85,9 @@ LocalHit on_foreign(const flat::Foreign& shape, Ray ray, double t) {
     return hit;
 }
 
-LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, double t, bool with_uv) {
+LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const RayFrame& frame, double t,
+                      bool with_uv) {
+    const Ray& ray = frame.ray;
     const PrimitiveRange& range = scene.ranges[place.range];
     const std::size_t row = range.first_row + place.element;
     switch (range.kind) {
@@ -86,16 +102,11 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
         case PrimitiveKind::triangle: {
             const flat::Triangle& triangle = scene.triangles[row];
             PlanarHit planar;
-            return on_triangle({triangle.a, triangle.b, triangle.c}, ray, planar);
+            return on_triangle({triangle.a, triangle.b, triangle.c}, frame, planar);
         }
-        case PrimitiveKind::quad: {
-            const flat::Quad& q = scene.quads[row];
-            PlanarHit planar{};
-            intersect_quad(q.corner, q.edge_u, q.edge_v, ShearedRay(ray), -kInfinity, kInfinity, planar);
-            return on_plane(q.corner, q.edge_u, q.edge_v, planar);
-        }
-        case PrimitiveKind::mesh: return on_mesh(scene.meshes[range.first_row], place.element, ray);
-        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], ray, t);
+        case PrimitiveKind::quad: return on_quad(scene.quads[row], frame);
+        case PrimitiveKind::mesh: return on_mesh(scene.meshes[range.first_row], place.element, frame);
+        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], frame, t);
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
     }
@@ -115,20 +126,31 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
     hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
 }
 
+// Below `level` of the instances around it; `front`: whether the ray meets the outward side.
+LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
+                double t, bool with_uv, bool& front) {
+    if (level == place.depth) {
+        const LocalHit hit = on_primitive(scene, place, frame, t, with_uv);
+        front = dot(hit.normal, frame.ray.direction) < 0;  // here, where no transform has rounded
+        return hit;
+    }
+    const flat::Instance& instance = scene.instances[place.instances[level]];
+    LocalHit hit = kernels::inside(instance, frame, [&](const RayFrame& inner) {
+        return hit_at(scene, place, level + 1, inner, t, with_uv, front);
+    });
+    leave_instance(instance, frame.ray.time, hit);
+    return hit;
+}
+
 }  // namespace
 
 SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw, bool with_uv) {
     const flat::Place place = flat::locate(scene, raw.primitive);
-    Ray local = ray;
-    for (std::uint32_t i = 0; i < place.depth; ++i)
-        local = kernels::enter_instance(scene.instances[place.instances[i]], local);
-    LocalHit hit = on_primitive(scene, place, local, raw.t, with_uv);
+    bool front = true;
+    LocalHit hit = hit_at(scene, place, 0, RayFrame(ray), raw.t, with_uv, front);
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind != PrimitiveKind::foreign)
         hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));
-    // Decided in the primitive's own space, where no transform has rounded.
-    const bool front = dot(hit.normal, local.direction) < 0;
-    for (std::uint32_t i = place.depth; i-- > 0;) leave_instance(scene.instances[place.instances[i]], ray.time, hit);
 
     SurfaceHit out;
     out.u = hit.u, out.v = hit.v;

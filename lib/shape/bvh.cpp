@@ -1,6 +1,7 @@
 #include "limn/shape/bvh.h"
 
 #include "accel/binary_bvh.h"
+#include "core/ray_frame.h"
 #include "limn/shape/hittable_list.h"
 #include "shape/arguments.h"
 
@@ -28,9 +29,11 @@ Box Bvh::bounds() const { return tree_->bvh.bounds(); }
 
 std::optional<Hit> Bvh::hit(const Ray& ray) const {
     if (!is_usable(ray)) return std::nullopt;
+    const RayFrame frame = frame_of(ray);
+    const accel::SlabRay slab(ray, tree_->bvh.extent, frame.origin_error, frame.direction_error);
     std::optional<Hit> nearest;
     Ray rest = ray;
-    accel::for_each_met(tree_->bvh, ray, [&](std::uint32_t i) {
+    accel::for_each_met(tree_->bvh, slab, ray.t_max, [&](std::uint32_t i) {
         std::optional<Hit> hit = objects_[i]->hit(rest);
         if (hit) {
             hit->element += first_element_[i];

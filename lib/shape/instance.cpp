@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/bounds.h"
-#include "core/object_ray.h"
+#include "core/ray_frame.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -64,7 +64,9 @@ std::optional<Hit> Instance::hit(const Ray& ray) const {
     if (!is_usable(ray)) return std::nullopt;
     const Transform m = moving_ ? interpolate(world_from_object0_, world_from_object1_, ray.time) : world_from_object0_;
     const Transform inv = inverse(m);
-    std::optional<Hit> hit = object_->hit(to_object_ray(m, inv, ray));
+    const RayFrame outside = frame_of(ray), inside(outside, m, inv, inverse_error(m));
+    const FrameScope scope(inside);
+    std::optional<Hit> hit = object_->hit(inside.ray);
     if (!hit) return std::nullopt;
     const auto to_world = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
     hit->normal = to_world(hit->normal);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/hit_error.h"
+#include "core/intersect_triangle.h"
 #include "core/mesh_triangle.h"
 #include "shape/arguments.h"
 
@@ -77,12 +78,13 @@ std::uint32_t Mesh::face(std::uint64_t element) const {
 std::optional<Hit> Mesh::hit(const Ray& ray) const {
     if (!is_usable(ray)) return std::nullopt;
     const MeshView mesh = view_of(*data_);
-    const ShearedRay sheared(ray);
+    const RayFrame frame = frame_of(ray);
+    const ShearedRay sheared(frame);
     PlanarHit nearest{ray.t_max, 0, 0}, hit;
     std::size_t element = data_->triangles.size();
     for (std::size_t i = 0; i < data_->triangles.size(); ++i) {
         const TriangleVertices v = triangle_vertices(mesh, i);
-        if (!intersect_triangle(v.a, v.b, v.c, sheared, ray.t_min, nearest.t, hit) || is_degenerate(v)) continue;
+        if (!intersect_triangle(v.a, v.b, v.c, sheared, {ray.t_min, nearest.t}, hit)) continue;
         if (hit.t == nearest.t && element != data_->triangles.size()) continue;
         nearest = hit;
         element = i;

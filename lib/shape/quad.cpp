@@ -1,7 +1,8 @@
 #include "limn/shape/quad.h"
 
 #include "core/bounds.h"
-#include "core/intersect_triangle.h"
+#include "core/intersect_quad.h"
+#include "core/plane_normal.h"
 #include "limn/shape/hittable_list.h"
 #include "shape/arguments.h"
 
@@ -12,18 +13,18 @@ Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::sh
     require_finite(corner, "Quad", "the corner");
     require_finite(edge_u, "Quad", "edge u");
     require_finite(edge_v, "Quad", "edge v");
-    if (!is_finite(unit_cross(edge_u, edge_v)))
-        throw ArgumentError("Quad: the edges must not be zero or parallel");
+    if (are_parallel(edge_u, edge_v)) throw ArgumentError("Quad: the edges must not be zero or parallel");
 }
 
 Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
 
 std::optional<Hit> Quad::hit(const Ray& ray) const {
+    if (!is_usable(ray)) return std::nullopt;
+    const RayFrame frame = frame_of(ray);
     PlanarHit hit;
-    if (!is_usable(ray) || !intersect_quad(corner_, edge_u_, edge_v_, ShearedRay(ray), ray.t_min, ray.t_max, hit))
-        return std::nullopt;
+    if (!intersect_quad(corner_, edge_u_, edge_v_, ShearedRay(frame), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,
-               .normal = Normal3(unit_cross(edge_u_, edge_v_)),
+               .normal = quad_normal(edge_u_, edge_v_),
                .u = hit.u,
                .v = hit.v,
                .material = material_.get(),
@@ -38,7 +39,8 @@ std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& oppos
     box.extend(corner);
     box.extend(opposite);
     const Point3 lo = box.lower, hi = box.upper;
-    const Vec3 d = box.diagonal();
+    Vec3 d;  // at least the exact difference, so that sides meet or overlap: no ray passes between them
+    for (std::size_t a = 0; a < 3; ++a) d[a] = difference_up(hi[a], lo[a]);
     if (!is_finite(d) || !(d.x > 0 && d.y > 0 && d.z > 0)) throw ArgumentError("make_box: the box must not be flat");
     const Vec3 dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
     auto sides = std::make_shared<HittableList>();

@@ -28,8 +28,9 @@ Box Sphere::bounds() const { return sphere_bounds(center0_, center1_, radius_); 
 std::optional<Hit> Sphere::hit(const Ray& ray) const {
     if (!is_usable(ray)) return std::nullopt;
     const Point3 c = center(ray.time);
+    const RayFrame frame = frame_of(ray);
     double t = 0;
-    if (!intersect_sphere(c, std::abs(radius_), ray, ray.t_max, t)) return std::nullopt;
+    if (!intersect_sphere(c, std::abs(radius_), SphereRay(frame), {ray.t_min, ray.t_max}, t)) return std::nullopt;
     const Vec3 outward = sphere_normal(c, ray, t);
     const Uv uv = sphere_uv(radius_ < 0 ? -outward : outward);
     return Hit{.t = t,

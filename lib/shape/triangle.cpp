@@ -2,6 +2,7 @@
 
 #include "core/hit_error.h"
 #include "core/intersect_triangle.h"
+#include "core/plane_normal.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -9,7 +10,7 @@ namespace limn {
 Triangle::Triangle(const Point3& a, const Point3& b, const Point3& c, std::shared_ptr<const Material> material)
     : a_(a), b_(b), c_(c), material_(std::move(material)) {
     for (const Point3& p : {a, b, c}) require_finite(p, "Triangle", "a vertex");
-    if (!is_finite(triangle_normal(a, b, c))) throw ArgumentError("Triangle: the area must not be zero");
+    if (are_collinear(a, b, c)) throw ArgumentError("Triangle: the area must not be zero");
 }
 
 Box Triangle::bounds() const {
@@ -19,9 +20,10 @@ Box Triangle::bounds() const {
 }
 
 std::optional<Hit> Triangle::hit(const Ray& ray) const {
+    if (!is_usable(ray)) return std::nullopt;
+    const RayFrame frame = frame_of(ray);
     PlanarHit hit;
-    if (!is_usable(ray) || !intersect_triangle(a_, b_, c_, ShearedRay(ray), ray.t_min, ray.t_max, hit))
-        return std::nullopt;
+    if (!intersect_triangle(a_, b_, c_, ShearedRay(frame), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,
                .normal = triangle_normal(a_, b_, c_),
                .u = hit.u,

@@ -104,7 +104,7 @@ TEST_CASE("BinaryBvh: a ray visits every box that it meets, and far fewer than a
     for (int r = 0; r < rays; ++r) {
         const Ray ray{{unit(random), unit(random), unit(random)}, {unit(random), unit(random), unit(random)}};
         std::set<std::uint32_t> visited;
-        accel::for_each_met(bvh, ray, [&](std::uint32_t id) {
+        accel::for_each_met(bvh, accel::SlabRay(ray, bvh.extent), ray.t_max, [&](std::uint32_t id) {
             visited.insert(id);
             return ray.t_max;
         });

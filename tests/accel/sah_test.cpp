@@ -172,7 +172,7 @@ TEST_CASE("for_each_met: nearer boxes are visited first, and none beyond what vi
             const Ray ray{.origin = {2.0 * from + 0.5 - way, 0.5, 0.5}, .direction = {way, 0, 0}};
             const int last = way > 0 ? 63 : 0;
             std::vector<std::uint32_t> visited;
-            accel::for_each_met(bvh, ray, [&](std::uint32_t id) {
+            accel::for_each_met(bvh, accel::SlabRay(ray, bvh.extent), ray.t_max, [&](std::uint32_t id) {
                 visited.push_back(id);
                 return kInfinity;
             });
@@ -181,10 +181,11 @@ TEST_CASE("for_each_met: nearer boxes are visited first, and none beyond what vi
                 expected.push_back(static_cast<std::uint32_t>(i));
             CHECK(visited == expected);
             std::size_t visits = 0;
-            accel::for_each_met(bvh, ray, [&](std::uint32_t) {  // the first box is hit at t = 0.5
-                ++visits;
-                return 0.5;
-            });
+            accel::for_each_met(bvh, accel::SlabRay(ray, bvh.extent), ray.t_max,
+                                [&](std::uint32_t) {  // the first box is hit at t = 0.5
+                                    ++visits;
+                                    return 0.5;
+                                });
             CHECK(visits == 1);
         }
     }

@@ -58,7 +58,8 @@ void compare(const Scene& scene, const CompiledScene& compiled, const Ray& ray, 
     // t is right to a float ulp, and a ray that grazes the surface fixes the point along itself only so well.
     const double magnitude = length(s.position - Point3{}) + std::abs(found->t) * length(ray.direction);
     const double grazing = std::abs(dot(s.normal, normalize(ray.direction)));
-    if (!(length(s.position - ray.at(found->t)) * grazing <= 0x1p-22 * magnitude)) return tally.fault(ray, "position");
+    const double apart = length(s.position - ray.at(found->t)) * grazing;
+    if (!(apart <= 0x1p-22 * magnitude + length(s.position_error))) return tally.fault(ray, "position");
 }
 
 void compare(const ZooScene& zoo, int rays, std::uint64_t seed, double least_hits = 0.05) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.h"
+#include "core/filter.h"
 #include "limn/material/lambertian.h"
 #include "limn/render/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
@@ -109,7 +110,7 @@ TEST_CASE("CompiledScene: 2^k times as large it is hit at 2^k times the t, to th
     });
 }
 
-TEST_CASE("CompiledScene: as a list, seen through the identity, it gives the same t and element, to the bit",
+TEST_CASE("CompiledScene: as a list, seen through the identity, it gives the same hits but for the rounding of t",
           "[compile][laws]") {
     holds([] {
         const std::vector<Case> cases = draw_cases();
@@ -121,7 +122,8 @@ TEST_CASE("CompiledScene: as a list, seen through the identity, it gives the sam
         for (const Case& from : cases) {
             const auto a = plain.closest_hit(from.ray), b = seen.closest_hit(from.ray);
             RC_ASSERT(a.has_value() == b.has_value());
-            RC_ASSERT((!a || (a->t == b->t && a->object == b->element && a->u == b->u && a->v == b->v)));
+            RC_ASSERT((!a || std::abs(a->t - b->t) <= kAccurate * std::abs(a->t)));
+            RC_ASSERT((!a || a->t != b->t || a->object == b->element));  // else of two at one place
             RC_ASSERT(seen.any_hit(from.ray) == b.has_value());
         }
     });

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "catch.h"
-#include "core/intersect_triangle.h"
+#include "core/mesh_triangle.h"
 #include "limn/core/math.h"
 
 using namespace limn;

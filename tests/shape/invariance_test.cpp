@@ -1,6 +1,7 @@
 // What a shape's hits may not depend on: where the scene stands, how large it is, how its axes are called, which way
 // the ray is walked. On numbers of few bits (support/grid.h) most of these laws hold to the bit.
 #include "catch.h"
+#include "core/filter.h"
 #include "limn/shape/instance.h"
 #include "property.h"
 #include "support/cases.h"
@@ -29,6 +30,13 @@ bool same_to_the_bit(const std::optional<Hit>& a, const std::optional<Hit>& b, d
     return !a || (a->t * t_factor == b->t && a->u == b->u && a->v == b->v && a->element == b->element);
 }
 
+// As far as t, u and v may be off: the filter's own answers and those of the exact stage differ so much at most.
+bool same_but_for_rounding(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+    if (a.has_value() != b.has_value()) return false;
+    return !a || (std::abs(a->t - b->t) <= kAccurate * std::abs(a->t) && std::abs(a->u - b->u) <= kAccurateWeight &&
+                  std::abs(a->v - b->v) <= kAccurateWeight && a->element == b->element);
+}
+
 bool nearly(const Vec3& a, const Vec3& b) { return length(a - b) <= gamma(16); }
 
 }  // namespace
@@ -44,9 +52,7 @@ TEST_CASE("Shapes: moved together, shape and ray meet as before, to the bit", "[
 
 TEST_CASE("Shapes: at 2^k times the size everything is hit at 2^k times the t, to the bit", "[shape][invariance]") {
     holds_for_hits([](const Case& c) {
-        // Vertices of a mesh are float32; a planar test multiplies three lengths, a sphere scales where two overflow.
-        const int largest = c.kind == Kind::mesh ? 100 : c.kind == Kind::sphere ? 480 : 300;
-        const double s = draw_power_of_two(-largest, largest);
+        const double s = draw_power_of_two(-100, 100);  // round values of t are those of float32
         const auto a = c.hit(), b = c.scaled(s).hit();
         RC_ASSERT(same_to_the_bit(a, b, s));
         if (a) RC_ASSERT(a->normal == b->normal);
@@ -57,7 +63,7 @@ TEST_CASE("Shapes: at 2^k times the size everything is hit at 2^k times the t, t
 
 TEST_CASE("Shapes: a direction 2^k times as long is hit at 2^-k times the t, to the bit", "[shape][invariance]") {
     holds_for_hits([](const Case& c) {
-        const double s = draw_power_of_two(-480, 480);
+        const double s = draw_power_of_two(-100, 100);
         Case longer = c;
         longer.ray.direction = s * c.ray.direction;
         const auto a = c.hit(), b = longer.hit();
@@ -199,14 +205,13 @@ TEST_CASE("Shapes: the box holds every hit but for its error bound, and touches 
     });
 }
 
-TEST_CASE(
-    "Shapes: seen through the identity, and through steps of 2^k and whole numbers, they are hit alike to the bit",
-    "[shape][invariance]") {
+TEST_CASE("Shapes: seen through the identity, and through steps of 2^k and whole numbers, they are hit alike",
+          "[shape][invariance]") {
     holds_for_hits([](const Case& c) {
         const auto shape = c.shape();
         const auto hit = shape->hit(c.ray);
         const auto unmoved = Instance(shape, Transform{}).hit(c.ray);
-        RC_ASSERT(same_to_the_bit(hit, unmoved));
+        RC_ASSERT(same_but_for_rounding(hit, unmoved));
         if (hit) RC_ASSERT(nearly(Vec3(hit->normal), Vec3(unmoved->normal)));
 
         const auto factor = [] { return (draw_int(0, 1) ? -1 : 1) * draw_power_of_two(-3, 3); };
@@ -217,7 +222,7 @@ TEST_CASE(
         ray.origin = transform_point(m, c.ray.origin);
         ray.direction = transform_vector(m, c.ray.direction);
         const auto seen = Instance(shape, m).hit(ray);
-        RC_ASSERT(same_to_the_bit(hit, seen));
+        RC_ASSERT(same_but_for_rounding(hit, seen));
         if (!hit) return false;
         const Vec3 n{hit->normal.x / x, hit->normal.y / y, hit->normal.z / z};
         RC_ASSERT(nearly(normalize(n), Vec3(seen->normal)));

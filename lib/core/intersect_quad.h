@@ -1,0 +1,49 @@
+// Ray against parallelogram, one definition for the described and the compiled world.
+#pragma once
+
+#include <algorithm>
+
+#include "core/settle.h"
+#include "core/sheared_ray.h"
+
+namespace limn {
+
+// The filter. Solves corner + u edge_u + v edge_v = origin in the sheared plane by Cramer's rule: u = wu / det, v = wv
+// / det. All three determinants are off by at most e (sheared_ray.h), det - w by 3 e with its own rounding. The border
+// belongs to the quad, a ray in its plane misses. A ray can only hit if |w| <= |det|, which tells rays along the plane
+// apart from those in it.
+//
+// u and v are off by at most 3 e / |det|; z changes by at most |edge_u.z| + |edge_v.z| over the quad.
+inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const ShearedRay& ray,
+                                const Search& search) {
+    const Vec3 to_corner = corner - ray.origin;
+    const Vec3 q = ray.shear(to_corner), eu = ray.shear(edge_u), ev = ray.shear(edge_v);
+    double det = eu.x * ev.y - eu.y * ev.x;
+    double wu = ev.x * q.y - ev.y * q.x;
+    double wv = q.x * eu.y - q.y * eu.x;
+    if (det < 0) det = -det, wu = -wu, wv = -wv;
+    const double reach = larger(
+        largest_magnitude(to_corner.x, to_corner.y, to_corner.z),
+        larger(largest_magnitude(edge_u.x, edge_u.y, edge_u.z), largest_magnitude(edge_v.x, edge_v.y, edge_v.z)));
+    const double across = larger(largest_magnitude(q.x, eu.x, ev.x), largest_magnitude(q.y, eu.y, ev.y));
+    const PlanarError error(ray, reach, across);
+    const double e = error.determinant;
+    if (larger(std::abs(wu), std::abs(wv)) > det + 3 * e) return {Decision::miss};
+    if (det > e && smaller(wu, wv) < -e) return {Decision::miss};
+    if (!(smaller(wu, wv) > e && det - larger(wu, wv) > 3 * e)) return {Decision::unsure};
+
+    const double u = std::min(wu / det, 1.0), v = std::min(wv / det, 1.0);
+    const double z = q.z + (u * eu.z + v * ev.z);
+    return planar_answer(ray, error, 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
+}
+
+// Exact: whether the closed parallelogram is hit, and t within the search. t, u, v as kAccurate says.
+inline bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const ShearedRay& ray,
+                           const Search& search, PlanarHit& hit) {
+    const PlanarAnswer answer = filter_quad(corner, edge_u, edge_v, ray, search);
+    hit = answer.hit;
+    if (answer.decision != Decision::unsure) return answer.decision == Decision::hit;
+    return settle_quad(corner, edge_u, edge_v, *ray.frame, search, hit);
+}
+
+}  // namespace limn

@@ -1,0 +1,31 @@
+// Unit normals of flat shapes, for thin and tiny ones too.
+#pragma once
+
+#include "core/settle.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+// Along cross(u, v), which loses 2^-50 of |u| |v| in double: good for edges that are not nearly parallel.
+inline bool normalize_cross(const Vec3& u, const Vec3& v, Normal3& normal) {
+    const Vec3 n = cross(u, v);
+    const double squared = dot(n, n);
+    if (!(squared > 1e-200 && squared < 1e200 && max_abs(n) > 0x1p-20 * (max_abs(u) * max_abs(v)))) return false;
+    normal = Normal3(n / std::sqrt(squared));
+    return true;
+}
+
+// \pre !are_parallel(edge_u, edge_v)
+inline Normal3 quad_normal(const Vec3& edge_u, const Vec3& edge_v) {
+    Normal3 normal;
+    return normalize_cross(edge_u, edge_v, normal) ? normal
+                                                   : exact_normal(Point3{}, Point3{} + edge_u, Point3{} + edge_v);
+}
+
+// (b - a) x (c - a). \pre !are_collinear(a, b, c)
+inline Normal3 triangle_normal(const Point3& a, const Point3& b, const Point3& c) {
+    Normal3 normal;
+    return normalize_cross(b - a, c - a, normal) ? normal : exact_normal(a, b, c);
+}
+
+}  // namespace limn

@@ -1,0 +1,96 @@
+#include "core/ray_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limn/core/math.h"
+
+namespace limn {
+
+namespace {
+
+thread_local const RayFrame* current_frame = nullptr;
+
+// Beside the rounding of products that underflow.
+constexpr double kTiny = 0x1p-1000;
+
+Vec3 from_translation(const Ray& ray, const Transform& m) { return (ray.origin - Point3{}) - m.translation(); }
+
+// The adjugate's rows are cross products of the matrix's columns.
+struct ExactInverse {
+    Dyadic3 rows[3];
+    Dyadic determinant;
+
+    explicit ExactInverse(const Transform& m) {
+        const auto column = [&](std::size_t j) { return Dyadic3{m.rows[0][j], m.rows[1][j], m.rows[2][j]}; };
+        const Dyadic3 a = column(0), b = column(1), c = column(2);
+        rows[0] = cross(b, c), rows[1] = cross(c, a), rows[2] = cross(a, b);
+        determinant = dot(a, rows[0]);
+        if (determinant.sign() > 0) return;
+        determinant = -determinant;
+        for (Dyadic3& row : rows) row = {-row.x, -row.y, -row.z};
+    }
+    Dyadic3 operator*(const Dyadic3& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+};
+
+}  // namespace
+
+InverseError inverse_error(const Transform& m) {
+    double largest = 0;
+    for (const auto& row : m.rows)
+        for (std::size_t j = 0; j < 3; ++j) largest = std::max(largest, std::abs(row[j]));
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const auto at = [&](std::size_t i, std::size_t j) { return std::ldexp(m.rows[i % 3][j % 3], -exponent); };
+    const auto cofactor_magnitude = [&](std::size_t i, std::size_t j) {
+        return std::abs(at(i + 1, j + 1) * at(i + 2, j + 2)) + std::abs(at(i + 1, j + 2) * at(i + 2, j + 1));
+    };
+    double det = 0, permanent = 0, row_sum = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+        det += at(0, j) * (at(1, j + 1) * at(2, j + 2) - at(1, j + 2) * at(2, j + 1));
+        permanent += std::abs(at(0, j)) * cofactor_magnitude(0, j);
+    }
+    for (std::size_t j = 0; j < 3; ++j)  // a row of the inverse belongs to a column of the matrix
+        row_sum = std::max(row_sum, cofactor_magnitude(0, j) + cofactor_magnitude(1, j) + cofactor_magnitude(2, j));
+    det = std::abs(det);
+    if (!(det > 32 * kRoundoff * permanent + kTiny)) return {kInfinity, kInfinity};
+    const double norm = std::ldexp(row_sum / det, -exponent) * (1 + 0x1p-20);
+    return {24 * kRoundoff * (permanent / det) * norm, norm};
+}
+
+RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
+                   const InverseError& lost)
+    : ray(outer_frame.ray), outer(&outer_frame), world_from_object(&matrix) {
+    // The translation is subtracted first, where it cancels best. The direction keeps its length, so that t means the
+    // same on both sides.
+    const Vec3 v = from_translation(ray, matrix);
+    const Vec3 d = ray.direction;
+    ray.origin = Point3{} + transform_vector(object_from_world, v);
+    ray.direction = transform_vector(object_from_world, d);
+    origin_error = lost.error * max_abs(v) + 1.25 * lost.norm * outer_frame.origin_error + kTiny;
+    direction_error = lost.error * max_abs(d) + 1.25 * lost.norm * outer_frame.direction_error + kTiny;
+}
+
+FrameScope::FrameScope(const RayFrame& frame) : previous_(current_frame) { current_frame = &frame; }
+FrameScope::~FrameScope() { current_frame = previous_; }
+
+RayFrame frame_of(const Ray& ray) {
+    if (current_frame != nullptr && current_frame->ray.origin == ray.origin &&
+        current_frame->ray.direction == ray.direction) {
+        RayFrame frame = *current_frame;
+        frame.ray = ray;
+        return frame;
+    }
+    return RayFrame(ray);
+}
+
+ExactRay exact_ray(const RayFrame& frame) {
+    if (frame.outer == nullptr) return {to_dyadic(frame.ray.origin), to_dyadic(frame.ray.direction), 1.0};
+    const ExactRay outside = exact_ray(*frame.outer);
+    const ExactInverse inverse(*frame.world_from_object);
+    const Dyadic3 translation = to_dyadic(frame.world_from_object->translation());
+    return {inverse * (outside.origin - outside.unit * translation), inverse * outside.direction,
+            inverse.determinant * outside.unit};
+}
+
+}  // namespace limn

@@ -1,0 +1,65 @@
+// The ray that a shape is asked about, and what it stands for: inside instances the numbers of a ray are rounded, and
+// decisions are to be those of the ray that the user gave.
+#pragma once
+
+#include "core/dyadic.h"
+#include "limn/core/ray.h"
+#include "limn/core/transform.h"
+
+namespace limn {
+
+// What inverting a matrix in double loses.
+struct InverseError {
+    double error;  // bound on the sum, over a row, of the errors of its entries, and of the product with a vector
+    double norm;   // bound on the sum of the magnitudes in a row
+};
+
+// The linear part of inverse(m), X = cofactors / determinant. A cofactor is off by 2 u K_ij, K_ij being the sum of its
+// two products' magnitudes, the determinant by 6 u P, P = sum |m_0j| K_0j. So X_ij is off by at most 16 u (P / |det|)
+// (K_ij / |det|), and |X_ij| <= K_ij / |det|; the product with a vector adds 4 u of that. Infinite where the
+// determinant is uncertain.
+InverseError inverse_error(const Transform& m);
+
+// A ray in the space of an instance's object, or (without `outer`) the ray itself.
+struct RayFrame {
+    Ray ray;                     // as the shapes there see it, rounded
+    double origin_error = 0;     // bound, along each axis, on the distance of ray.origin from the exact image
+    double direction_error = 0;  // the same for ray.direction
+    const RayFrame* outer = nullptr;
+    const Transform* world_from_object = nullptr;  // the instance between `outer` and here
+
+    RayFrame() = default;
+    explicit RayFrame(const Ray& r) : ray(r) {}
+
+    // The ray of `outer_frame` inside an instance. Both frame and matrix are kept by reference.
+    RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
+             const InverseError& lost);
+    RayFrame(const RayFrame& outer_frame, const Transform& matrix)
+        : RayFrame(outer_frame, matrix, inverse(matrix), inverse_error(matrix)) {}
+};
+
+// Makes `frame` known to shapes whose hit() is called from within an instance: an interface that passes only a Ray
+// cannot carry it. For the calling thread, until the scope ends.
+class FrameScope {
+public:
+    explicit FrameScope(const RayFrame& frame);
+    ~FrameScope();
+    FrameScope(const FrameScope&) = delete;
+    FrameScope& operator=(const FrameScope&) = delete;
+
+private:
+    const RayFrame* previous_;
+};
+
+// What `ray`, as handed to a hit(), stands for: the frame of the scope if that is its ray, else the ray itself. t_min
+// and t_max are those of `ray`.
+RayFrame frame_of(const Ray& ray);
+
+// A ray in homogeneous coordinates, exactly: origin / unit and direction / unit.
+struct ExactRay {
+    Dyadic3 origin, direction;
+    Dyadic unit;  // above 0
+};
+ExactRay exact_ray(const RayFrame& frame);
+
+}  // namespace limn

@@ -1,0 +1,101 @@
+#include "core/settle.h"
+
+#include <cmath>
+
+#include "core/dyadic.h"
+#include "core/sheared_ray.h"
+
+namespace limn {
+
+namespace {
+
+Dyadic3 from_origin(const Point3& p, const ExactRay& ray) { return ray.unit * to_dyadic(p) - ray.origin; }
+
+}  // namespace
+
+// The edge values are D.(B x C), D.(C x A), D.(A x B), all seen from the origin; their sum is D.n, and t n.D = n.A,
+// where n.A = A.(B x C).
+bool settle_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
+                     PlanarHit& hit) {
+    const ExactRay ray = exact_ray(frame);
+    const Dyadic3 from_a = from_origin(a, ray), from_b = from_origin(b, ray), from_c = from_origin(c, ray);
+    const Dyadic3 b_cross_c = cross(from_b, from_c);
+    const Dyadic wa = dot(ray.direction, b_cross_c);
+    const Dyadic wb = dot(ray.direction, cross(from_c, from_a));
+    if (wa.sign() * wb.sign() < 0) return false;
+    const Dyadic wc = dot(ray.direction, cross(from_a, from_b));
+    if (wa.sign() * wc.sign() < 0 || wb.sign() * wc.sign() < 0) return false;
+    const Dyadic sum = wa + wb + wc;
+    if (sum.sign() == 0) return false;
+    hit = {ratio(dot(from_a, b_cross_c), sum), ratio(wb, sum), ratio(wc, sum)};
+    return search.contains(hit.t);
+}
+
+// Q + u U + v V = t D. The scalar product with V x D leaves u, that with U x D leaves v, that with U x V leaves t.
+bool settle_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
+                 const Search& search, PlanarHit& hit) {
+    const ExactRay ray = exact_ray(frame);
+    const Dyadic3 q = from_origin(corner, ray);
+    const Dyadic3 u = ray.unit * to_dyadic(edge_u), v = ray.unit * to_dyadic(edge_v);
+    const Dyadic3 normal = cross(u, v);
+    const Dyadic det = dot(ray.direction, normal);
+    if (det.sign() == 0) return false;
+    const auto is_weight = [&](const Dyadic& w) {
+        return w.sign() * det.sign() >= 0 && (det - w).sign() * det.sign() >= 0;
+    };
+    const Dyadic wu = dot(q, cross(ray.direction, v)), wv = dot(q, cross(u, ray.direction));
+    if (!is_weight(wu) || !is_weight(wv)) return false;
+    hit = {ratio(dot(q, normal), det), ratio(wu, det), ratio(wv, det)};
+    return search.contains(hit.t);
+}
+
+// A t^2 + 2 B t + C = 0. The root that does not cancel is q / -A with q = B + sign(B) sqrt(B^2 - A C), the other C /
+// -q.
+SphereHits settle_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
+                         const Approximate* far, const Search& search) {
+    const ExactRay ray = exact_ray(frame);
+    const Dyadic3 p = ray.origin - ray.unit * to_dyadic(center);
+    const Dyadic r = ray.unit * Dyadic(radius);
+    const Dyadic a = dot(ray.direction, ray.direction), b = dot(p, ray.direction), c = dot(p, p) - r * r;
+    const Dyadic discriminant = b * b - a * c;
+    if (discriminant.sign() < 0) return {};
+
+    const Dyadic root = discriminant.square_root();
+    const Dyadic q = b.sign() < 0 ? b - root : b + root;
+    const double outer = ratio(-q, a);
+    const double inner = discriminant.sign() == 0 ? outer : ratio(-c, q);
+    SphereHits hits;
+    hits.near = near != nullptr && is_accurate(*near) ? near->value : b.sign() < 0 ? inner : outer;
+    hits.far = far != nullptr && is_accurate(*far) ? far->value : b.sign() < 0 ? outer : inner;
+    hits.near_found = search.contains(hits.near);
+    hits.far_found = search.contains(hits.far);
+    return hits;
+}
+
+namespace {
+
+Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
+    const Dyadic3 origin = to_dyadic(a);
+    return cross(to_dyadic(b) - origin, to_dyadic(c) - origin);
+}
+
+}  // namespace
+
+bool are_parallel(const Vec3& u, const Vec3& v) { return are_collinear(Point3{}, Point3{} + u, Point3{} + v); }
+
+bool are_collinear(const Point3& a, const Point3& b, const Point3& c) {
+    // Each coordinate of the product is off by at most 8 roundings of |u| |v|: 4 from u and v, 3 of its own.
+    const Vec3 u = b - a, v = c - a;
+    const double largest = max_abs(cross(u, v)), bound = 16 * kRoundoff * max_abs(u) * max_abs(v) + 0x1p-1000;
+    if (largest > bound && largest < kInfinity) return false;
+    const Dyadic3 exact = exact_cross(a, b, c);
+    return exact.x.sign() == 0 && exact.y.sign() == 0 && exact.z.sign() == 0;
+}
+
+Normal3 exact_normal(const Point3& a, const Point3& b, const Point3& c) {
+    const Dyadic3 n = exact_cross(a, b, c);
+    const Dyadic length = dot(n, n).square_root();
+    return {ratio(n.x, length), ratio(n.y, length), ratio(n.z, length)};
+}
+
+}  // namespace limn

@@ -1,0 +1,82 @@
+// A ray as triangles and quads see it.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/filter.h"
+#include "core/ray_frame.h"
+#include "limn/core/vec.h"
+
+namespace limn {
+
+// The axes are permuted so that the direction is largest along z; shearing maps it onto z, so that a triangle is hit
+// where the origin lies inside its projection (Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1),
+// 2013; here in double).
+//
+// Error of a sheared coordinate p = fl(A_x - fl(S A_z)), where A = fl(a - o) has no coordinate above M, |S| <= 1, u =
+// 2^-53, the origin is off by e and S by s: u M + e from A_x; (u + s) M + (u M + e) from S A_z; u M from that product;
+// 2 u M from the difference: (6 u + s) M + 2 e in all. Products of two such coordinates, no larger than P, and their
+// difference lose 2 u P^2 each; P <= 2 M. So with E = (8 u + s) M + 2 e every 2x2 determinant is off by at most 4 (P +
+// E) E. An edge vector, which is not a difference, loses less.
+struct ShearedRay {
+    std::size_t x, y, z;
+    double shear_x, shear_y;
+    double direction_z;
+    Point3 origin;
+    double relative, absolute;  // E = relative M + absolute
+    double direction_error;     // of direction_z, relative
+    const RayFrame* frame;      // kept by reference
+
+    explicit ShearedRay(const RayFrame& f) : origin(f.ray.origin), frame(&f) {
+        const Vec3& direction = f.ray.direction;
+        const Vec3 d = abs(direction);
+        z = d.x > d.y ? (d.x > d.z ? 0 : 2) : (d.y > d.z ? 1 : 2);
+        x = z == 2 ? 0 : z + 1;
+        y = x == 2 ? 0 : x + 1;
+        direction_z = direction[z];
+        shear_x = direction[x] / direction_z;
+        shear_y = direction[y] / direction_z;
+        // |d_x / d_z - (d_x + e) / (d_z + e')| <= 2 e / (|d_z| - e); 4 e / |d_z| as long as that is below 1/2.
+        direction_error = f.direction_error == 0 ? 0 : 4 * f.direction_error / std::abs(direction_z);
+        if (!(direction_error < 0.5)) direction_error = kInfinity;
+        relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
+        absolute = 2 * f.origin_error * (1 + 0x1p-30);
+    }
+    // z is left as it is: dividing by direction_z turns it into t.
+    Vec3 shear(const Vec3& v) const { return {v[x] - shear_x * v[z], v[y] - shear_y * v[z], v[z]}; }
+};
+
+struct PlanarHit {
+    double t, u, v;
+};
+
+// How far off what is computed from the sheared points of one shape may be. Infinite, so that nothing is decided, where
+// products of three coordinates could overflow, or underflow by more than the bound.
+struct PlanarError {
+    double coordinate;   // of a sheared coordinate: E
+    double determinant;  // of a 2x2 determinant
+
+    // reach: the largest coordinate before shearing; across: the largest x or y after it.
+    PlanarError(const ShearedRay& ray, double reach, double across)
+        : coordinate(ray.relative * reach + ray.absolute),
+          determinant(reach > 0x1p-300 && reach < 0x1p300 ? 4 * (across + coordinate) * coordinate + 0x1p-600
+                                                          : kInfinity) {}
+};
+
+// What a filter finds.
+struct PlanarAnswer {
+    Decision decision;
+    PlanarHit hit{};
+};
+
+// The hit at depth `z`, computed as a weighted mean by at most 8 operations; its weights are off by `weight_error`, u
+// and v among them. Over the shape z varies by `depth`.
+inline PlanarAnswer planar_answer(const ShearedRay& ray, const PlanarError& error, double weight_error, double depth,
+                                  double z, double u, double v, const Search& search) {
+    const double z_error = 2 * (weight_error * depth + error.coordinate) + ray.direction_error * std::abs(z);
+    const Approximate t{z / ray.direction_z, z_error / std::abs(ray.direction_z)};
+    return {in_search(t, search, !(weight_error <= kAccurateWeight)), {t.value, u, v}};
+}
+
+}  // namespace limn

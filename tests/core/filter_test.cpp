@@ -1,0 +1,156 @@
+// The filters against the exact stage: whatever a filter decides is so, and its numbers are as good as it says.
+#include "catch.h"
+#include "core/intersect_quad.h"
+#include "core/intersect_sphere.h"
+#include "core/intersect_triangle.h"
+#include "support/random_geometry.h"
+
+using namespace limn;
+using test::Random;
+
+namespace {
+
+constexpr int kRays = 40000;
+
+// A point of few bits, so that edges, vertices and planes are met exactly, or of all bits; near or far.
+Point3 some_point(Random& random) {
+    Point3 p = Point3{} + random.in_cube(4);
+    if (random.chance(0.5)) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
+    if (random.chance(0.1)) p = p + random.log_uniform(1, 1e6) * random.unit();
+    return p;
+}
+
+Ray ray_at(Random& random, const Point3& target) {
+    const Point3 origin = some_point(random);
+    Vec3 to = target - origin;
+    if (random.chance(0.8)) to = to + random.log_uniform(1e-18, 10) * random.in_cube();
+    if (to == Vec3{}) to = {0, 0, 1};
+    const double t_min = random.chance(0.2) ? random.uniform(-2, 2) : -kInfinity;
+    return {.origin = origin, .direction = random.log_uniform(1e-3, 1e3) * to, .t_min = t_min};
+}
+
+// The ray itself, or as an instance sees it.
+struct Seen {
+    Transform m = Transform::translate({3, 1e3, -2}) * Transform::rotate({1, 2, 3}, 40) * Transform::scale(1, 0.01, 7);
+    RayFrame outer, inner;
+
+    Seen(const Ray& object_ray, bool instanced) : outer(object_ray), inner(object_ray) {
+        if (!instanced) return;
+        outer.ray.origin = transform_point(m, object_ray.origin);
+        outer.ray.direction = transform_vector(m, object_ray.direction);
+        inner = RayFrame(outer, m);
+    }
+    Seen(const Seen&) = delete;
+};
+
+struct Count {
+    int decided = 0, hits = 0, wrong = 0;
+
+    void judge(const PlanarAnswer& answer, bool exact, const PlanarHit& hit) {
+        if (answer.decision == Decision::unsure) return;
+        ++decided;
+        if (exact != (answer.decision == Decision::hit)) {
+            ++wrong;
+        } else if (exact) {
+            ++hits;
+            wrong += std::abs(answer.hit.t - hit.t) > kAccurate * std::abs(hit.t) ||
+                     std::abs(answer.hit.u - hit.u) > kAccurateWeight ||
+                     std::abs(answer.hit.v - hit.v) > kAccurateWeight;
+        }
+    }
+    void check() const {
+        CHECK(wrong == 0);
+        CHECK(hits > 500);
+        CHECK(decided > 5000);
+        CHECK(decided < kRays);  // there are rays that it must leave open
+    }
+};
+
+}  // namespace
+
+TEST_CASE("filter_triangle: what it decides is exactly so", "[core][filter]") {
+    for (const bool instanced : {false, true}) {
+        Random random(41);
+        Count count;
+        for (int i = 0; i < kRays; ++i) {
+            const Point3 a = some_point(random), b = some_point(random), c = some_point(random);
+            const double u = random.chance(0.3) ? 0 : random.uniform(), v = random.chance(0.3) ? 0 : 1 - u;
+            const Seen seen(ray_at(random, a + (u * (b - a) + v * (c - a))), instanced);
+            const Search search{seen.inner.ray.t_min, kInfinity};
+            PlanarHit hit{};
+            const bool exact = settle_triangle(a, b, c, seen.inner, search, hit);
+            count.judge(filter_triangle(a, b, c, ShearedRay(seen.inner), search), exact, hit);
+        }
+        count.check();
+    }
+}
+
+TEST_CASE("filter_quad: what it decides is exactly so", "[core][filter]") {
+    for (const bool instanced : {false, true}) {
+        Random random(42);
+        Count count;
+        for (int i = 0; i < kRays; ++i) {
+            const Point3 q = some_point(random);
+            const Vec3 e = some_point(random) - q, f = some_point(random) - q;
+            const double u = random.chance(0.3) ? 0 : random.uniform(), v = random.chance(0.3) ? 1 : random.uniform();
+            const Seen seen(ray_at(random, q + (u * e + v * f)), instanced);
+            const Search search{seen.inner.ray.t_min, kInfinity};
+            PlanarHit hit{};
+            const bool exact = settle_quad(q, e, f, seen.inner, search, hit);
+            count.judge(filter_quad(q, e, f, ShearedRay(seen.inner), search), exact, hit);
+        }
+        count.check();
+    }
+}
+
+TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie within their bounds", "[core][filter]") {
+    for (const bool instanced : {false, true}) {
+        Random random(43);
+        Count count;
+        for (int i = 0; i < kRays; ++i) {
+            const Point3 c = some_point(random);
+            const double r = random.chance(0.5) ? random.uniform(0.5, 3) : random.log_uniform(1e-6, 1e6);
+            Vec3 out = random.unit();
+            if (random.chance(0.3)) out = {0, random.sign(), 0};
+            // At a point of the surface, or along it.
+            Ray ray = ray_at(random, c + r * out);
+            if (random.chance(0.5)) ray.direction = ray.direction - dot(ray.direction, out) * out;
+            if (random.chance(0.3)) ray.origin = c + r * out;
+            if (ray.direction == Vec3{}) continue;
+            const Seen seen(ray, instanced);
+            const SphereRoots roots = filter_sphere(c, r, SphereRay(seen.inner));
+            const SphereHits exact = settle_sphere(c, r, seen.inner, nullptr, nullptr, {-kInfinity, kInfinity});
+            if (roots.decision == Decision::unsure) continue;
+            ++count.decided;
+            if (exact.near_found != (roots.decision == Decision::hit)) {
+                ++count.wrong;
+            } else if (exact.near_found) {
+                ++count.hits;
+                const auto is_off = [](const Approximate& t, double truth) {
+                    return !(std::abs(t.value - truth) <= t.error + kRoundoff * std::abs(truth));
+                };
+                count.wrong += is_off(roots.near, exact.near) || is_off(roots.far, exact.far);
+            }
+        }
+        count.check();
+    }
+}
+
+TEST_CASE("Settled: the exact stage knows the answers of textbook cases", "[core][filter]") {
+    const RayFrame down(Ray{.origin = {0.25, 0.25, 3}, .direction = {0, 0, -2}});
+    const Search search{0, kInfinity};
+    PlanarHit hit{};
+    REQUIRE(settle_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, down, search, hit));
+    CHECK((hit.t == 1.5 && hit.u == 0.25 && hit.v == 0.25));
+    REQUIRE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0.5, 0}, down, search, hit));
+    CHECK((hit.t == 1 && hit.u == 0.25 && hit.v == 0.5));
+    CHECK_FALSE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0.2, 0}, down, search, hit));
+    CHECK_FALSE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0, 1}, down, search, hit));  // along the ray
+    const SphereHits hits = settle_sphere({0.25, 0.25, 0}, 1, down, nullptr, nullptr, search);
+    CHECK((hits.near_found && hits.far_found && hits.near == 1 && hits.far == 2));
+    const SphereHits touch = settle_sphere({0.25, 1.25, 0}, 1, down, nullptr, nullptr, search);
+    CHECK((touch.near_found && touch.far_found && touch.near == 1.5 && touch.far == 1.5));
+    CHECK_FALSE(settle_sphere({0.25, 1.25, 0}, std::nextafter(1, 0), down, nullptr, nullptr, search).near_found);
+    const SphereHits behind = settle_sphere({0.25, 0.25, 3}, 1, down, nullptr, nullptr, search);
+    CHECK((!behind.near_found && behind.far_found && behind.far == 0.5));
+}
