@@ -21,7 +21,8 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
     double det = eu.x * ev.y - eu.y * ev.x;
     double wu = ev.x * q.y - ev.y * q.x;
     double wv = q.x * eu.y - q.y * eu.x;
-    if (det < 0) det = -det, wu = -wu, wv = -wv;
+    const bool turned = det < 0;
+    if (turned) det = -det, wu = -wu, wv = -wv;
     const double reach = larger(
         largest_magnitude(to_corner.x, to_corner.y, to_corner.z),
         larger(largest_magnitude(edge_u.x, edge_u.y, edge_u.z), largest_magnitude(edge_v.x, edge_v.y, edge_v.z)));
@@ -34,7 +35,15 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
 
     const double u = std::min(wu / det, 1.0), v = std::min(wv / det, 1.0);
     const double z = q.z + (u * eu.z + v * ev.z);
-    return planar_answer(ray, error, 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
+    const PlanarAnswer answer =
+        planar_answer(ray, error, 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
+    if (answer.decision == Decision::unsure && search.t_min >= 0) {
+        const double edge = larger(max_abs(edge_u), max_abs(edge_v));
+        if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), turned ? -ray.direction_z : ray.direction_z, edge, 0,
+                      max_abs(to_corner)))
+            return {Decision::miss};
+    }
+    return answer;
 }
 
 // Exact: whether the closed parallelogram is hit, and t within the search. t, u, v as kAccurate says.

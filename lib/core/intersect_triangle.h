@@ -33,7 +33,15 @@ inline PlanarAnswer filter_triangle(const Point3& a, const Point3& b, const Poin
     const double det = wa + wb + wc;
     const double depth = larger(pa.z, larger(pb.z, pc.z)) - smaller(pa.z, smaller(pb.z, pc.z));
     const double z = (wa * pa.z + wb * pb.z + wc * pc.z) / det;
-    return planar_answer(ray, error, 5 * error.determinant / std::abs(det), depth, z, wb / det, wc / det, search);
+    const PlanarAnswer answer =
+        planar_answer(ray, error, 5 * error.determinant / std::abs(det), depth, z, wb / det, wc / det, search);
+    if (answer.decision == Decision::unsure && search.t_min >= 0) {
+        const Vec3 ab = qb - qa, ac = qc - qa;
+        const double edge = larger(max_abs(ab), max_abs(ac)), edge_error = kRoundoff * (2 * reach + edge);
+        if (is_behind(ray, dot(cross(ab, ac), qa), -det * ray.direction_z, edge, edge_error, max_abs(qa)))
+            return {Decision::miss};
+    }
+    return answer;
 }
 
 // Exact: whether the closed triangle is hit, and t within the search. t, u, v as kAccurate says.

@@ -5,6 +5,13 @@
 
 namespace limn {
 
+namespace {
+
+// A share of the way that no shape fits into: the error of t that filters reckon with, with room.
+constexpr double kShadowEnd = 0x1p-40;
+
+}  // namespace
+
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
     const double distance = dot(abs(Vec3(normal)), error);
     const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);
@@ -33,8 +40,8 @@ Ray Surface::spawn_ray_to(const Point3& target, double time) const {
 Ray Surface::spawn_ray_to(const Surface& target, double time) const {
     const Point3 from = offset_origin(position, position_error, normal, target.position - position);
     const Point3 to = offset_origin(target.position, target.position_error, target.normal, from - target.position);
-    // gamma(16): the rounding of the direction and of the t of whatever lies at its end.
-    return {from, to - from, 0, 1 - gamma(16), time};
+    // The direction is rounded, and what lies at the end is told apart from obstacles by the filters' t.
+    return {from, to - from, 0, 1 - kShadowEnd, time};
 }
 
 }  // namespace limn

@@ -58,7 +58,7 @@ TEST_CASE("Mesh: texture coordinates are weighted as the vertices are, and witho
 
 TEST_CASE("Shapes: the error bound of a hit grows with each coordinate that goes into it", "[shape][error]") {
     const Ray down{.origin = {0, 0, 4096}, .direction = {0, 0, -1}};
-    const auto in_units = [](double error) { return error / gamma(16); };
+    const auto in_units = [](double error) { return error / gamma(64); };
     CHECK(in_units(error_of(Sphere({0, 0, 0}, 8, nullptr), down)) == Approx(8));
     CHECK(in_units(error_of(Sphere({0, 0, 0}, -8, nullptr), down)) == Approx(8));
     CHECK(in_units(error_of(Sphere({0, 0, -64}, 8, nullptr), down)) == Approx(72));
