@@ -8,42 +8,13 @@
 #include <string>
 
 #include "limn/core/ray.h"
-#include "limn/core/transform.h"
 #include "limn/shape/hittable.h"
+#include "support/real.h"
 #include "support/tally.h"
 
 namespace limn::test {
 
-__extension__ using Real = __float128;
-
 inline constexpr double kMargin = 1e-13;
-
-struct Real3 {
-    Real x = 0, y = 0, z = 0;
-    Real3() = default;
-    Real3(Real x_, Real y_, Real z_) : x(x_), y(y_), z(z_) {}
-    explicit Real3(const Point3& p) : x(p.x), y(p.y), z(p.z) {}
-    explicit Real3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
-    explicit Real3(const Normal3& n) : x(n.x), y(n.y), z(n.z) {}
-};
-
-inline Real3 operator+(const Real3& a, const Real3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Real3 operator-(const Real3& a, const Real3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Real3 operator*(Real s, const Real3& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Real dot(const Real3& a, const Real3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Real3 cross(const Real3& a, const Real3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Real absolute(Real x) { return x < 0 ? -x : x; }
-
-/// Newton's iteration from the double root doubles its 53 bits twice.
-inline Real square_root(Real x) {
-    if (!(x > 0)) return 0;
-    Real root = std::sqrt(static_cast<double>(x));
-    for (int i = 0; i < 3; ++i) root = (root + x / root) / 2;
-    return root;
-}
-inline Real length(const Real3& a) { return square_root(dot(a, a)); }
 
 struct Truth {
     enum class Verdict { hit, miss, undecided } verdict = Verdict::miss;
@@ -166,17 +137,6 @@ inline void judge_uv(Tally& tally, const Ray& ray, const Truth& truth, const std
     const Real allowed = truth.uv_error + Real(0x1p-23);
     if (absolute(Real(hit->u) - truth.u) > allowed || absolute(Real(hit->v) - truth.v) > allowed)
         tally.fault(ray, "u, v");
-}
-
-inline Real3 transform_point(const Transform& m, const Real3& p) {
-    const auto row = [&](std::size_t i) {
-        return Real(m.rows[i][0]) * p.x + Real(m.rows[i][1]) * p.y + Real(m.rows[i][2]) * p.z + Real(m.rows[i][3]);
-    };
-    return {row(0), row(1), row(2)};
-}
-
-inline Real3 transform_vector(const Transform& m, const Real3& v) {
-    return transform_point(m, v) - transform_point(m, Real3{});
 }
 
 }  // namespace limn::test
