@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -27,6 +28,12 @@ namespace limn::test {
 inline int count(double full) {
     const double share = std::getenv("LIMN_FULL") ? 1 : std::getenv("LIMN_ACCURACY") ? 10 : 100;
     return std::max(1, static_cast<int>(full / share));
+}
+
+inline std::string number(double x, int digits = 6) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, x);
+    return text;
 }
 
 /// The verdict over all rays of a row, each of them judged.
@@ -116,7 +123,7 @@ inline std::string fault_of(const ExactHit& truth, const std::optional<Answer>& 
         return !std::isfinite(reported) || absolute(Real(reported) - exact) > bound;
     };
     if (off(answer->t, truth.t, Real(allowed.t_ulps * 0x1p-23) * absolute(truth.t) + Real(0x1p-1074)))
-        return "t = " + std::to_string(answer->t) + " instead of " + std::to_string(static_cast<double>(truth.t));
+        return "t " + number(answer->t, 17) + " instead of " + number(static_cast<double>(truth.t), 17);
     if (allowed.uv < 0) return {};
     if (off(answer->u, truth.u, Real(allowed.uv)) || off(answer->v, truth.v, Real(allowed.uv))) return "u, v";
     return {};
