@@ -1,0 +1,298 @@
+// Meshes: nothing escapes through vertices and edges, flat triangles among good ones, float32 from end to end.
+#include "hard/exact_mesh.h"
+#include "limn/core/error.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+std::shared_ptr<const Mesh> mesh_of(const MeshData& data) { return std::make_shared<Mesh>(data, nullptr); }
+
+MeshData snapped(MeshData mesh, float steps) {
+    for (Float3& p : mesh.vertices)
+        p = {std::round(p.x * steps) / steps, std::round(p.y * steps) / steps, std::round(p.z * steps) / steps};
+    return mesh;
+}
+
+// From inside, at a vertex or at a point of an edge.
+Ray aimed(Random& random, const MeshData& mesh, const Point3& center, double radius, bool at_vertex, bool in_float) {
+    const Index3 t = mesh.triangles[random.index(mesh.triangles.size())];
+    const Point3 a = vertex(mesh, t.a), b = vertex(mesh, t.b);
+    Point3 origin = center + random.uniform(0, 0.4) * radius * random.unit();
+    if (in_float) origin = to_float(origin);
+    const Vec3 d = a + (at_vertex ? 0 : random.uniform()) * (b - a) - origin;
+    return towards(origin, in_float ? to_float(d) : d);
+}
+
+// The compiled mesh is asked for all rays; one in 500 goes to every triangle, in both worlds and in exact arithmetic.
+Tally escapes(const MeshData& data, const Point3& center, double radius, int rays, std::uint64_t seed) {
+    Random random(seed);
+    const ExactMesh exact(data);
+    const BothWorlds world(mesh_of(data), company_near(random, center, radius));
+    const auto ball = std::make_shared<Sphere>(center, 3 * radius, nullptr);  // what escapes ends here
+    Scene scene;
+    scene.add(mesh_of(data));
+    scene.add(ball);
+    const CompiledScene compiled = compile(scene);
+    Tally tally;
+    for (int i = 0; i < rays; ++i) {
+        const Ray ray = aimed(random, data, center, radius, i % 2 == 0, i % 4 < 2);
+        if (i % 500 == 0)
+            judge_mesh(tally, world, exact, ray);
+        else
+            ++tally.rays, ++tally.judged;
+        const auto hit = compiled.closest_hit(ray);
+        if (!hit || hit->object != 0) {
+            tally.fault(ray, "escaped");
+            continue;
+        }
+        ++tally.hits;
+        const std::string fault =
+            detail::fault_of(exact.hit_of(hit->element, ray), Answer{hit->t, hit->u, hit->v, 0}, {});
+        if (!fault.empty()) tally.fault(ray, fault);
+    }
+    return tally;
+}
+
+}  // namespace
+
+TEST_CASE("Closed meshes: no ray from inside escapes through a vertex or an edge, at any distance from the origin",
+          "[hard][mesh]") {
+    Random random(550);
+    for (const double shift : {0.0, 1e3, 1e5, 1e7}) {
+        const double radius = shift < 1e6 ? 1 : 100;  // float32 has steps of 1 at 1e7
+        const Point3 center = to_float(Point3{shift, -shift, shift});
+        const std::pair<const char*, MeshData> meshes[] = {
+            {"icosphere", icosphere(5, radius, center - Point3{})},
+            {"snapped", snapped(icosphere(4, radius, center - Point3{}), 4096)},
+            {"bumpy", bumpy_sphere(random, 7, 0.03, radius, center)},
+            {"needles", bumpy_sphere(random, 5, 0.3, radius, center)},
+            {"fans of 100", double_cone(100, radius, center)},
+            {"fans of 1000", double_cone(1000, radius, center)}};
+        for (const auto& [name, mesh] : meshes)
+            check(escapes(mesh, center, radius, count(1e8 / 24), 551), name + (" at " + number(shift)));
+    }
+}
+
+TEST_CASE("Closed meshes: rays 1e-7 to 1e-16 beside vertices and edges are decided exactly, in both worlds",
+          "[hard][mesh]") {
+    Random random(552);
+    for (const double shift : {0.0, 1e3, 1e5}) {
+        const Point3 center = to_float(Point3{shift, shift, -shift});
+        for (const MeshData& data : {icosphere(2, 1, center - Point3{}), bumpy_sphere(random, 3, 0.5, 1, center)}) {
+            const BothWorlds world(mesh_of(data), company_near(random, center, 1));
+            const ExactMesh exact(data);
+            Tally tally;
+            for (int i = 0; i < count(1e5); ++i) {
+                Ray ray = aimed(random, data, center, 1, i % 2 == 0, false);
+                if (i % 4 < 2) ray.origin = center + 5 * random.unit();
+                const Point3 aim = ray.origin + ray.direction + random.log_uniform(1e-16, 1e-7) * random.unit();
+                ray.direction = aim - ray.origin;
+                judge_mesh(tally, world, exact, ray);
+            }
+            check(tally, "at " + number(shift));
+        }
+    }
+}
+
+TEST_CASE("Strips of slivers: no ray passes between two that share an edge", "[hard][mesh]") {
+    Random random(553);
+    for (double aspect = 1e2; aspect < 2e6; aspect *= 10) {
+        for (const double shift : {0.0, 1e3}) {
+            // Across the strip coordinates stay near 0, where float32 has room for its steps of 1 / aspect.
+            MeshData data;
+            for (int i = 0; i < 66; ++i)
+                data.vertices.push_back(to_float3({shift + (i % 2), i / aspect, shift + random.uniform(0, 1e-3)}));
+            for (std::uint32_t i = 0; i < 64; ++i) data.triangles.push_back({i, i + 1, i + 2});
+            const BothWorlds world(mesh_of(data));
+            const ExactMesh exact(data);
+            Tally tally;
+            for (int i = 0; i < count(1e7 / 100); ++i) {
+                const std::uint32_t e =
+                    1 + static_cast<std::uint32_t>(random.index(63));  // from vertex e to e + 1: inner
+                const Point3 a = vertex(data, e), b = vertex(data, e + 1);
+                const Point3 aim = a + random.uniform(0.01, 0.99) * (b - a);
+                const Point3 eye = aim + random.uniform(0.5, 10) * random.unit();
+                const Ray ray = towards(eye, aim - eye);
+                judge_mesh(tally, world, exact, ray);
+                if (!world.hit(ray, tally)) tally.fault(ray, "between");
+            }
+            check(tally, "aspect " + number(aspect) + " at " + number(shift));
+        }
+    }
+}
+
+TEST_CASE("Cubes: along edges, from corner to corner, in a face's plane: t is 1 in all symmetric copies",
+          "[hard][mesh]") {
+    const BothWorlds triangles(mesh_of(cube_mesh())), quads(make_box({0, 0, 0}, {1, 1, 1}, nullptr));
+    const Ray rays[] = {towards({-1, 0, 0}, {1, 0, 0}), towards({-1, -1, -1}, {1, 1, 1}),
+                        towards({-1, 0.5, 0}, {1, 0, 0}), towards({-1, -1, 0}, {1, 1, 0})};
+    const std::size_t permutations[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    const ExactMesh exact(cube_mesh());
+    Tally tally;
+    for (const Ray& ray : rays) {
+        for (const auto& p : permutations) {
+            for (int mirror = 0; mirror < 8; ++mirror) {
+                Ray copy;
+                for (std::size_t a = 0; a < 3; ++a) {
+                    const bool turn = (mirror >> a) & 1;
+                    copy.origin[p[a]] = turn ? 1 - ray.origin[a] : ray.origin[a];
+                    copy.direction[p[a]] = turn ? -ray.direction[a] : ray.direction[a];  // 0 becomes -0
+                }
+                judge_mesh(tally, triangles, exact, copy);
+                for (const BothWorlds* world : {&triangles, &quads}) {
+                    const auto hit = world->hit(copy, tally);
+                    if (!hit || hit->t != 1) tally.fault(copy, "t is not 1");
+                }
+            }
+        }
+    }
+    check(tally, "copies");
+    CHECK(tally.rays == 192);
+}
+
+TEST_CASE("Meshes: u, v point at where the ray is, to 4 float ulps of the largest coordinate", "[hard][mesh]") {
+    Random random(554);
+    for (const double shift : {0.0, 1e3, 1e5}) {
+        const Point3 center{shift, shift, 0};
+        const MeshData data = icosphere(5, 1, center - Point3{});
+        Scene scene;
+        scene.add(mesh_of(data));
+        const CompiledScene compiled = compile(scene);
+        Tally tally;
+        for (int i = 0; i < count(1e6); ++i) {
+            const Point3 origin = center + random.uniform(1, 20) * random.unit();
+            const Ray ray = towards(origin, center + 0.9 * random.unit() - origin);
+            ++tally.rays, ++tally.judged;
+            const auto hit = compiled.closest_hit(ray);
+            if (!hit) {
+                tally.fault(ray, "missed");
+                continue;
+            }
+            const Index3 t = data.triangles[hit->element];
+            const Point3 a = vertex(data, t.a), b = vertex(data, t.b), c = vertex(data, t.c);
+            const Point3 p = a + hit->u * (b - a) + hit->v * (c - a);
+            const double largest = max_abs(p - Point3{});
+            if (hit->u < 0 || hit->v < 0 || hit->u + hit->v > 1) tally.fault(ray, "outside");
+            if (length(p - ray.at(hit->t)) > 4 * 0x1p-23 * largest) tally.fault(ray, "another point");
+        }
+        check(tally, "at " + number(shift));
+    }
+}
+
+TEST_CASE("Meshes: triangles of exactly no area are dropped and counted, their neighbours stay", "[hard][mesh]") {
+    Random random(555);
+    Tally tally;
+    std::size_t flat = 0, all = 0;
+    for (int i = 0; i < count(1e5); ++i) {
+        MeshData data;
+        const auto number_of_21_bits = [&] {
+            return static_cast<double>(random.index(1 << 21)) * std::ldexp(1.0, static_cast<int>(random.index(60)));
+        };
+        for (int n = 0; n < 6; ++n) data.vertices.push_back(to_float3(number_of_21_bits() * Vec3{3, 5, 7}));  // in line
+        for (int n = 0; n < 3; ++n) {  // one float beside the line
+            data.vertices.push_back(data.vertices[random.index(6)]);
+            data.vertices.back().y = std::nextafter(data.vertices.back().y, random.chance(0.5) ? 1e30F : -1e30F);
+        }
+        for (int n = 0; n < 3; ++n) data.vertices.push_back(to_float3(random.in_cube(1e18)));
+        for (int n = 0; n < 12; ++n) {
+            const auto any = [&] { return static_cast<std::uint32_t>(random.index(data.vertices.size())); };
+            data.triangles.push_back({any(), any(), any()});
+        }
+        data.triangles.push_back({9, 10, 11});
+        const ExactMesh exact(data);
+        const auto mesh = mesh_of(data);
+        const BothWorlds world(mesh);
+        ++tally.rays, ++tally.judged;
+        if (mesh->degenerate_triangles() != exact.flat_triangles()) tally.fault({}, "another count");
+        flat += exact.flat_triangles(), all += data.triangles.size();
+        for (int n = 0; n < 10; ++n) {
+            const Index3 t = data.triangles[random.index(data.triangles.size())];
+            const Point3 a = vertex(data, t.a), b = vertex(data, t.b), c = vertex(data, t.c);
+            const Point3 aim = a + random.uniform(0, 0.5) * (b - a) + random.uniform(0, 0.5) * (c - a);
+            const Point3 eye = Point3{} + random.in_cube(1e19);
+            judge_mesh(tally, world, exact, towards(eye, aim - eye));
+        }
+    }
+    check(tally, "flat ones");
+    CHECK((flat > all / 10 && flat < all * 9 / 10));
+}
+
+TEST_CASE("Meshes: equal vertices, points in line and one point thrice are no area; NaN and infinity are refused",
+          "[hard][mesh]") {
+    MeshData data;
+    data.vertices = {{0, 0, 0},
+                     {1, 1, 1},
+                     {2, 2, 2},
+                     {1, 0, 0},
+                     {0, 1, 0},
+                     {-1113.45459F, -79.049614F, -56.2431908F},  // pbrt's bad case: in line whatever its y
+                     {-1113.45459F, -87.0922699F, -56.2431908F},
+                     {-1113.45459F, -79.2090149F, -56.2431908F}};
+    data.triangles = {{0, 1, 2}, {0, 0, 3}, {0, 0, 0}, {3, 0, 3}, {5, 6, 7}, {0, 3, 4}};
+    const auto mesh = mesh_of(data);
+    CHECK(mesh->degenerate_triangles() == 5);
+    const BothWorlds world(mesh);
+    Tally tally;
+    const auto hit = world.hit(towards({0.25, 0.25, 1}, {0, 0, -1}), tally);
+    REQUIRE(hit);
+    CHECK((hit->t == 1 && hit->element == 5));
+    judge_mesh(tally, world, ExactMesh(data),
+               towards({-1081.47925, 99.9999542, 87.7701111}, {-32.1072998, -183.355865, -144.607635}));
+    CHECK(tally.hits == 0);
+    CHECK(tally.wrong == 0);
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        MeshData spoilt = data;
+        spoilt.vertices[4].y = bad;
+        CHECK_THROWS_AS(mesh_of(spoilt), ArgumentError);
+    }
+}
+
+TEST_CASE("Meshes: from float32's least subnormals to its largest numbers, in one mesh too, all is decided exactly",
+          "[hard][mesh]") {
+    Random random(556);
+    Tally tally;
+    for (int i = 0; i < count(1e5); ++i) {
+        const int least = i % 3 == 0 ? -149 : i % 3 == 1 ? -120 : 90, span = i % 3 == 0 ? 8 : i % 3 == 1 ? 230 : 36;
+        const auto wild = [&] {
+            return random.sign() * std::ldexp(random.uniform(1, 2),
+                                              least + static_cast<int>(random.index(static_cast<std::size_t>(span))));
+        };
+        MeshData data;
+        for (int n = 0; n < 6; ++n) data.vertices.push_back(to_float3({wild(), wild(), wild()}));
+        data.triangles = {{0, 1, 2}, {2, 1, 3}, {3, 4, 5}, {0, 2, 5}, {1, 1, 2}};
+        const ExactMesh exact(data);
+        const auto mesh = mesh_of(data);
+        ++tally.rays, ++tally.judged;
+        if (mesh->degenerate_triangles() != exact.flat_triangles()) tally.fault({}, "another count");
+        const BothWorlds world(mesh);
+        for (int n = 0; n < 10; ++n) {
+            const Index3 t = data.triangles[random.index(4)];
+            const Point3 a = vertex(data, t.a), b = vertex(data, t.b), c = vertex(data, t.c);
+            const Point3 aim = n % 2 ? a + random.uniform(0, 0.5) * (b - a) + random.uniform(0, 0.5) * (c - a) : a;
+            const Point3 eye{wild(), wild(), wild()};
+            judge_mesh(tally, world, exact, towards(eye, random.chance(0.5) ? aim - eye : 1e-30 * (aim - eye)));
+        }
+    }
+    check(tally, "float32");
+    CHECK(tally.hits > tally.rays / 4);
+}
+
+TEST_CASE("Meshes: triangles of size 1e-20 to 1e18 are hit at the exact t, from any distance", "[hard][mesh]") {
+    Tally tally;
+    for (int k = -20; k <= 18; ++k) {
+        const auto s = static_cast<float>(std::pow(10.0, k));
+        MeshData data;
+        data.vertices = {{0, 0, 0}, {s, 0, 0}, {0, s, 0}};
+        data.triangles = {{0, 1, 2}};
+        const BothWorlds world(mesh_of(data));
+        const double x = static_cast<double>(s) / 3;
+        for (const double z : {10.0 * static_cast<double>(s), 1.0, 1e5, 1e-5}) {
+            const auto hit = world.hit(towards({x, x, -z}, {0, 0, 1}), tally);
+            if (!hit || std::abs(hit->t / z - 1) > 0x1p-23) tally.fault({}, "size " + number(static_cast<double>(s)));
+            judge_mesh(tally, world, ExactMesh(data), towards({x, x, -z}, {x / 4, -x / 8, z}));
+        }
+    }
+    check(tally, "sizes");
+}
