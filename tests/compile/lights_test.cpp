@@ -6,8 +6,9 @@
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
 #include "limn/texture/solid.h"
+#include "support/real.h"
 #include "support/scene_zoo.h"
-#include "support/truth.h"
+#include "support/tally.h"
 
 using namespace limn;
 using namespace limn::test;

@@ -6,7 +6,7 @@
 #include "limn/core/transform.h"
 #include "property.h"
 #include "support/random_geometry.h"
-#include "support/truth.h"
+#include "support/real.h"
 
 using namespace limn;
 using limn::test::Random;

@@ -2,7 +2,7 @@
 
 #include "catch.h"
 #include "support/random_geometry.h"
-#include "support/truth.h"
+#include "support/real.h"
 
 using namespace limn;
 using limn::test::Random;

@@ -151,7 +151,7 @@ TEST_CASE("Exact truth: planar hits are those of rational elimination, also at e
           "[hard][truth]") {
     Random random(500);
     Verdicts triangles, quads;
-    for (int i = 0; i < 900; ++i) {
+    for (int i = 0; i < 300; ++i) {
         const std::vector<Transform> chain = random_chain(random, static_cast<std::size_t>(i % 3));
         const Point3 a = Point3{} + random.in_cube(3);
         const Vec3 eu = random.in_cube(), ev = random.chance(0.2) ? 1e-9 * random.unit() + 2 * eu : random.in_cube();
@@ -161,14 +161,14 @@ TEST_CASE("Exact truth: planar hits are those of rational elimination, also at e
                        exact_triangle_hit(a, a + ((a + eu) - a), a + ((a + ev) - a), ray, chain));
         compare_planar(quads, a, eu, ev, false, ray, chain, exact_quad_hit(a, eu, ev, ray, chain));
     }
-    require_all_right(quads, 900);
-    require_all_right(triangles, 900);
+    require_all_right(quads, 300);
+    require_all_right(triangles, 300);
 }
 
 TEST_CASE("Exact truth: sphere hits are those of a parabola in rationals", "[hard][truth]") {
     Random random(501);
     Verdicts verdicts;
-    for (int i = 0; i < 900; ++i) {
+    for (int i = 0; i < 300; ++i) {
         const std::vector<Transform> chain = random_chain(random, static_cast<std::size_t>(i % 3));
         const Point3 c = Point3{} + random.in_cube(3);
         const double r = random.sign() * random.log_uniform(1e-3, 10), s = std::abs(r);
@@ -177,7 +177,7 @@ TEST_CASE("Exact truth: sphere hits are those of a parabola in rationals", "[har
         const Ray ray = into_world(chain, random_ray(random, targets));
         compare_sphere(verdicts, c, r, ray, chain, exact_sphere_hit(c, r, ray, chain));
     }
-    require_all_right(verdicts, 900);
+    require_all_right(verdicts, 300);
 }
 
 TEST_CASE("Exact truth: roots of known spheres, tangents, and ends of the interval", "[hard][truth]") {

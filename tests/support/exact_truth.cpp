@@ -76,10 +76,9 @@ Vector image_of_point(std::span<const Transform> chain, Vector p) {
 }
 
 Real scaled(Real x, int power) {
-    Real factor = power < 0 ? 0.5 : 2;
-    for (int k = std::abs(power); k > 0; k /= 2, factor *= factor)
-        if (k % 2) x *= factor;
-    return x;
+    for (; power > 1000; power -= 1000) x *= Real(0x1p1000);
+    for (; power < -1000; power += 1000) x *= Real(0x1p-1000);
+    return x * Real(std::ldexp(1.0, power));
 }
 
 // x * 2^power.
