@@ -72,7 +72,7 @@ void shuffle(Random& random, std::vector<Item>& items) {
 TEST_CASE("Closest: of exact duplicates the first is hit, whatever their order and company", "[hard][closest]") {
     Random random(570);
     Tally tally;
-    for (int i = 0; i < count(2e4); ++i) {
+    for (int i = 0; i < count(1e4); ++i) {
         const Point3 p = Point3{} + random.in_cube(random.log_uniform(0.1, 1e4));
         const Vec3 u = random.unit(), v = random.unit();
         std::vector<Item> items;
@@ -88,7 +88,7 @@ TEST_CASE("Closest: of exact duplicates the first is hit, whatever their order a
 TEST_CASE("Closest: surfaces a few doubles apart are told apart as their reported t's are", "[hard][closest]") {
     Random random(571);
     Tally tally;
-    for (int i = 0; i < count(2e4); ++i) {
+    for (int i = 0; i < count(1e4); ++i) {
         const Point3 p = Point3{} + random.in_cube(random.log_uniform(0.1, 1e4));
         const Vec3 u = random.unit(), v = random.unit(), n = normalize(cross(u, v));
         std::vector<Item> items;
@@ -109,7 +109,7 @@ TEST_CASE("Closest: spheres that touch, planes that cross and a corner of many s
           "[hard][closest]") {
     Random random(572);
     Tally tally;
-    for (int i = 0; i < count(2e4); ++i) {
+    for (int i = 0; i < count(1e4); ++i) {
         const Point3 p{std::round(random.uniform(-50, 50)), 3, -7};
         std::vector<Item> items{sphere(p + Vec3{2, 0, 0}, 2),
                                 sphere(p - Vec3{1, 0, 0}, 1),

@@ -144,6 +144,7 @@ inline void judge(Tally& tally, const Ray& ray, const detail::ExactQuery& exact_
     };
     const std::optional<Answer> answer = limn(ray);
     if (answer) ++tally.hits;
+    if (answer && !(answer->t > ray.t_min && answer->t <= ray.t_max)) tally.fault(ray, "outside of the interval");
     std::string fault = detail::fault_of(exact(ray), answer, allowed);
     if (!fault.empty()) fault = detail::fault_of(detail::truth_at_ends(ray, exact, limn), answer, allowed);
     if (!fault.empty()) tally.fault(ray, fault);

@@ -25,6 +25,11 @@ Ray aimed(Random& random, const MeshData& mesh, const Point3& center, double rad
     return towards(origin, in_float ? to_float(d) : d);
 }
 
+std::optional<Answer> answer_of(const std::optional<RayHit>& hit) {
+    if (!hit) return std::nullopt;
+    return Answer{hit->t, hit->u, hit->v, hit->element};
+}
+
 struct Inside {
     MeshData data;
     Point3 center;
@@ -59,7 +64,7 @@ Tally escapes(const Inside& inside, int rays, std::uint64_t seed) {
         if (i % 8 >= 2 || !hit || hit->object != 0) continue;
         if (!compiled.any_hit(ray)) tally.fault(ray, "any_hit");
         const ExactHit truth = exact.hit_of(hit->element, ray, chain);
-        const std::string fault = detail::fault_of(truth, Answer{hit->t, hit->u, hit->v, 0}, {});
+        const std::string fault = detail::fault_of(truth, answer_of(hit), {});
         if (!fault.empty()) tally.fault(ray, fault);
     }
     return tally;
@@ -77,10 +82,10 @@ TEST_CASE("Closed meshes: no ray from inside escapes through a vertex or an edge
             {"icosphere", icosphere(5, radius, center - Point3{})},
             {"snapped", snapped(icosphere(4, radius, center - Point3{}), 4096)},
             {"bumpy", bumpy_sphere(random, 7, 0.03, radius, center)},
-            {"needles", bumpy_sphere(random, 5, 0.3, radius, center)},
-            {"fans of 100", double_cone(100, radius, center)}};
+            {"needles", bumpy_sphere(random, 5, 0.3, radius, center)}};
         for (const auto& [name, mesh] : meshes)
-            check(escapes({mesh, center, radius}, count(1e8 / 20), 551), name + (" at " + number(shift)));
+            check(escapes({mesh, center, radius}, count(1e8 / 16), 551), name + (" at " + number(shift)));
+        check(escapes({double_cone(100, radius, center), center, radius}, count(1e5), 559), "fans of 100");
     }
 }
 
@@ -89,8 +94,8 @@ TEST_CASE("Closed meshes: no ray from inside escapes from one seen through insta
         Transform::translate({1e3, -5, 7}) * Transform::rotate({1, 2, 3}, 40) * Transform::scale(0.01, 0.02, 0.03);
     const Transform mirrored = Transform::rotate({3, -1, 2}, 77) * Transform::scale(-1e3, 1, 5);
     const MeshData mesh = icosphere(3);
-    check(escapes({mesh, {}, 1, {small}}, count(1e7), 557), "one instance");
-    check(escapes({mesh, {}, 1, {small, mirrored}}, count(1e7), 558), "two instances");
+    check(escapes({mesh, {}, 1, {small}}, count(2e6), 557), "one instance");
+    check(escapes({mesh, {}, 1, {small, mirrored}}, count(2e6), 558), "two instances");
 }
 
 TEST_CASE("Closed meshes: rays 1e-7 to 1e-16 beside vertices and edges are decided exactly, in both worlds",
@@ -125,17 +130,27 @@ TEST_CASE("Strips of slivers: no ray passes between two that share an edge", "[h
                 data.vertices.push_back(to_float3({shift + (i % 2), i / aspect, random.uniform(0, 0.05) / aspect}));
             for (std::uint32_t i = 0; i < 64; ++i) data.triangles.push_back({i, i + 1, i + 2});
             const BothWorlds world(mesh_of(data));
+            Scene scene;
+            scene.add(mesh_of(data));
+            const CompiledScene compiled = compile(scene);
             const ExactMesh exact(data);
             Tally tally;
-            for (int i = 0; i < count(1e7 / 100); ++i) {
+            for (int i = 0; i < count(1e7 / 10); ++i) {
                 const std::uint32_t e =
                     1 + static_cast<std::uint32_t>(random.index(63));  // from vertex e to e + 1: inner
                 const Point3 a = vertex(data, e), b = vertex(data, e + 1);
                 const Point3 aim = a + random.uniform(0.01, 0.99) * (b - a);
                 const Vec3 away = random.in_cube() + Vec3{0, 0, random.sign() * 1.5};
                 const Ray ray = towards(aim + random.uniform(0.5, 10) * away, -away);
-                judge_mesh(tally, world, exact, ray);
-                if (!world.hit(ray, tally)) tally.fault(ray, "between");
+                if (i % 50 == 0)
+                    judge_mesh(tally, world, exact, ray);
+                else
+                    ++tally.rays, ++tally.judged;
+                const auto hit = compiled.closest_hit(ray);
+                if (!hit) tally.fault(ray, "between");
+                const ExactHit truth = exact.hit_of(hit ? hit->element : e, ray);
+                const std::string fault = detail::fault_of(truth, answer_of(hit), {});
+                if (!fault.empty()) tally.fault(ray, fault);
             }
             check(tally, "aspect " + number(aspect) + " at " + number(shift));
         }

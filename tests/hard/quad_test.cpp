@@ -105,7 +105,7 @@ TEST_CASE("Quad: edges of 1e4 to 1 at a tenth of a degree, down to 1e-14 of a tu
     Random random(562);
     for (double angle = radians(0.1); angle > 1e-14; angle /= 10) {
         Tally tally;
-        for (int i = 0; i < count(1e4); ++i) {
+        for (int i = 0; i < count(2e3); ++i) {
             const Vec3 along = random.unit(), across = normalize(cross(along, random.unit()));
             Sides s{Point3{} + random.in_cube(3), 1e4 * along, std::cos(angle) * along + std::sin(angle) * across};
             if (parallel(s.u, s.v)) s.v = across;
@@ -157,7 +157,7 @@ TEST_CASE("Quad: rays exactly through corners and edges hit, one double beside t
         return Vec3{x(), x(), x()};
     };
     Tally tally;
-    for (int i = 0; i < count(1e6); ++i) {
+    for (int i = 0; i < count(2e5); ++i) {
         const double m = 1 + static_cast<double>(random.index(30)), t = 1 + static_cast<double>(random.index(99));
         const Sides plain{Point3{} + whole(100), m * whole(9), m * whole(9)};
         const Vec3 d = whole(50);
@@ -223,7 +223,7 @@ TEST_CASE("Quad: coordinates and directions at the ends of double are decided ex
     Random random(566);
     for (const int size : {-1074, -1060, -1030, -1000, -700, -530, -360, -200, 200, 360, 500, 530, 700, 1000, 1015}) {
         Tally tally;
-        for (int i = 0; i < count(1e5); ++i) {
+        for (int i = 0; i < count(3e4); ++i) {
             const Sides plain{Point3{} + random.in_cube(20), random.in_cube(20), random.in_cube(20)};
             const Sides s = scaled(plain, size);
             ++tally.rays, ++tally.judged;
@@ -243,7 +243,7 @@ TEST_CASE("Quad: coordinates and directions at the ends of double are decided ex
     const auto wild = [&] {
         return random.sign() * std::ldexp(random.uniform(1, 2), static_cast<int>(random.index(1900)) - 950);
     };
-    for (int i = 0; i < count(1e6); ++i) {
+    for (int i = 0; i < count(2e5); ++i) {
         const Sides s{{wild(), wild(), wild()}, {wild(), wild(), wild()}, {wild(), wild(), wild()}};
         const Point3 origin{wild(), wild(), wild()};
         const BothWorlds world(s.quad());
@@ -263,7 +263,7 @@ TEST_CASE("make_box: no ray from inside escapes through edges and corners, place
     };
     for (int kind = 0; kind < 4; ++kind) {
         Tally tally;
-        for (int i = 0; i < count(1e4); ++i) {
+        for (int i = 0; i < count(3e3); ++i) {
             const double place = random.log_uniform(1e-3, 1e6);
             Point3 lower = Point3{} + random.in_cube(place), upper = lower + Vec3{1, 1, 1} + random.in_cube(0.9);
             if (kind == 0) lower = {-1, -2, -3}, upper = {3, 2, 1};

@@ -154,7 +154,7 @@ TEST_CASE("Triangle: rays exactly through vertices and edges hit, one double bes
         return Vec3{x(), x(), x()};
     };
     Tally tally;
-    for (int i = 0; i < count(1e6); ++i) {
+    for (int i = 0; i < count(2e5); ++i) {
         const Vec3 e = whole(9), f = whole(9), d = whole(50);
         const Point3 a = Point3{} + whole(100);
         const double m = 1 + static_cast<double>(random.index(30)), t = 1 + static_cast<double>(random.index(99));
@@ -213,7 +213,7 @@ TEST_CASE("Triangle: from a point on it, on its edge or at a vertex, no ray hits
     const Corners k{Point3{0, 0, 0}, {8, 0, 4}, {0, 8, 4}};  // z = (x + y) / 2
     const BothWorlds world(triangle_of(k));
     Tally tally;
-    for (int i = 0; i < count(1e6); ++i) {
+    for (int i = 0; i < count(2e5); ++i) {
         const auto x = static_cast<double>(random.index(9)),
                    y = static_cast<double>(random.index(9 - static_cast<std::size_t>(x)));
         for (const double t_min : {0.0, -0.0, -1.0, -5e-324, 5e-324}) {
@@ -257,7 +257,7 @@ TEST_CASE("Triangle: coordinates and directions at the ends of double are decide
     Random random(538);
     for (const int size : {-1074, -1060, -1030, -1000, -700, -530, -360, -200, 200, 360, 500, 530, 700, 1000, 1015}) {
         Tally tally;
-        for (int i = 0; i < count(1e5); ++i) {
+        for (int i = 0; i < count(5e4); ++i) {
             const Corners plain = random_corners(random, 20);
             const Corners k{scaled(plain[0], size), scaled(plain[1], size), scaled(plain[2], size)};
             ++tally.rays, ++tally.judged;
@@ -282,7 +282,7 @@ TEST_CASE("Triangle: huge and tiny numbers in one question are decided exactly",
     };
     const auto wild_point = [&] { return Point3{wild(), wild(), wild()}; };
     Tally tally;
-    for (int i = 0; i < count(1e6); ++i) {
+    for (int i = 0; i < count(1e5); ++i) {
         const Corners k{wild_point(), wild_point(), wild_point()};
         const Point3 origin = wild_point();
         const BothWorlds world(triangle_of(k));
