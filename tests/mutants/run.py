@@ -96,7 +96,8 @@ def prepare(mutants, full):
     QUICK_FIRST.unlink(missing_ok=True)
     if shutil.which("ccache"):  # what is restored need not be compiled again; cmake reads it, here and in the suite
         os.environ["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
-    os.environ.pop("LIMN_FULL", None)  # the short forms of the tests, whatever our own
+    for longer in ("LIMN_FULL", "LIMN_ACCURACY"):
+        os.environ.pop(longer, None)  # the short forms of the tests, whatever our own
     status, output = run("cmake", "--preset", "release", *FLAGS)
     if status != 0:
         raise MutantError("cmake fails:\n" + output)
