@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/float_environment.h"
+
 namespace limn {
 
 namespace {
@@ -13,6 +15,7 @@ constexpr double kShadowEnd = 0x1p-40;
 }  // namespace
 
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
+    const FloatEnvironment environment;
     const double distance = dot(abs(Vec3(normal)), error);
     const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);
     Point3 origin = position + offset;
@@ -28,6 +31,7 @@ Ray Surface::spawn_ray(const Vec3& direction, double time) const {
 }
 
 Ray Surface::spawn_ray_to(const Point3& target, double time) const {
+    const FloatEnvironment environment;
     const Point3 origin = offset_origin(position, position_error, normal, target - position);
     const Vec3 direction = target - origin;
     // A point that was computed lies off its surface by some units in the last place of its largest coordinate; seen
@@ -38,6 +42,7 @@ Ray Surface::spawn_ray_to(const Point3& target, double time) const {
 }
 
 Ray Surface::spawn_ray_to(const Surface& target, double time) const {
+    const FloatEnvironment environment;
     const Point3 from = offset_origin(position, position_error, normal, target.position - position);
     const Point3 to = offset_origin(target.position, target.position_error, target.normal, from - target.position);
     // The direction is rounded, and what lies at the end is told apart from obstacles by the filters' t.

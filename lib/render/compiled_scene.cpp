@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compile/compile.h"
+#include "core/float_environment.h"
 #include "kernels/traverse.h"
 #include "limn/core/error.h"
 #include "render/surface_at.h"
@@ -54,6 +55,7 @@ CompiledScene& CompiledScene::operator=(CompiledScene&&) noexcept = default;
 CompiledScene::~CompiledScene() = default;
 
 std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const flat::RawHit hit = closest_of_all(*scene_, ray);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
@@ -61,6 +63,7 @@ std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
 }
 
 bool CompiledScene::any_hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return false;
     return kernels::any_hit(*scene_, ray) ||
            std::any_of(scene_->media.begin(), scene_->media.end(), [&](const flat::Medium& medium) {
@@ -79,6 +82,7 @@ void CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> o
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
+    const FloatEnvironment environment;
     return tracing::surface_at(*scene_, ray, {hit.t, hit.primitive}).surface;
 }
 
@@ -86,6 +90,7 @@ const std::string& CompiledScene::features() const { return scene_->feature_name
 const std::string& CompiledScene::name() const { return scene_->name; }
 
 CompiledScene compile(const Scene& scene) {
+    const FloatEnvironment environment;
     return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
 }
 

@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cstddef>
 
+#include "core/float_environment.h"
+
 namespace limn::tracing {
 
 /// Calls function(0) ... function(count - 1), each once, on the threads of the caller's arena, until the context is
@@ -26,6 +28,7 @@ void for_each_index(std::size_t count, tbb::task_group_context& context, const F
     next.store(0, std::memory_order_release);
     const auto work = [&next, &function, &context, count](int) {
         const Leave worker{next};
+        const FloatEnvironment environment;  // a thread of the arena may have any
         for (std::size_t i; (i = next.fetch_add(1, std::memory_order_acq_rel)) < count;) {
             if (context.is_group_execution_cancelled()) return;
             function(i);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 
+#include "core/float_environment.h"
 #include "flat/scene.h"
 #include "limn/core/error.h"
 #include "render/film.h"
@@ -148,6 +149,7 @@ private:
 }  // namespace
 
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings) {
+    const FloatEnvironment environment;
     check(scene, settings);
     Job job(scene, camera, settings);
     if (settings.threads == 0) {

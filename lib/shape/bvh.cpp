@@ -1,6 +1,7 @@
 #include "limn/shape/bvh.h"
 
 #include "accel/binary_bvh.h"
+#include "core/float_environment.h"
 #include "core/ray_frame.h"
 #include "limn/shape/hittable_list.h"
 #include "shape/arguments.h"
@@ -12,6 +13,7 @@ struct Bvh::Tree {
 };
 
 Bvh::Bvh(std::vector<std::shared_ptr<const Hittable>> objects) : objects_(std::move(objects)) {
+    const FloatEnvironment environment;
     std::vector<Box> boxes;
     std::uint64_t elements = 0;
     for (const auto& object : objects_) {
@@ -28,6 +30,7 @@ Bvh::~Bvh() = default;
 Box Bvh::bounds() const { return tree_->bvh.bounds(); }
 
 std::optional<Hit> Bvh::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const RayFrame frame = frame_of(ray);
     const accel::SlabRay slab(ray, tree_->bvh.extent, frame.origin_error, frame.direction_error);

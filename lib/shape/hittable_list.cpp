@@ -1,5 +1,6 @@
 #include "limn/shape/hittable_list.h"
 
+#include "core/float_environment.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -18,6 +19,7 @@ void HittableList::add(std::shared_ptr<const Hittable> object) {
 }
 
 std::optional<Hit> HittableList::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     std::optional<Hit> nearest;
     Ray rest = ray;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
