@@ -46,6 +46,7 @@ std::string report_json(const RenderResult& result, double save_seconds) {
         {"mrays_per_second", json_number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
         {"error", error_json(result.error)},
         {"nonfinite_samples", r.nonfinite_samples},
+        {"unusable_rays", r.unusable_rays},
         {"features", words(r.features)},
         {"memory_bytes", r.memory_bytes},
         {"version", version()},
@@ -79,6 +80,8 @@ std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResul
     } else {
         facts.emplace_back("error.reason", e.reason);
     }
+    facts.emplace_back("nonfinite_samples", text(r.nonfinite_samples));
+    facts.emplace_back("unusable_rays", text(r.unusable_rays));
     facts.emplace_back("complete", r.complete ? "yes" : "no");
     facts.emplace_back("version", version());
     facts.emplace_back("command_line", command_line);

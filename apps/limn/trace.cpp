@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 
 #include "answer_writer.h"
@@ -51,21 +50,24 @@ Traceable load(const Arguments& a, const Console& console) {
     return {std::move(model), std::move(compiled)};
 }
 
-void answer_closest(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
+// Returns how many rays were unusable.
+std::size_t answer_closest(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
     std::vector<RayHit> hits(rays.size());
-    in.scene.closest_hit(rays, hits);
+    const std::size_t unusable = in.scene.closest_hit(rays, hits);
     for (const RayHit& hit : hits) {
         if (hit.t == kInfinity)
             answers.miss();
         else
             answers.hit(hit.t, in.model.meshes[hit.object]->face(hit.element), hit.u, hit.v);
     }
+    return unusable;
 }
 
-void answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
+std::size_t answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
     std::vector<std::uint8_t> occluded(rays.size());
-    in.scene.any_hit(rays, occluded);
+    const std::size_t unusable = in.scene.any_hit(rays, occluded);
     for (const std::uint8_t is_hit : occluded) answers.occluded(is_hit != 0);
+    return unusable;
 }
 
 // A bar makes sense only where an end is known and the answers do not scroll through it.
@@ -79,13 +81,9 @@ void trace(const Arguments& a, const Console& console) {
     AnswerWriter answers(a.binary);
     ProgressBar bar(wants_bar(a, reader));
     const auto begin = std::chrono::steady_clock::now();
-    std::ptrdiff_t unusable = 0;
+    std::size_t unusable = 0;
     for (std::span<const Ray> rays; !(rays = reader.next()).empty();) {
-        unusable += std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_usable(ray); });
-        if (a.any)
-            answer_any(in, rays, answers);
-        else
-            answer_closest(in, rays, answers);
+        unusable += a.any ? answer_any(in, rays, answers) : answer_closest(in, rays, answers);
         answers.flush();
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
         bar.update({reader.fraction().value_or(0), seconds.count()});

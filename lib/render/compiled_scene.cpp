@@ -37,6 +37,11 @@ RayHit complete(const flat::Scene& scene, const Ray& ray, const flat::RawHit& ra
             .primitive = raw.primitive};
 }
 
+std::size_t count_unusable(std::span<const Ray> rays) {
+    return static_cast<std::size_t>(
+        std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_usable(ray); }));
+}
+
 SceneStats stats_of(const flat::Scene& s) {
     return {.memory_bytes = s.memory_bytes,
             .primitives = s.primitives,
@@ -71,14 +76,16 @@ bool CompiledScene::any_hit(const Ray& ray) const {
            });
 }
 
-void CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
+std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i]).value_or(RayHit{});
+    return count_unusable(rays);
 }
 
-void CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
     for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = any_hit(rays[i]) ? 1 : 0;
+    return count_unusable(rays);
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {

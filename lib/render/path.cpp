@@ -35,12 +35,21 @@ struct PathTracer::Vertex {
     std::uint64_t primitive = flat::RawHit::kMiss;
 };
 
-// Follows the ray to the next surface or scattering in a medium; false if it leaves the scene. Boundaries that do not
+// Whether the ray can be traced. Numbers of a camera, shape or material at the end of their range can spoil one; it
+// carries no light.
+bool PathTracer::count(const Ray& ray) {
+    ++rays_;
+    if (is_usable(ray)) return true;
+    ++unusable_rays_;
+    return false;
+}
+
+// Follows the ray to the next surface or scattering in a medium, out of the scene, or nowhere. Boundaries that do not
 // bend light are passed.
-bool PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
+PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
     vertex.out = -normalize(ray.direction);
     for (;;) {
-        ++rays_;
+        if (!count(ray)) return End::lost;
         const flat::RawHit hit = kernels::closest_hit(scene_, ray);
         if (!scene_.media.empty()) {
             Ray flight = ray;
@@ -52,14 +61,14 @@ bool PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
                 vertex.surface.position = ray.at(event->t);
                 vertex.surface.material = {static_cast<std::uint32_t>(event->phase), nullptr, nullptr};
                 vertex.primitive = flat::RawHit::kMiss;
-                return true;
+                return End::vertex;
             }
         }
-        if (hit.primitive == flat::RawHit::kMiss) return false;
+        if (hit.primitive == flat::RawHit::kMiss) return End::background;
         const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
         vertex.surface = at.surface;
         vertex.primitive = hit.primitive;
-        if (!at.index_matched) return true;
+        if (!at.index_matched) return End::vertex;
         ray = at.surface.spawn_ray(ray.direction, ray.time);
     }
 }
@@ -73,10 +82,10 @@ Color PathTracer::radiance(Ray ray, Sampler& sampler) {
     Point3 previous = ray.origin;
     double scatter_pdf = 0;  // of the last direction; 0: specular or from the camera, no light sampling competes
     for (int segment = 1; segment <= max_depth_; ++segment) {
-        if (!advance(ray, vertex, sampler)) {
+        const End end = advance(ray, vertex, sampler);
+        if (end == End::background)
             light += throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(ray.direction);
-            break;
-        }
+        if (end != End::vertex) break;
         if (vertex.primitive != flat::RawHit::kMiss) {
             const Color emission = emitted(scene_, vertex.surface);
             if (!is_black(emission)) {
@@ -118,8 +127,7 @@ Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampl
     const Color emission = emitted(scene_, s->point);
     if (is_black(emission)) return {};
     const Ray shadow = vertex.surface.spawn_ray_to(s->point, time);
-    ++rays_;
-    if (!is_usable(shadow) || kernels::is_occluded(scene_, shadow)) return {};
+    if (!count(shadow) || kernels::is_occluded(scene_, shadow)) return {};
     double transmittance = 1;
     if (!scene_.media.empty()) {
         media_.trace(scene_, shadow);

@@ -21,16 +21,20 @@ public:
     Color radiance(Ray ray, Sampler& sampler);
 
     std::uint64_t rays() const { return rays_; }
+    // Of these, those that could not be traced.
+    std::uint64_t unusable_rays() const { return unusable_rays_; }
 
 private:
     struct Vertex;
+    enum class End { vertex, background, lost };
+    bool count(const Ray& ray);
     Color direct_light(const Vertex& vertex, double time, Sampler& sampler);
-    bool advance(Ray ray, Vertex& vertex, Sampler& sampler);
+    End advance(Ray ray, Vertex& vertex, Sampler& sampler);
 
     const flat::Scene& scene_;
     const int max_depth_;
     const bool sample_lights_;
-    std::uint64_t rays_ = 0;
+    std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
 };
 

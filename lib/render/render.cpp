@@ -78,6 +78,7 @@ public:
         r.report.render_seconds = seconds();
         r.report.rays = rays_;
         r.report.nonfinite_samples = nonfinite_;
+        r.report.unusable_rays = unusable_rays_;
         r.report.features = scene.features();
         r.report.memory_bytes = scene.stats().memory_bytes + film_.memory_bytes();
         r.report.complete = samples_done_ == all_samples();
@@ -94,6 +95,7 @@ private:
                 for (auto i = film_.samples(x, y); i < static_cast<std::uint32_t>(target); ++i, ++samples)
                     nonfinite += film_.add(x, y, sample(x, y, i, tracer)) ? 0 : 1;
         rays_ += tracer.rays();
+        unusable_rays_ += tracer.unusable_rays();
         nonfinite_ += nonfinite;
         samples_done_ += samples;
     }
@@ -140,7 +142,7 @@ private:
     tracing::Film film_;
     tbb::task_group_context context_;
     std::atomic<bool> stop_ = false;
-    std::atomic<std::uint64_t> rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
+    std::atomic<std::uint64_t> rays_ = 0, unusable_rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
     std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
     double last_report_ = 0;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

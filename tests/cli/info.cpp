@@ -104,6 +104,31 @@ TEST_CASE("limn info: an image has a size, channels and the facts of its render"
     CHECK(json["facts"] == Json{{"spp", "16"}, {"notes", "one\ntwo"}});
 }
 
+TEST_CASE("limn info: a picture says how many of its samples and rays were unusable", "[cli][info]") {
+    const Folder folder;
+    const std::string model = folder.write("a.obj", house_obj());
+    REQUIRE(limn({"render", model, "-o", folder.path("a.exr"), "--size", "8x8", "--spp", "1"}).status == 0);
+    const std::string table = limn({"info", folder.path("a.exr")}).out;
+    CHECK(row(table, "nonfinite_samples") == "0");
+    CHECK(row(table, "unusable_rays") == "0");
+}
+
+TEST_CASE("limn info: a model with a vertex that is no number, or too large for one, is refused with its line",
+          "[cli][info]") {
+    const Folder folder;
+    for (const char* number : {"nan", "inf", "-inf", "1e40", "1e999"}) {
+        const std::string model =
+            folder.write("a.obj", house_obj() + "v 0 0 0\nv 1 " + number + " 0\nv 0 1 0\nf 11 12 13\n");
+        const std::string text = folder.read("a.obj");
+        const auto line = 1 + std::count(text.begin(), text.begin() + text.find("v 1 " + std::string(number)), '\n');
+        const Outcome outcome = limn({"info", model});
+        CAPTURE(number, outcome.err);
+        CHECK(outcome.status == 1);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.find(model + ": line " + std::to_string(line) + ": ") != std::string::npos);
+    }
+}
+
 TEST_CASE("limn info: what is no model and no image is refused with status 1", "[cli][info]") {
     const Folder folder;
     const std::pair<std::string, std::string> cases[] = {

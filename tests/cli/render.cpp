@@ -49,8 +49,8 @@ TEST_CASE("limn render: writes every output and the report, and only those", "[c
 
     const Json report = Json::parse(folder.read("r.json"));
     CHECK(keys(report) == std::set<std::string>{"scene", "width", "height", "seed", "threads", "spp", "seconds", "rays",
-                                                "mrays_per_second", "error", "nonfinite_samples", "features",
-                                                "memory_bytes", "version"});
+                                                "mrays_per_second", "error", "nonfinite_samples", "unusable_rays",
+                                                "features", "memory_bytes", "version"});
     CHECK(keys(report["seconds"]) == std::set<std::string>{"compile", "render", "save"});
     CHECK(keys(report["error"]) == std::set<std::string>{"metric", "estimate", "ci95_low", "ci95_high", "target",
                                                          "reached", "max_sample_share", "reason"});
@@ -62,6 +62,7 @@ TEST_CASE("limn render: writes every output and the report, and only those", "[c
     CHECK(report["spp"] == 8);
     CHECK(report["rays"] >= 20 * 14 * 8);
     CHECK(report["nonfinite_samples"] == 0);
+    CHECK(report["unusable_rays"] == 0);
     CHECK(report["error"]["metric"] == "relMSE");
     CHECK(report["error"]["estimate"] > 0);
     CHECK(report["error"]["reason"].is_null());

@@ -23,6 +23,7 @@ RenderResult result() {
                 .render_seconds = 4,
                 .rays = 6'000'000,
                 .nonfinite_samples = 17,
+                .unusable_rays = 23,
                 .features = "sphere quad medium",
                 .memory_bytes = 123456,
                 .complete = true};
@@ -55,6 +56,7 @@ TEST_CASE("Report: every field holds its own number, in the order of the documen
     "reason": null
   },
   "nonfinite_samples": 17,
+  "unusable_rays": 23,
   "features": [
     "sphere",
     "quad",
@@ -94,6 +96,8 @@ TEST_CASE("Facts: a picture's header says what was rendered, how well, and by wh
                                                                                {"error.estimate", "0.25"},
                                                                                {"error.ci95_low", "0.125"},
                                                                                {"error.ci95_high", "0.5"},
+                                                                               {"nonfinite_samples", "17"},
+                                                                               {"unusable_rays", "23"},
                                                                                {"complete", "yes"},
                                                                                {"version", version()},
                                                                                {"command_line", "limn render x.obj"}});
@@ -117,6 +121,8 @@ TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so
                                                        {"seconds.render", "4"},
                                                        {"error.metric", "relMSE"},
                                                        {"error.reason", "too few"},
+                                                       {"nonfinite_samples", "17"},
+                                                       {"unusable_rays", "23"},
                                                        {"complete", "no"},
                                                        {"version", version()},
                                                        {"command_line", ""}});

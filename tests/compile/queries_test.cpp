@@ -33,8 +33,8 @@ TEST_CASE("CompiledScene: a batch answers as single rays do", "[compile]") {
             rays.size(),
             RayHit{.t = 1, .object = 7, .element = 7, .u = 7, .v = 7, .index_matched = true, .primitive = 7});
         std::vector<std::uint8_t> occluded(rays.size(), 77);
-        compiled.closest_hit(rays, hits);
-        compiled.any_hit(rays, occluded);
+        CHECK(compiled.closest_hit(rays, hits) == unusable_rays().size());
+        CHECK(compiled.any_hit(rays, occluded) == unusable_rays().size());
         int differing = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const auto single = compiled.closest_hit(rays[i]);

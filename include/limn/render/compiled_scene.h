@@ -61,11 +61,11 @@ public:
     bool any_hit(const Ray& ray) const;
 
     /// The same for many rays, one after the other in the calling thread. A miss has t == kInfinity; `occluded`
-    /// is 1 or 0.
+    /// is 1 or 0. Returns how many of the rays were unusable.
     /// \throws ArgumentError if the spans differ in length
     ///@{
-    void closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
-    void any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+    std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
+    std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
     ///@}
 
     /// All about the point that `ray` hits. \pre hit was found by closest_hit for this ray in this scene

@@ -39,9 +39,12 @@ struct RenderReport {
     double render_seconds = 0;            ///< that `render` took
     std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
     std::uint64_t nonfinite_samples = 0;  ///< counted as black
-    std::string features;                 ///< CompiledScene::features
-    std::size_t memory_bytes = 0;         ///< compiled scene and film
-    bool complete = true;                 ///< false if it was stopped
+    /// Of `rays`, those that a camera, shape or material of extreme numbers made unusable (see is_usable): they carry
+    /// no light.
+    std::uint64_t unusable_rays = 0;
+    std::string features;          ///< CompiledScene::features
+    std::size_t memory_bytes = 0;  ///< compiled scene and film
+    bool complete = true;          ///< false if it was stopped
 };
 
 /// A picture and what is known of it.
