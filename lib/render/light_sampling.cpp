@@ -16,9 +16,9 @@ namespace {
 using flat::Light;
 using flat::LightKind;
 
-// Below this solid angle (in steradians) the sum of angles that gives it has lost half its digits: such a quad is small
-// or far, and uniform per area is nearly uniform per solid angle.
-constexpr double kSmallSolidAngle = 1e-7;
+// Below this solid angle (in steradians) the inversion that places samples has lost two thirds of its digits: such a
+// rectangle is small, far or seen almost edge-on, and gives little light however it is sampled.
+constexpr double kSmallSolidAngle = 1e-5;
 
 // Density per solid angle of a point drawn uniformly on a planar light; 0 if it is seen edge-on.
 double pdf_by_area(const Light& light, const Vec3& to_point) {

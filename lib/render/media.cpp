@@ -7,22 +7,28 @@ namespace limn::tracing {
 
 namespace {
 
+// Extinctions at the end of double must add up, and go away again where they end: infinities would leave NaN.
+constexpr double kLargestExtinction = 1e300;
+
+// In no plane and along no line that anybody would describe.
+constexpr Vec3 kAside{0.4327561, -0.7915372, 0.4313921};
+
 // Crossings of one surface point come once for each primitive that meets there, their t apart by rounding alone.
 // Doubles place them to some 2^-48; true crossings that close bound no visible depth.
 bool same_point(double a, double b) { return std::abs(a - b) <= 0x1p-40 * std::abs(a); }
 
-// Of the crossings at one point: one if all go the same way, none if the ray only touches.
-std::size_t collapse(std::vector<kernels::Crossing>& crossings) {
+// For each place where crossings are, in order, one of them, and whether the others there go the same way. It goes into
+// `places`, replacing what is there.
+void gather(std::vector<kernels::Crossing>& crossings, std::vector<MediaAlongRay::Place>& places) {
     std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
-    std::size_t kept = 0;
+    places.clear();
     for (std::size_t i = 0; i < crossings.size();) {
-        bool inward = false, outward = false;
-        const double t = crossings[i].t;
-        for (; i < crossings.size() && same_point(t, crossings[i].t); ++i)
-            (crossings[i].inward ? inward : outward) = true;
-        if (inward != outward) crossings[kept++] = {t, inward};
+        const kernels::Crossing& first = crossings[i];
+        bool agree = true;
+        for (; i < crossings.size() && same_point(first.t, crossings[i].t); ++i)
+            agree = agree && crossings[i].inward == first.inward;
+        places.push_back({first.t, agree});
     }
-    return kept;
 }
 
 }  // namespace
@@ -30,26 +36,49 @@ std::size_t collapse(std::vector<kernels::Crossing>& crossings) {
 void MediaAlongRay::trace(const flat::Scene& scene, const Ray& ray) {
     scene_ = &scene;
     t_max_ = ray.t_max;
+    speed_ = length(ray.direction);
     steps_.clear();
     for (std::uint32_t i = 0; i < scene.media.size(); ++i) add_intervals(scene, i, ray);
     std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.t < b.t; });
 }
 
 void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray) {
-    const double extinction = scene.medium_shapes[scene.media[medium].shape].density * length(ray.direction);
+    const double extinction = std::min(scene.medium_shapes[scene.media[medium].shape].density, kLargestExtinction);
     if (extinction == 0) return;
     Ray beyond = ray;
     beyond.t_max = kInfinity;
     kernels::crossings(scene, scene.media[medium], beyond, crossings_);
-    const std::size_t count = collapse(crossings_);
-    const auto add = [&](double from, double to) {
-        if (!(from < std::min(to, t_max_))) return;
-        steps_.push_back({from, extinction, medium});
-        steps_.push_back({std::min(to, t_max_), -extinction, medium});
-    };
-    std::size_t i = count % 2;  // odd: the ray starts inside
-    if (i == 1) add(ray.t_min, crossings_[0].t);
-    for (; i + 1 < count; i += 2) add(crossings_[i].t, crossings_[i + 1].t);
+    gather(crossings_, places_);
+    // From the far end, which is outside, to the near one.
+    bool inside = false;
+    double end = 0;
+    for (std::size_t i = places_.size(); i-- > 0;) {
+        const auto [t, is_crossed] = places_[i];
+        const bool inside_before =
+            is_crossed ? !inside : is_inside(scene, medium, ray, i > 0 ? places_[i - 1].t : ray.t_min, t);
+        if (inside_before && !inside) end = t;
+        if (!inside_before && inside) add_interval(t, end, extinction, medium);
+        inside = inside_before;
+    }
+    if (inside) add_interval(ray.t_min, end, extinction, medium);
+}
+
+void MediaAlongRay::add_interval(double from, double to, double extinction, std::uint32_t medium) {
+    to = std::min(to, t_max_);
+    if (!(from < to)) return;
+    steps_.push_back({from, extinction, medium});
+    steps_.push_back({to, -extinction, medium});
+}
+
+// Of a stretch of the ray without crossings, from another ray that starts in its middle. That one meets no edges: it
+// only touches where its crossings disagree.
+bool MediaAlongRay::is_inside(const flat::Scene& scene, std::uint32_t medium, const Ray& ray, double from, double to) {
+    const double middle = std::max(from, to - 1 - std::abs(to)) / 2 + to / 2;  // `from` may be -infinity
+    const Ray aside{ray.at(middle), kAside, 0, kInfinity, ray.time};
+    if (!is_usable(aside)) return false;
+    kernels::crossings(scene, scene.media[medium], aside, crossings_);
+    gather(crossings_, places_aside_);
+    return std::count_if(places_aside_.begin(), places_aside_.end(), [](const Place& p) { return p.is_crossed; }) % 2;
 }
 
 template <class Visit>
@@ -67,7 +96,7 @@ void MediaAlongRay::for_each_stretch(const Visit& visit) const {
 double MediaAlongRay::transmittance() const {
     double depth = 0;
     for_each_stretch([&](std::size_t end, double t, double extinction) {
-        depth += extinction * (steps_[end].t - t);
+        depth += extinction * ((steps_[end].t - t) * speed_);
         return true;
     });
     return std::exp(-depth);
@@ -92,10 +121,10 @@ std::optional<FreeFlight> MediaAlongRay::sample(double random, double choose) co
     double depth = -std::log1p(-random);  // 53 bits: up to 36.7 mean free paths
     std::optional<FreeFlight> flight;
     for_each_stretch([&](std::size_t end, double t, double extinction) {
-        const double stretch = extinction * (steps_[end].t - t);
+        const double stretch = extinction * ((steps_[end].t - t) * speed_);
         if (stretch > depth) {
             const Step& medium = choose_medium(end, choose * extinction);
-            flight = {t + depth / extinction, scene_->medium_shapes[scene_->media[medium.medium].shape].phase};
+            flight = {t + depth / extinction / speed_, scene_->medium_shapes[scene_->media[medium.medium].shape].phase};
             return false;
         }
         depth -= stretch;

@@ -17,8 +17,10 @@ struct FreeFlight {
 };
 
 // Extinction along one ray, a step function of t. It is worked out anew for each ray from the crossings of all
-// boundaries up to infinity: a point is inside where their number ahead is odd. So nothing is carried along the path,
-// and the eye, lights and scattering points may be anywhere; boundaries may be hollow, non-convex and overlapping.
+// boundaries up to infinity: a point is inside where their number ahead is odd. At an edge or vertex the faces are all
+// crossed at one place. Where they disagree whether the ray enters or leaves there, a ray in another direction tells
+// what lies before. So nothing is carried along the path, and the eye, lights and scattering points may be anywhere;
+// boundaries may be hollow, non-convex and overlapping.
 // Reuse one object for many rays: it keeps its memory.
 class MediaAlongRay {
 public:
@@ -32,21 +34,31 @@ public:
     // the medium in proportion to its extinction there. Nothing if it is longer than t_max.
     std::optional<FreeFlight> sample(double random, double choose) const;
 
+    // Where one or more faces of a boundary are met; if they disagree about the way, it may be crossed there or
+    // touched.
+    struct Place {
+        double t;
+        bool is_crossed;
+    };
+
 private:
     struct Step {
         double t;
-        double extinction;  // change, per unit of t
+        double extinction;  // change, per world unit of length
         std::uint32_t medium;
     };
     void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);
+    void add_interval(double from, double to, double extinction, std::uint32_t medium);
+    bool is_inside(const flat::Scene& scene, std::uint32_t medium, const Ray& ray, double from, double to);
     // visit(end, t, extinction) for each stretch inside media, from t to step `end`, until it returns false.
     template <class Visit>
     void for_each_stretch(const Visit& visit) const;
     const Step& choose_medium(std::size_t end, double pick) const;
 
     const flat::Scene* scene_ = nullptr;
-    double t_max_ = 0;
+    double t_max_ = 0, speed_ = 1;  // t is in units of the ray's direction, `speed_` long
     std::vector<kernels::Crossing> crossings_;
+    std::vector<Place> places_, places_aside_;
     std::vector<Step> steps_;  // sorted by t; every medium entered is left again at t_max_ at the latest
 };
 

@@ -35,8 +35,7 @@ struct PathTracer::Vertex {
     std::uint64_t primitive = flat::RawHit::kMiss;
 };
 
-// Whether the ray can be traced. Numbers of a camera, shape or material at the end of their range can spoil one; it
-// carries no light.
+// Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
 bool PathTracer::count(const Ray& ray) {
     ++rays_;
     if (is_usable(ray)) return true;

@@ -21,23 +21,31 @@ SphericalRectangle::SphericalRectangle(const Point3& corner, const Vec3& edge_u,
     const Vec3 d = corner - from;
     x0_ = dot(d, x), y0_ = dot(d, y), z0_ = -std::abs(dot(d, z));
     x1_ = x0_ + length_u, y1_ = y0_ + length_v;
-    // The inner angles of the spherical quadrilateral lie between the planes through its sides. Each plane's normal has
-    // but two components, since it contains an edge.
-    const auto across = [&](double along) { return along / norm(z0_, along); };
-    // n0 = (0, z0, -y0), n1 = (-z0, 0, x1), n2 = (0, -z0, y1), n3 = (z0, 0, -x0), normalised
-    const double n0z = -across(y0_), n1z = across(x1_), n2z = across(y1_), n3z = -across(x0_);
-    const auto angle = [](double product) { return std::acos(std::clamp(-product, -1.0, 1.0)); };
-    const double g0 = angle(n0z * n1z), g1 = angle(n1z * n2z), g2 = angle(n2z * n3z), g3 = angle(n3z * n0z);
-    b0_ = n0z, b1_ = n2z;
+    // The inner angle at a corner of the spherical quadrilateral lies between the planes through its two sides; (x, y,
+    // z0) is the corner. Sine and cosine of it have a common factor that is left out. Neither cancels, as the cosine
+    // alone would where the rectangle is seen almost edge-on: its angles are near 0 and pi there.
+    const auto angle = [this](double cx, double cy, double cosine) {
+        return std::atan2(-z0_ * std::sqrt(cx * cx + cy * cy + z0_ * z0_), cosine);
+    };
+    const double g0 = angle(x1_, y0_, x1_ * y0_), g1 = angle(x1_, y1_, -x1_ * y1_);
+    const double g2 = angle(x0_, y1_, x0_ * y1_), g3 = angle(x0_, y0_, -x0_ * y0_);
+    b0_ = -y0_ / norm(z0_, y0_), b1_ = y1_ / norm(z0_, y1_);
     k_ = 2 * kPi - g2 - g3;
     solid_angle_ = z0_ == 0 ? 0 : std::max(0.0, g0 + g1 - k_);
 }
 
 Uv SphericalRectangle::sample(double u, double v) const {
     const double au = u * solid_angle_ + k_;
-    const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
-    const double cu = std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + b0_ * b0_), -1.0, 1.0);
-    const double xu = std::clamp(-(cu * z0_) / std::sqrt(std::max(1 - cu * cu, 1e-300)), x0_, x1_);
+    // fu = (cos(au) b0 - b1) / sin(au), and xu = -z0 cu / sqrt(1 - cu^2) with cu = 1 / sqrt(fu^2 + b0^2). Almost
+    // edge-on b0 and b1 are 1 but for q0 / 2 and q1 / 2, and so is cos(au), up to signs: the differences are taken of
+    // what is left of them.
+    const double z2 = z0_ * z0_, q0 = z2 / (z2 + y0_ * y0_), q1 = z2 / (z2 + y1_ * y1_);
+    const bool same_sign = std::signbit(b0_) == std::signbit(b1_);
+    const double half = same_sign ? std::sin(au / 2) : std::cos(au / 2);
+    const double cosine_less_sign = (same_sign ? -2 : 2) * half * half;
+    const double b_difference = std::copysign(1.0, b1_) * (q1 - q0) / (std::abs(b0_) + std::abs(b1_));
+    const double fu = (cosine_less_sign * b0_ + b_difference) / std::sin(au);
+    const double xu = std::clamp(std::copysign(-z0_, fu) / std::sqrt(std::max(fu * fu - q0, 1e-300)), x0_, x1_);
     const double d = norm(xu, z0_);
     const double h0 = y0_ / norm(d, y0_), h1 = y1_ / norm(d, y1_);
     const double hv = h0 + v * (h1 - h0);

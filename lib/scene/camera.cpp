@@ -48,7 +48,10 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
     focus_distance_ = camera.focus_distance.value_or(length(view));
     require(focus_distance_ > 0 && std::isfinite(focus_distance_), "the focus distance must be positive and finite");
     lens_radius_ = focus_distance_ * std::tan(radians(camera.aperture_angle) / 2);
-    require(std::isfinite(half_width_) && std::isfinite(lens_radius_), "the frame or the lens is too large");
+    // No ray may begin or lead beyond the largest double.
+    const double reach = half_width_ + half_height_ + lens_radius_ / focus_distance_;
+    require(std::isfinite(2 * reach) && std::isfinite(max_abs(eye_) + 2 * lens_radius_),
+            "the frame or the lens is too large");
 }
 
 Ray CameraRays::ray(double x, double y, double lens_u, double lens_v, double time_u) const {

@@ -77,18 +77,3 @@ TEST_CASE("render: shadow rays from such a point are counted too", "[render][unu
     CHECK(r.report.nonfinite_samples == 0);
     for (const float v : r.image.values()) CHECK(v == 0);
 }
-
-TEST_CASE("render: of a camera at the end of the numbers the rays that leave from infinity are counted, and black",
-          "[render][unusable]") {
-    Camera camera = camera_at({1.5e308, 0, 0}, {1.5e308, 0, -1}, 40);
-    camera.focus_distance = 1e308;
-    camera.aperture_angle = 90;  // a lens of that radius, of which a segment lies beyond the largest double
-    const RenderResult r = render(compile_with(sky(1), {}), camera, square(8, 16, 2));
-    const double unusable = static_cast<double>(r.report.unusable_rays) / kSamples;
-    const double height = (std::numeric_limits<double>::max() - 1.5e308) / 1e308;
-    const double segment = (std::acos(height) - height * std::sqrt(1 - height * height)) / kPi;
-    CHECK(r.report.rays == kSamples);
-    CHECK(std::abs(unusable - segment) <= 4.5 * std::sqrt(segment * (1 - segment) / kSamples));
-    CHECK(r.report.nonfinite_samples == 0);
-    CHECK(mean(r.image) == Approx(1 - unusable).epsilon(1e-6));
-}

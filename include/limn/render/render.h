@@ -39,7 +39,7 @@ struct RenderReport {
     double render_seconds = 0;            ///< that `render` took
     std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
     std::uint64_t nonfinite_samples = 0;  ///< counted as black
-    /// Of `rays`, those that a camera, shape or material of extreme numbers made unusable (see is_usable): they carry
+    /// Of `rays`, those that a shape or material of extreme numbers made unusable (see is_usable): they carry
     /// no light.
     std::uint64_t unusable_rays = 0;
     std::string features;          ///< CompiledScene::features
