@@ -13,12 +13,11 @@
 using namespace limn;
 using test::chi_square_p;
 using test::DirectionHistogram;
+using test::kDraws;
+using test::kSamplerLevel;
 using test::uniform;
 
 namespace {
-
-constexpr int kSamples = 1'000'000;
-const double kLevel = test::sidak_level(10);  // chi-square tests in this file
 
 constexpr double kAlmostOne = 1 - 0x1p-53;
 constexpr double kCorners[] = {0, 0x1p-1074, 0x1p-53, 0.25, 0.5 - 0x1p-54, 0.5, 0.5 + 0x1p-53, 0.75, kAlmostOne};
@@ -27,7 +26,7 @@ template <class Sample, class Pdf>
 double direction_p(const Sample& sample, const Pdf& pdf) {
     std::mt19937_64 random(64);
     DirectionHistogram histogram({0, 0, 1});
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kDraws; ++i) {
         const double u = uniform(random);
         histogram.add(sample(u, uniform(random)));
     }
@@ -37,24 +36,25 @@ double direction_p(const Sample& sample, const Pdf& pdf) {
 }  // namespace
 
 TEST_CASE("Warp: the cosine hemisphere follows its density", "[core][warp]") {
-    CHECK(direction_p(sample_cosine_hemisphere, [](const Vec3& w) { return pdf_cosine_hemisphere(w.z); }) > kLevel);
+    CHECK(direction_p(sample_cosine_hemisphere, [](const Vec3& w) { return pdf_cosine_hemisphere(w.z); }) >
+          kSamplerLevel);
 }
 
 TEST_CASE("Warp: the uniform sphere follows its density", "[core][warp]") {
-    CHECK(direction_p(sample_uniform_sphere, [](const Vec3&) { return pdf_uniform_sphere(); }) > kLevel);
+    CHECK(direction_p(sample_uniform_sphere, [](const Vec3&) { return pdf_uniform_sphere(); }) > kSamplerLevel);
 }
 
 TEST_CASE("Warp: uniform cones follow their density, wide and narrow", "[core][warp]") {
     for (const double one_minus_cos : {1e-9, 0.25, 1.0, 2.0}) {
         std::mt19937_64 random(65);
         CAPTURE(one_minus_cos);
-        CHECK(test::uniform_square_p(kSamples, [&] {
+        CHECK(test::uniform_square_p(kDraws, [&] {
                   const double u = uniform(random);
                   const Vec3 w = sample_uniform_cone(u, uniform(random), one_minus_cos);
                   const double from_axis = (w.x * w.x + w.y * w.y) / (1 + w.z);  // 1 - cos without cancellation
                   return std::pair(w.z > -1 + 1e-9 ? from_axis / one_minus_cos : 1.0,
                                    std::atan2(w.y, w.x) / (2 * kPi) + 0.5);
-              }) > kLevel);
+              }) > kSamplerLevel);
         CHECK(pdf_uniform_cone(one_minus_cos) * 2 * kPi * one_minus_cos == Approx(1).epsilon(1e-15));
     }
 }
@@ -67,11 +67,11 @@ TEST_CASE("Warp: the cone's density stays right for a light far away", "[core][w
 
 TEST_CASE("Warp: the disc is uniform per area", "[core][warp]") {
     std::mt19937_64 random(66);
-    CHECK(test::uniform_square_p(kSamples, [&] {
+    CHECK(test::uniform_square_p(kDraws, [&] {
               const double u = uniform(random);
               const Vec3 p = sample_uniform_disc(u, uniform(random));
               return std::pair(length_squared(p), std::atan2(p.y, p.x) / (2 * kPi) + 0.5);
-          }) > kLevel);
+          }) > kSamplerLevel);
 }
 
 TEST_CASE("Warp: neighbours in the square are neighbours in the disc", "[core][warp]") {
@@ -91,41 +91,41 @@ TEST_CASE("Warp: the ball is uniform per volume", "[core][warp]") {
     std::mt19937_64 random(67);
     std::vector<double> observed(16 * 16 * 16);
     const auto index = [](double x) { return static_cast<std::size_t>(std::clamp(x * 16, 0.0, 15.0)); };
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kDraws; ++i) {
         const double u = uniform(random), v = uniform(random);
         const Vec3 p = sample_uniform_ball(u, v, uniform(random));
         const double r = length(p);  // r^3, cos theta and phi are independent and uniform
         observed[(index(r * r * r) * 16 + index((p.z / r + 1) / 2)) * 16 +
                  index(std::atan2(p.y, p.x) / (2 * kPi) + 0.5)] += 1;
     }
-    CHECK(chi_square_p(observed, std::vector<double>(observed.size(), kSamples / 4096.0)) > kLevel);
+    CHECK(chi_square_p(observed, std::vector<double>(observed.size(), kDraws / 4096.0)) > kSamplerLevel);
 }
 
 TEST_CASE("Warp: the triangle is uniform per area", "[core][warp]") {
     std::mt19937_64 random(68);
-    CHECK(test::uniform_square_p(kSamples, [&] {
+    CHECK(test::uniform_square_p(kDraws, [&] {
               const double u = uniform(random);
               const Uv b = sample_uniform_triangle(u, uniform(random));
               const double far_side = b.u + b.v;  // distance from the first vertex; the area within it is its square
               return std::pair(far_side * far_side, b.v / far_side);
-          }) > kLevel);
+          }) > kSamplerLevel);
 }
 
 TEST_CASE("Warp: free flight follows its density", "[core][warp]") {
     const double sigma = 2.5, width = 0.05;
     std::mt19937_64 random(69);
     std::vector<double> observed(200), expected(200);
-    for (int i = 0; i < kSamples; ++i)
+    for (int i = 0; i < kDraws; ++i)
         observed[static_cast<std::size_t>(std::min(sample_exponential(uniform(random), sigma) / width, 199.0))] += 1;
     double total = 0;
     for (std::size_t i = 0; i + 1 < expected.size(); ++i) {
         const double a = static_cast<double>(i) * width;
         const double simpson =
             pdf_exponential(a, sigma) + 4 * pdf_exponential(a + width / 2, sigma) + pdf_exponential(a + width, sigma);
-        total += expected[i] = kSamples * simpson * width / 6;
+        total += expected[i] = kDraws * simpson * width / 6;
     }
-    expected.back() = kSamples - total;
-    CHECK(chi_square_p(observed, expected) > kLevel);
+    expected.back() = kDraws - total;
+    CHECK(chi_square_p(observed, expected) > kSamplerLevel);
 }
 
 TEST_CASE("Warp: free flight has no end that 24-bit numbers would set", "[core][warp]") {

@@ -3,8 +3,6 @@
 #include "hard/hard.h"
 #include "limn/core/error.h"
 #include "limn/shape/constant_medium.h"
-#include "render/sampler.h"
-#include "support/chi_square.h"
 #include "support/pictures.h"
 
 using namespace limn;
@@ -263,63 +261,4 @@ TEST_CASE("Media: a density that is negative, infinite or no number is refused",
     for (const double density : {-1e-300, -5e-324, -1.0, kInfinity, -kInfinity, std::nan("")})
         CHECK_THROWS_AS(medium_of(boundary, density), ArgumentError);
     CHECK_NOTHROW(medium_of(boundary, -0.0));
-}
-
-namespace {
-
-// The p-value of Kolmogorov and Smirnov for numbers in [0, 1) that ought to be uniform, to some 1e-6 of their count: a
-// cell of the histogram. Series: Marsaglia, Tsang, Wang, Evaluating Kolmogorov's Distribution, 2003.
-class KolmogorovSmirnov {
-public:
-    void add(double x) { ++cells_[std::min(static_cast<std::size_t>(x * kCells), kCells - 1)], ++count_; }
-    double p_value() const {
-        double below = 0, distance = 0;
-        const double n = static_cast<double>(count_);
-        for (std::size_t i = 0; i < kCells; ++i) {
-            below += static_cast<double>(cells_[i]);
-            distance = std::max(distance, std::abs(below / n - static_cast<double>(i + 1) / kCells));
-        }
-        const double x = distance * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n));  // Stephens, 1970
-        double p = 0;
-        for (int k = 1; k < 100; ++k) p += (k % 2 ? 2 : -2) * std::exp(-2.0 * k * k * x * x);
-        return std::min(p, 1.0);
-    }
-
-private:
-    static constexpr std::size_t kCells = std::size_t{1} << 20;
-    std::vector<std::uint32_t> cells_ = std::vector<std::uint32_t>(kCells);
-    std::uint64_t count_ = 0;
-};
-
-}  // namespace
-
-TEST_CASE("Media: free paths are exponential in mean and distribution, and so is their tail beyond 24 bits",
-          "[hard][media]") {
-    // One endless medium of extinction 2, at depth 0 from the start.
-    const CompiledScene scene = compile_with(sky(0), {medium_of(sphere({0, 0, 0}, 1e6, nullptr), 2)});
-    MediaAlongRay media;
-    media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {0, 3, 0}});
-    const int draws = count(1e8);
-    KolmogorovSmirnov whole, tail;
-    double sum = 0, tail_sum = 0;
-    int missing = 0;
-    for (int i = 0; i < draws; ++i) {
-        tracing::Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
-        const double u = sampler.next(), in_tail = 1 - std::ldexp(1 - sampler.next(), -24);
-        const std::optional<FreeFlight> path = media.sample(u, 0.5), far = media.sample(in_tail, 0.5);
-        if (!path || !far) {
-            ++missing;
-            continue;
-        }
-        // Memoryless: beyond 24 log 2 = 16.64 mean paths the rest is distributed as the whole.
-        const double depth = 6 * path->t, rest = 6 * far->t - 24 * std::log(2.0);
-        sum += depth, tail_sum += rest;
-        whole.add(-std::expm1(-depth)), tail.add(-std::expm1(-rest));
-    }
-    CHECK(missing == 0);
-    const double n = draws, sigma = 1 / std::sqrt(n);  // of a mean of exponential numbers
-    CHECK(std::abs(sum / n - 1) <= 4.5 * sigma);
-    CHECK(std::abs(tail_sum / n - 1) <= 4.5 * sigma);
-    CHECK(whole.p_value() > 1e-3);
-    CHECK(tail.p_value() > 1e-3);
 }

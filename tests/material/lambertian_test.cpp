@@ -14,7 +14,7 @@ using namespace limn::test;
 TEST_CASE("Lambertian: samples follow the density, and nothing is lost", "[material][lambertian]") {
     const Surface s = surface({1, -2, 3});
     const Lobe lobe(Lambertian({1, .5, 1}), s, normalize({2, 0, 1}), Vec3(s.normal));
-    CHECK(lobe.p_value > kLobeLevel);
+    CHECK(lobe.p_value > kSamplerLevel);
     CHECK(lobe.absorbed == 0);
     CHECK(lobe.mean_weight.g == Approx(.5).epsilon(1e-9));
     CHECK(lobe.integral == Approx(.5).epsilon(1e-5));
@@ -24,10 +24,10 @@ TEST_CASE("Lambertian: samples follow the density, and nothing is lost", "[mater
 TEST_CASE("Lambertian: with a shading normal samples follow the density that is left", "[material][lambertian]") {
     const Surface s = surface({0, 0, 1}, {1, 0, 1});
     const Lobe lobe(Lambertian({1, 1, 1}), s, normalize({-1, 0, 2}), Vec3(s.shading_normal));
-    CHECK(lobe.p_value > kLobeLevel);
+    CHECK(lobe.p_value > kSamplerLevel);
     // The share of a cosine lobe beyond a plane tilted by angle a is (1 - cos a) / 2.
     const double lost = (1 - std::sqrt(.5)) / 2;
-    CHECK(std::abs(lobe.absorbed - lost) < 4 * std::sqrt(lost / kSamples));
+    CHECK(std::abs(lobe.absorbed - lost) < 4 * std::sqrt(lost / kDraws));
     CHECK(lobe.integral == Approx(1 - lost).epsilon(DirectionHistogram::kQuadratureError));
     CHECK(lobe.worst_ratio < 1e-12);
 }
@@ -36,7 +36,7 @@ TEST_CASE("Lambertian: no sample below the geometric surface contributes", "[mat
     std::mt19937_64 random(23);
     const Lambertian white({1, 1, 1});
     int violations = 0;
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kDraws; ++i) {
         const Surface s = surface(random_direction(random), random_direction(random));
         const Vec3 out = random_out(random, s), in = random_direction(random);
         const auto sample = white.sample(s, out, random3(random));
@@ -75,7 +75,7 @@ TEST_CASE("Lambertian: the weight is the albedo, bit for bit, at the point of th
 
 TEST_CASE("Isotropic: samples follow the density on the whole sphere, and nothing is lost", "[material][isotropic]") {
     const Lobe lobe(Isotropic({1, .25, 1}), Surface{}, {0, 0, 1}, {0, 0, 1});
-    CHECK(lobe.p_value > kLobeLevel);
+    CHECK(lobe.p_value > kSamplerLevel);
     CHECK(lobe.absorbed == 0);
     CHECK(lobe.mean_weight.g == Approx(.25).epsilon(1e-9));
     CHECK(lobe.integral == Approx(.25).epsilon(1e-5));

@@ -12,11 +12,7 @@
 
 namespace limn::test {
 
-inline constexpr int kSamples = 1'000'000;
 inline constexpr double kAlmostOne = 1 - 0x1p-53;
-
-/// For the chi-square tests of all materials' samplers: 9 lobes.
-inline const double kLobeLevel = sidak_level(9);
 
 inline Surface surface(const Vec3& normal, const Vec3& shading_normal) {
     Surface s;
@@ -56,14 +52,14 @@ struct Lobe {
     Lobe(const Material& material, const Surface& s, const Vec3& out, const Vec3& axis, double max_angle = kPi)
         : histogram(axis, max_angle) {
         std::mt19937_64 random(64);
-        for (int i = 0; i < kSamples; ++i) {
+        for (int i = 0; i < kDraws; ++i) {
             const std::optional<ScatterSample> sample = material.sample(s, out, random3(random));
             histogram.add(sample ? std::optional(sample->direction) : std::nullopt);
             if (!sample) {
-                absorbed += 1.0 / kSamples;
+                absorbed += 1.0 / kDraws;
                 continue;
             }
-            mean_weight += sample->weight / kSamples;
+            mean_weight += sample->weight / kDraws;
             const ScatterValue value = material.value(s, out, sample->direction);
             worst_ratio = std::max({worst_ratio, std::abs(value.pdf / sample->pdf - 1),
                                     std::abs(value.value.g / value.pdf / sample->weight.g - 1)});

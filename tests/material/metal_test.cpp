@@ -53,12 +53,12 @@ TEST_CASE("Metal: fuzzy samples follow the density, steep and grazing, narrow an
         const bool cut = radians(degrees) + std::asin(fuzz) > kPi / 2;
         const Lobe lobe(Metal({1, .5, 1}, fuzz), kFloor, out, cut ? from_z(0) : mirrored(out),
                         cut ? kPi / 2 : std::asin(fuzz));
-        CHECK(lobe.p_value > kLobeLevel);
+        CHECK(lobe.p_value > kSamplerLevel);
         CHECK(lobe.worst_ratio < 1e-12);
         // What is not absorbed is reflected: the loss at grazing angles is all there is.
         CHECK(lobe.mean_weight.g == Approx(.5 * (1 - lobe.absorbed)).epsilon(1e-9));
         CHECK(lobe.integral <= .5 * (1 + DirectionHistogram::kQuadratureError));
-        const double sigma = .5 * std::sqrt(std::max(lobe.absorbed, 1.0 / kSamples) / kSamples);
+        const double sigma = .5 * std::sqrt(std::max(lobe.absorbed, 1.0 / kDraws) / kDraws);
         CHECK(std::abs(lobe.integral - lobe.mean_weight.g) < 4 * sigma + .5 * DirectionHistogram::kQuadratureError);
     }
 }

@@ -173,13 +173,12 @@ TEST_CASE("Light sampling: 1 / pdf has the solid angle as its mean, direction / 
 
 TEST_CASE("Light sampling: points are uniform on planar lights, directions in a ball's cone and around its inside",
           "[render][lights]") {
-    const double level = sidak_level(5);
     const Point3 far{0, -1e4, 0};  // from where solid angle and area are as good as the same
     std::mt19937_64 random(41);
     const auto next = [&] { return uniform(random); };
     const auto uv_p = [&](std::size_t kind) {
         const CompiledScene scene = compile_with(sky(0), {light_of_kind(kind, lamp(3))});
-        return uniform_square_p(100'000, [&] {
+        return uniform_square_p(kDraws, [&] {
             const double pick = next(), u = next();
             const Uv uv = sample_light(scene.flat(), far, 0, pick, u, next())->point.uv;
             // A triangle becomes a square whose sides are a share of its area each.
@@ -187,19 +186,19 @@ TEST_CASE("Light sampling: points are uniform on planar lights, directions in a 
             return kind == 0 ? std::pair(1 - rest * rest, uv.v / rest) : std::pair(uv.u, uv.v);
         });
     };
-    for (const std::size_t kind : {0u, 2u, 3u}) CHECK(uv_p(kind) > level);
+    for (const std::size_t kind : {0u, 2u, 3u}) CHECK(uv_p(kind) > kSamplerLevel);
     const CompiledScene scene = compile_with(sky(0), {light_of_kind(5, lamp(3))});
     for (const Point3& from : {Point3{0, 0, 0}, Point3{1, 2.2, -0.25}}) {
         const Vec3 axis = Point3{1, 2, -0.5} - from;
         const bool inside = length(axis) < 0.75;
         const double angle = inside ? kPi : std::asin(0.75 / length(axis));
         DirectionHistogram histogram(normalize(axis), angle);
-        for (int i = 0; i < 300'000; ++i) {
+        for (int i = 0; i < kDraws; ++i) {
             const double pick = next(), u = next();
             histogram.add(sample_light(scene.flat(), from, 0, pick, u, next())->direction);
         }
         const double density = 1 / (2 * kPi * (1 - std::cos(angle)));
-        CHECK(histogram.p_value([&](const Vec3&) { return density; }) > level);
+        CHECK(histogram.p_value([&](const Vec3&) { return density; }) > kSamplerLevel);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -21,6 +22,13 @@ inline double uniform(std::mt19937_64& random) { return static_cast<double>(rand
 /// The p-value each of `tests` tests has to exceed so that all together raise a false alarm with probability 0.01
 /// (Sidak, Journal of the American Statistical Association 62, 1967).
 inline double sidak_level(int tests) { return 1 - std::pow(1 - 0.01, 1.0 / tests); }
+
+/// Draws from each sampler: ten million in the long form.
+inline const int kDraws = std::getenv("LIMN_FULL") ? 10'000'000 : 1'000'000;
+
+/// What the p-value of each of the suite's tests of a sampler has to exceed: of tests/core 10, tests/material 9,
+/// tests/render 5, tests/hard 15.
+inline const double kSamplerLevel = sidak_level(10 + 9 + 5 + 15);
 
 /// The probability that counts deviate from the expected ones by chance as much as these or more. Cells are pooled
 /// until 5 counts are expected, below which the chi-square distribution does not hold (Cochran, Biometrics 10, 1954).
@@ -124,16 +132,16 @@ private:
 
 /// The p-value that points are uniform in the unit square. `next` returns one as a pair.
 template <class Next>
-double uniform_square_p(std::size_t samples, const Next& next, std::size_t side = 32) {
+double uniform_square_p(int samples, const Next& next, std::size_t side = 32) {
     std::vector<double> observed(side * side);
     const auto index = [&](double x) {
         return static_cast<std::size_t>(std::clamp(x * static_cast<double>(side), 0.0, static_cast<double>(side - 1)));
     };
-    for (std::size_t i = 0; i < samples; ++i) {
+    for (int i = 0; i < samples; ++i) {
         const auto [x, y] = next();
         observed[index(x) * side + index(y)] += 1;
     }
-    const double each = static_cast<double>(samples) / static_cast<double>(side * side);
+    const double each = samples / static_cast<double>(side * side);
     return chi_square_p(observed, std::vector<double>(side * side, each));
 }
 
