@@ -10,7 +10,7 @@ usage: ./build.sh COMMAND [--full]
   figures      render the eighteen figures to build/figures/ as EXR and PNG
   test         build and run the whole suite
   convergence  measure speed against error: docs/speed-against-error.md
-  accuracy     the exactness report
+  accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second, scaling, instruction counts
   mutants      faults that the suite must catch
   docs         the API reference: build/docs/html/index.html
@@ -111,12 +111,18 @@ case $command in
         install_missing python3 python3-matplotlib python3-numpy
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}"
         ;;
+    accuracy)
+        install_missing libembree-dev python3 python3-matplotlib python3-numpy
+        [[ ${#full[@]} -eq 0 ]] || install_missing clang-19 ccache
+        build
+        /usr/bin/python3 apps/bench/accuracy.py "${full[@]}"
+        ;;
     mutants)  # builds a tree of its own
         install_needs
         install_missing ccache
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"
         ;;
     docs) docs ;;
-    accuracy | bench) not_yet "$command" ;;
+    bench) not_yet "$command" ;;
     *) usage ;;
 esac

@@ -12,7 +12,6 @@ import argparse
 import datetime
 import json
 import math
-import platform
 import statistics
 import subprocess
 import sys
@@ -23,7 +22,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-ROOT = Path(__file__).resolve().parents[2]
+from machine import ROOT, commit, processor
+
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/convergence"
 FIGURES = {
@@ -124,13 +124,6 @@ def plot(results, path):
     figure.savefig(path, dpi=110)
 
 
-def processor():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--full", action="store_true", help="400x400 instead of 100x100, longer references")
@@ -144,12 +137,11 @@ def main():
         print(f"{figure} ...", file=sys.stderr, flush=True)
         results[figure] = measure(figure, size, reference_spp)
 
-    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True).stdout.strip()
     threads = render(next(iter(FIGURES)), size, SAMPLES[0], SEEDS[0])[1]["threads"]
     plot(results, ROOT / "docs/speed-against-error.png")
     lines = ["# Speed against error", "",
              "Written by `./build.sh convergence" + (" --full" if full else "") + "`; do not edit. "
-             f"{datetime.date.today()}, commit {commit or 'unknown'}, {processor()}, {threads} threads, {size}x{size} pixels, depth 10.", "",
+             f"{datetime.date.today()}, commit {commit()}, {processor()}, {threads} threads, {size}x{size} pixels, depth 10.", "",
              "relMSE is the mean of (x - r)² / (r² + 0.01) over pixels and channels. Every number is the mean over "
              f"{len(SEEDS)} seeds ± its standard error. The references are long renders with other seeds, in two halves "
              f"each: {reference_spp['path']} samples a pixel and half by the same estimator, {reference_spp['naive']} by the "

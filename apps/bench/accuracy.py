@@ -1,0 +1,107 @@
+"""The accuracy report: docs/accuracy.md and its plots.
+
+Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more rays
+than the suite has; with --full also tests/hard/builds.sh. Exit status 0 only if limn is wrong nowhere; the report is written
+in any case.
+
+Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
+"""
+
+import argparse
+import datetime
+import json
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import accuracy_plots
+import accuracy_tables
+from machine import ROOT, commit, processor
+
+BIN = ROOT / "build/release/bin"
+RAW = ROOT / "build/accuracy"
+GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "instances", "leaving", "far-origins",
+          "bad-rays", "furnace")
+RAYS = {False: ("250000", "1000000"), True: ("1000000", "100000000")}  # rays a row, rays a row of leaks
+
+
+def measure(group, full):
+    rays, leak_rays = RAYS[full]
+    run = subprocess.run([BIN / "limn_accuracy", group, "--rays", rays, "--leak-rays", leak_rays],
+                         stdout=subprocess.PIPE, text=True)
+    if run.returncode != 0:
+        sys.exit(f"accuracy: limn_accuracy {group} ended with status {run.returncode}")
+    (RAW / f"{group}.json").write_text(run.stdout)
+    result = json.loads(run.stdout)
+    return result, result["groups"][0]
+
+
+def hard_cases(full):
+    """Every case of tests/hard in a process of its own: name, passed, seconds. None where there is no such program."""
+    program = BIN / "test_hard"
+    if not program.exists():
+        return None
+    environment = dict(os.environ, LIMN_ACCURACY="1", **({"LIMN_FULL": "1"} if full else {}))
+    names = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True).stdout.splitlines()
+
+    def run(name):
+        started = time.monotonic()
+        pattern = "".join("\\" + c if c in "\\,[" else c for c in name)
+        done = subprocess.run([program, pattern, "--warn", "NoTests"], env=environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+        seconds = time.monotonic() - started
+        if done.returncode != 0:
+            print(done.stdout, file=sys.stderr)
+        print(f"accuracy: hard case '{name}': {seconds:.0f} s", file=sys.stderr, flush=True)
+        return {"case": name, "passed": done.returncode == 0, "seconds": seconds}
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        cases = list(pool.map(run, [name.strip() for name in names if name.strip()]))
+    (RAW / "hard.json").write_text(json.dumps(cases, indent=1))
+    return cases
+
+
+def builds(full):
+    """The table of tests/hard/builds.sh and whether all was well; None where it was not run."""
+    script = ROOT / "tests/hard/builds.sh"
+    if not full or not script.exists():
+        return None
+    run = subprocess.run([script], stdout=subprocess.PIPE, text=True)
+    (RAW / "builds.txt").write_text(run.stdout)
+    return {"passed": run.returncode == 0, "table": run.stdout}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--full", action="store_true", help="1e8 rays a row of leaks, 1e6 in others, all hard cases")
+    full = parser.parse_args().full
+    started = time.monotonic()
+    RAW.mkdir(parents=True, exist_ok=True)
+
+    groups, result = [], {}
+    for name in GROUPS:
+        result, group = measure(name, full)
+        groups.append(group)
+    cases, compared = hard_cases(full), builds(full)
+
+    faults = accuracy_tables.faults(groups)
+    faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
+    if compared and not compared["passed"]:
+        faults.append("hard cases: the builds differ")
+    head = {
+        "command": "./build.sh accuracy" + (" --full" if full else ""),
+        "date": str(datetime.date.today()), "commit": commit(), "processor": processor(), "cores": os.cpu_count(),
+        "compiler": result["compiler"], "embree": result["embree"], "minutes": (time.monotonic() - started) / 60,
+    }
+    accuracy_plots.draw(groups, ROOT / "docs/accuracy")
+    (ROOT / "docs/accuracy.md").write_text(accuracy_tables.report(head, groups, cases, compared, faults))
+    for fault in faults:
+        print(f"accuracy: {fault}", file=sys.stderr)
+    print(f"docs/accuracy.md: {len(faults)} faults", file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
