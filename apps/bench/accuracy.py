@@ -1,8 +1,8 @@
 """The accuracy report: docs/accuracy.md and its plots.
 
-Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more rays
-than the suite has; with --full also tests/hard/builds.sh. Exit status 0 only if limn is wrong nowhere; the report is written
-in any case.
+Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more
+rays than the suite has; with --full also tests/hard/builds.sh. Exit status 0 only if limn is wrong nowhere; the report
+is written in any case.
 
 Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
 """

@@ -39,13 +39,15 @@ def leaks(group, path):
 
 
 def t_error(group, path):
-    panels = (("small sphere", "distance / radius"), ("ground sphere", "radius, eye 1 above"), ("its horizon", "radius, at the horizon"))
+    panels = (("small sphere", "distance / radius"), ("ground sphere", "radius, eye 1 above"),
+              ("its horizon", "radius, at the horizon"))
     figure, axes = plt.subplots(1, len(panels), figsize=(13, 4.5), sharey=True)
     for axis, (beginning, label) in zip(axes, panels):
         found = rows(group, beginning)
         for k, column in enumerate(group["columns"]):
             # Below 1e-9 ulps there is nothing to see, and 0 has no logarithm.
-            axis.loglog([r["x"] for r in found], [max(r["cells"][k]["t_ulps"], 1e-9) for r in found], "o-", label=column)
+            errors = [max(r["cells"][k]["t_ulps"], 1e-9) for r in found]
+            axis.loglog([r["x"] for r in found], errors, "o-", label=column)
         axis.axhline(1, color="black", linewidth=0.5)
         axis.set_xlabel(label)
         axis.grid(True, alpha=0.3)
@@ -58,7 +60,8 @@ def slivers(group, path):
     figure, axis = plt.subplots(figsize=(7, 4.5))
     found = rows(group, "sliver of aspect")
     for k, column in enumerate(group["columns"]):
-        wrong = [100 * (r["cells"][k]["false_hits"] + r["cells"][k]["false_misses"]) / r["cells"][k]["asked"] for r in found]
+        cells = [r["cells"][k] for r in found]
+        wrong = [100 * (c["false_hits"] + c["false_misses"]) / c["asked"] for c in cells]
         axis.plot([r["x"] for r in found], wrong, "o-", label=column)
     axis.set_xscale("log")
     axis.set_xlabel("length / width of the triangle")

@@ -6,33 +6,36 @@ DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut
 
 TEXTS = {
     "leaks": ("Leaks of meshes",
-              "Rays from inside a closed mesh of 20480 triangles, aimed at its vertices and at points of its edges, and "
-              "rays at the inner edges of strips of 64 slivers. Such a ray has to hit, wherever float32 has put the "
-              "vertices, for a closed surface separates its inside from the rest; the exact truth is asked all the same, "
-              "for each ray that anyone misses."),
+              "Rays from inside a closed mesh of 20480 triangles, aimed at its vertices and at points of its edges, "
+              "and rays at the inner edges of strips of 64 slivers. Such a ray has to hit, wherever float32 has put "
+              "the vertices, for a closed surface separates its inside from the rest; the exact truth is asked all "
+              "the same, for each ray that anyone misses."),
     "quad leaks": ("Leaks of boxes made of quads",
                    "From inside six parallelograms that share their corners bit for bit, at corners and edges."),
-    "spheres": ("Spheres", "Small ones far away, large ones near, the horizon of the latter, directions of any length."),
-    "triangles": ("Triangles", "Random hits of an icosphere of 20480 triangles, rays nearly in the plane of a triangle, "
-                  "slivers with two thirds of the rays aimed from 1e-9 to 1e-1 of their width beside an edge."),
+    "spheres": ("Spheres", "Small ones far away, large ones near, the horizon of the latter, directions of any "
+                "length."),
+    "triangles": ("Triangles", "Random hits of an icosphere of 20480 triangles, rays nearly in the plane of a "
+                  "triangle, slivers with two thirds of the rays aimed from 1e-9 to 1e-1 of their width beside an "
+                  "edge."),
     "quads": ("Quads", "Nearly in the plane, a parallelogram that is almost a line, directions of any length."),
     "slabs": ("Boxes", "limn's box test may take a box that is just passed by, which costs a visit; a box that is met "
               "and missed would lose what is in it. Boxes are closed. Embree's box test cannot be asked on its own."),
     "instances": ("Instances", "A unit sphere through a float32 matrix that turns, scales and moves it; eye 10 radii "
                   "away."),
     "leaving": ("Leaving a surface",
-                "From each hit point a ray outward and one inward (at least 0.01 off the surface), and straight through "
-                "gaps of 4e-5 radii. Self-hits: the surface that is left is hit again. Lost: the other side of the body, "
-                "or of the gap, is passed. The columns differ only in how the ray sets out; what it hits is decided by "
-                "limn's exact intersection in each."),
+                "From each hit point a ray outward and one inward (at least 0.01 off the surface), and straight "
+                "through gaps of 4e-5 radii. Self-hits: the surface that is left is hit again. Lost: the other side "
+                "of the body, or of the gap, is passed. The columns differ only in how the ray sets out; what it hits "
+                "is decided by limn's exact intersection in each."),
     "far origins": ("Origins far away", "Half of the rays parallel to an axis, half towards the origin."),
     "bad rays": ("Rays that cannot be used", "Each has to miss. Beside it the time that one takes, in that of a good "
-                 "ray at the same mesh of 20480 triangles. Embree ends the process of its caller where it says aborts."),
+                 "ray at the same mesh of 20480 triangles. Where it says aborts, Embree has ended the process of its "
+                 "caller."),
     "furnace": ("Furnaces",
-                "limn alone, by `render()`. In a uniform field a body that absorbs nothing is invisible; a closed room "
-                "that glows with 1 and reflects a shows 1 / (1 - a). The cells are the mean's relative deviation ± its "
-                "standard error. A path that is cut loses its light, so that small depths must fall short; depth 1000 "
-                "cuts nothing that matters, and unlimited depth ends paths by roulette."),
+                "limn alone, by `render()`. In a uniform field a body that absorbs nothing is invisible; a closed "
+                "room that glows with 1 and reflects a shows 1 / (1 - a). The cells are the mean's relative deviation "
+                "± its standard error. A path that is cut loses its light, so that small depths must fall short; "
+                "depth 1000 cuts nothing that matters, and unlimited depth ends paths by roulette."),
 }
 
 
@@ -88,7 +91,7 @@ def table(group, columns, cell_text, bound=True):
         cells = []
         for column, cell in zip(group["columns"], row["cells"]):
             if column in columns:
-                text = cell_text(column, cell)
+                text = cell_text(column, cell) if cell["asked"] else "–"
                 cells.append(f" **{text}** |" if is_wrong(group, column, cell) else f" {text} |")
         limit = f" {3 / row['rays']:.0e} |" if bound else ""
         lines.append(f"| {row['case']} | {count(row['rays'])} | {count(row['judged'])} |{limit}" + "".join(cells))
@@ -120,7 +123,8 @@ def bad_ray(_, cell):
 def tables(group):
     columns = group["columns"]
     if group["measure"] == "leaks":
-        return ["Misses a million:", ""] + table(group, columns, lambda _, c: per_million(c["false_misses"], c["asked"]))
+        return ["Misses a million:", ""] + table(
+            group, columns, lambda _, c: per_million(c["false_misses"], c["asked"]))
     if group["measure"] == "leaving":
         return ["Self-hits / lost:", ""] + table(
             group, columns, lambda _, c: f"{share(c['self_hits'], c['asked'])} / {share(c['lost'], c['asked'])}")
@@ -129,7 +133,8 @@ def tables(group):
     if group["measure"] == "bad":
         return table(group, columns, bad_ray, bound=False)
     return (["False hits / false misses:", ""] + table(group, columns, decision)
-            + ["Largest error of t, in float32 ulps (2⁻²³ of t); for limn after a semicolon that of u and v, in 2⁻²³:", ""]
+            + ["Largest error of t, in float32 ulps (2⁻²³ of t); for limn after a semicolon that of u and v, in 2⁻²³:",
+               ""]
             + table(group, columns, precision, bound=False))
 
 
@@ -139,8 +144,8 @@ def hard_section(cases, compared, full):
         lines += ["There is no `test_hard` in this build.", ""]
     else:
         failed = [c["case"] for c in cases if not c["passed"]]
-        lines += [f"`tests/hard`, with {'all' if full else 'a tenth of'} the rays that its cases name: {len(cases)} cases, "
-                  f"{len(failed)} failed, {sum(c['seconds'] for c in cases):.0f} s of one core.", ""]
+        lines += [f"`tests/hard`, with {'all' if full else 'a tenth of'} the rays that its cases name: "
+                  f"{len(cases)} cases, {len(failed)} failed, {sum(c['seconds'] for c in cases):.0f} s of one core.", ""]
         lines += [f"- failed: {name}" for name in failed] + [""] * bool(failed)
     if compared:
         lines += ["The digests of all answers to a fixed corpus of rays, in several builds (`tests/hard/builds.sh`): "

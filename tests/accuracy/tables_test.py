@@ -45,8 +45,8 @@ class Faults(unittest.TestCase):
 
 
 class Report(unittest.TestCase):
-    head = {"command": "./build.sh accuracy", "date": "d", "commit": "c", "processor": "p", "cores": 2, "compiler": "12",
-            "embree": True, "minutes": 3}
+    head = {"command": "./build.sh accuracy", "date": "d", "commit": "c", "processor": "p", "cores": 2,
+            "compiler": "12", "embree": True, "minutes": 3}
 
     def test_every_group_has_its_table(self):
         measures = {"leaks": "leaks", "quad leaks": "leaks", "slabs": "leaks", "leaving": "leaving", "bad rays": "bad",
@@ -63,6 +63,10 @@ class Report(unittest.TestCase):
         self.assertIn("| **3 / 0** | 0 / 4 |", text)
         self.assertIn("- spheres: a row: limn", text)
         self.assertNotIn("no wrong decision", text)
+
+    def test_who_was_not_asked_has_no_answer(self):
+        text = tables.report(self.head, [group(cells=[cell(), cell(asked=0)])], None, None, [])
+        self.assertEqual(text.count("| – |"), 2)
 
     def test_hard_cases_that_failed_are_named(self):
         cases = [{"case": "one", "passed": True, "seconds": 1}, {"case": "two", "passed": False, "seconds": 1}]
