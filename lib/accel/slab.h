@@ -51,6 +51,10 @@ struct SlabRay {
             origin_far[a] = ray.origin[a] - (negative[a] ? -wider : wider);
             inverse[a] = 1 / along;
         }
+        if (reach < 0x1p1000) return;
+        // Differences could overflow: every box is met.
+        slack = kInfinity, t_min = -kInfinity;
+        for (double& i : inverse) i = 0;
     }
 
     // Whether a box entered at `near` cannot hold a hit up to t_max.
