@@ -23,20 +23,21 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
     double wv = q.x * eu.y - q.y * eu.x;
     const bool turned = det < 0;
     if (turned) det = -det, wu = -wu, wv = -wv;
+    const double least = smaller(wu, wv), most = larger(wu, wv);
+    const auto is_missed = [&](double e) { return larger(-least, most) > det + 3 * e || (det > e && least < -e); };
+    if (is_missed(ray.coarse)) return {Decision::miss};
     const double reach = larger(
         largest_magnitude(to_corner.x, to_corner.y, to_corner.z),
         larger(largest_magnitude(edge_u.x, edge_u.y, edge_u.z), largest_magnitude(edge_v.x, edge_v.y, edge_v.z)));
     const double across = larger(largest_magnitude(q.x, eu.x, ev.x), largest_magnitude(q.y, eu.y, ev.y));
-    const PlanarError error(ray, reach, across);
-    const double e = error.determinant;
-    if (larger(std::abs(wu), std::abs(wv)) > det + 3 * e) return {Decision::miss};
-    if (det > e && smaller(wu, wv) < -e) return {Decision::miss};
-    if (!(smaller(wu, wv) > e && det - larger(wu, wv) > 3 * e)) return {Decision::unsure};
+    const double e = ray.determinant_error(reach, across);
+    if (is_missed(e)) return {Decision::miss};
+    if (!(least > e && det - most > 3 * e)) return {Decision::unsure};
 
     const double u = std::min(wu / det, 1.0), v = std::min(wv / det, 1.0);
     const double z = q.z + (u * eu.z + v * ev.z);
     const PlanarAnswer answer =
-        planar_answer(ray, error, 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
+        planar_answer(ray, ray.coordinate_error(reach), 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
         const double edge = larger(max_abs(edge_u), max_abs(edge_v));
         if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), turned ? -ray.direction_z : ray.direction_z, edge, 0,

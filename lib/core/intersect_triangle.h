@@ -22,19 +22,20 @@ inline PlanarAnswer filter_triangle(const Point3& a, const Point3& b, const Poin
     const double wa = pc.x * pb.y - pc.y * pb.x;
     const double wb = pa.x * pc.y - pa.y * pc.x;
     const double wc = pb.x * pa.y - pb.y * pa.x;
+    const double least = smaller(wa, smaller(wb, wc)), most = larger(wa, larger(wb, wc));
+    if (least < -ray.coarse && most > ray.coarse) return {Decision::miss};
     const double reach = larger(largest_magnitude(qa.x, qa.y, qa.z),
                                 larger(largest_magnitude(qb.x, qb.y, qb.z), largest_magnitude(qc.x, qc.y, qc.z)));
     const double across = larger(largest_magnitude(pa.x, pb.x, pc.x), largest_magnitude(pa.y, pb.y, pc.y));
-    const PlanarError error(ray, reach, across);
-    const double least = smaller(wa, smaller(wb, wc)), most = larger(wa, larger(wb, wc));
-    if (least < -error.determinant && most > error.determinant) return {Decision::miss};
-    if (!(least > error.determinant || most < -error.determinant)) return {Decision::unsure};
+    const double e = ray.determinant_error(reach, across);
+    if (least < -e && most > e) return {Decision::miss};
+    if (!(least > e || most < -e)) return {Decision::unsure};
 
     const double det = wa + wb + wc;
     const double depth = larger(pa.z, larger(pb.z, pc.z)) - smaller(pa.z, smaller(pb.z, pc.z));
     const double z = (wa * pa.z + wb * pb.z + wc * pc.z) / det;
     const PlanarAnswer answer =
-        planar_answer(ray, error, 5 * error.determinant / std::abs(det), depth, z, wb / det, wc / det, search);
+        planar_answer(ray, ray.coordinate_error(reach), 5 * e / std::abs(det), depth, z, wb / det, wc / det, search);
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
         const Vec3 ab = qb - qa, ac = qc - qa;
         const double edge = larger(max_abs(ab), max_abs(ac)), edge_error = kRoundoff * (2 * reach + edge);

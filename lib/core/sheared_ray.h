@@ -26,9 +26,11 @@ struct ShearedRay {
     Point3 origin;
     double relative, absolute;  // E = relative M + absolute
     double direction_error;     // of direction_z, relative
+    double coarse;              // bound on the error of all determinants
     const RayFrame* frame;      // kept by reference
 
-    explicit ShearedRay(const RayFrame& f) : origin(f.ray.origin), frame(&f) {
+    // `extent`: no shape to come has a larger coordinate. With it most misses are told by `coarse`, sooner.
+    explicit ShearedRay(const RayFrame& f, double extent = kInfinity) : origin(f.ray.origin), frame(&f) {
         const Vec3& direction = f.ray.direction;
         const Vec3 d = abs(direction);
         z = d.x > d.y ? (d.x > d.z ? 0 : 2) : (d.y > d.z ? 1 : 2);
@@ -42,26 +44,25 @@ struct ShearedRay {
         if (!(direction_error < 0.5)) direction_error = kInfinity;
         relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
         absolute = 2 * f.origin_error * (1 + 0x1p-30);
+        const double reach = 2 * extent + max_abs(origin);  // of edges too
+        coarse = determinant_error(reach, 2 * reach);
     }
+
+    // Of a sheared coordinate, and of a 2x2 determinant of them: E and 4 (P + E) E. `reach`: the largest coordinate
+    // before shearing; `across`: the largest x or y after it. Infinite, so that nothing is decided, where products of
+    // three coordinates could overflow, or underflow by more than the bound.
+    double coordinate_error(double reach) const { return relative * reach + absolute; }
+    double determinant_error(double reach, double across) const {
+        const double e = coordinate_error(reach);
+        return reach > 0x1p-300 && reach < 0x1p300 ? 4 * (across + e) * e + 0x1p-600 : kInfinity;
+    }
+
     // z is left as it is: dividing by direction_z turns it into t.
     Vec3 shear(const Vec3& v) const { return {v[x] - shear_x * v[z], v[y] - shear_y * v[z], v[z]}; }
 };
 
 struct PlanarHit {
     double t, u, v;
-};
-
-// How far off what is computed from the sheared points of one shape may be. Infinite, so that nothing is decided, where
-// products of three coordinates could overflow, or underflow by more than the bound.
-struct PlanarError {
-    double coordinate;   // of a sheared coordinate: E
-    double determinant;  // of a 2x2 determinant
-
-    // reach: the largest coordinate before shearing; across: the largest x or y after it.
-    PlanarError(const ShearedRay& ray, double reach, double across)
-        : coordinate(ray.relative * reach + ray.absolute),
-          determinant(reach > 0x1p-300 && reach < 0x1p300 ? 4 * (across + coordinate) * coordinate + 0x1p-600
-                                                          : kInfinity) {}
 };
 
 // What a filter finds.
@@ -84,9 +85,9 @@ inline bool is_behind(const ShearedRay& ray, double product, double denominator,
 
 // The hit at depth `z`, computed as a weighted mean by at most 8 operations; its weights are off by `weight_error`, u
 // and v among them. Over the shape z varies by `depth`.
-inline PlanarAnswer planar_answer(const ShearedRay& ray, const PlanarError& error, double weight_error, double depth,
+inline PlanarAnswer planar_answer(const ShearedRay& ray, double coordinate_error, double weight_error, double depth,
                                   double z, double u, double v, const Search& search) {
-    const double z_error = 2 * (weight_error * depth + error.coordinate) + ray.direction_error * std::abs(z);
+    const double z_error = 2 * (weight_error * depth + coordinate_error) + ray.direction_error * std::abs(z);
     const Approximate t{z / ray.direction_z, z_error / std::abs(ray.direction_z)};
     return {in_search(t, search, !(weight_error <= kAccurateWeight)), {t.value, u, v}};
 }

@@ -60,7 +60,7 @@ public:
           frame_(frame),
           ray_(frame.ray),
           slab_(frame.ray, group.extent, frame.origin_error, frame.direction_error),
-          sheared_(frame),
+          sheared_(frame, group.extent),
           sphere_ray_(frame),
           first_number_(first_number),
           query_(query) {}
@@ -85,6 +85,7 @@ public:
                 if (size == 0) return false;
                 const Entry entry = stack[--size];
                 if (slab_.is_beyond(entry.near, query_.limit())) continue;
+                if (entry.count == flat::Node::kAbsent) continue;  // met where slabs cannot tell
                 if (entry.count == 0) {
                     node_row = entry.child;
                     break;
