@@ -16,6 +16,12 @@ void require(bool holds, const char* what) {
     if (!holds) throw ArgumentError(std::string("camera: ") + what);
 }
 
+// tan(degrees / 2), right to a few roundings. Near 180 degrees the tangent magnifies that of the angle: what is missing
+// there is exact.
+double tan_of_half(double degrees) {
+    return degrees <= 90 ? std::tan(radians(degrees) / 2) : 1 / std::tan(radians(180 - degrees) / 2);
+}
+
 }  // namespace
 
 CameraRays::CameraRays(const Camera& camera, int width, int height)
@@ -43,11 +49,11 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
 
     const double aspect = camera.aspect_ratio.value_or(width_ / height_);
     require(aspect > 0 && std::isfinite(aspect), "the aspect ratio must be positive and finite");
-    half_height_ = std::tan(radians(camera.vertical_fov) / 2);
+    half_height_ = tan_of_half(camera.vertical_fov);
     half_width_ = half_height_ * aspect;
     focus_distance_ = camera.focus_distance.value_or(length(view));
     require(focus_distance_ > 0 && std::isfinite(focus_distance_), "the focus distance must be positive and finite");
-    lens_radius_ = focus_distance_ * std::tan(radians(camera.aperture_angle) / 2);
+    lens_radius_ = focus_distance_ * tan_of_half(camera.aperture_angle);
     // No ray may begin or lead beyond the largest double.
     const double reach = half_width_ + half_height_ + lens_radius_ / focus_distance_;
     require(std::isfinite(2 * reach) && std::isfinite(max_abs(eye_) + 2 * lens_radius_),
@@ -80,7 +86,7 @@ Camera frame_box(const Box& box, double aspect_ratio) {
     const Vec3 back = normalize(Vec3{0.5, 0.35, 1});  // from the front right, a little above: three sides show
     Camera camera;
     camera.vertical_fov = 30;
-    const double half_height = std::tan(radians(camera.vertical_fov) / 2);
+    const double half_height = tan_of_half(camera.vertical_fov);
     // The bounding sphere fits the narrower of the two angles; 2 % stay free around it.
     const double narrow = std::atan(half_height * std::min(1.0, aspect_ratio));
     const double distance = 1.02 * radius / std::sin(narrow);
