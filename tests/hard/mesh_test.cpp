@@ -98,6 +98,42 @@ TEST_CASE("Closed meshes: no ray from inside escapes from one seen through insta
     check(escapes({mesh, {}, 1, {small, mirrored}}, count(2e6), 558), "two instances");
 }
 
+TEST_CASE("Closed meshes: nor does any ray escape from one of single triangles in double", "[hard][mesh]") {
+    Random random(560);
+    for (const double shift : {0.0, 0.1, 1e3, 1e7, 1e12}) {
+        const MeshData shape = bumpy_sphere(random, 4, 0.3, 1, {0, 0, 0});
+        std::vector<Point3> points;
+        for (std::uint32_t i = 0; i < shape.vertices.size(); ++i)
+            points.push_back(vertex(shape, i) + Vec3{shift, shift / 3, -shift} + 1e-9 * random.in_cube());
+        const auto corners = [&](std::size_t i) {
+            const Index3 t = shape.triangles[i];
+            return std::array<Point3, 3>{points[t.a], points[t.b], points[t.c]};
+        };
+        std::vector<Object> triangles;
+        for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+            const auto [a, b, c] = corners(i);
+            triangles.push_back(std::make_shared<Triangle>(a, b, c, nullptr));
+        }
+        const BothWorlds world(std::make_shared<Bvh>(triangles));
+        Tally tally;
+        for (int i = 0; i < count(2e5); ++i) {
+            const auto [a, b, c] = corners(random.index(triangles.size()));
+            const Point3 origin = Point3{shift, shift / 3, -shift} + 0.3 * random.unit();
+            const Ray ray = towards(origin, (i % 2 ? a : a + random.uniform() * (b - a)) - origin);
+            ++tally.rays, ++tally.judged;
+            const auto hit = world.hit(ray, tally);
+            if (!hit) {
+                tally.fault(ray, "escaped");
+                continue;
+            }
+            const auto [p, q, r] = corners(hit->element);
+            const std::string fault = detail::fault_of(exact_triangle_hit(p, q, r, ray), hit, {});
+            if (!fault.empty()) tally.fault(ray, fault);
+        }
+        check(tally, "at " + number(shift));
+    }
+}
+
 TEST_CASE("Closed meshes: rays 1e-7 to 1e-16 beside vertices and edges are decided exactly, in both worlds",
           "[hard][mesh]") {
     Random random(552);
