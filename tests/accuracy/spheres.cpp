@@ -92,7 +92,8 @@ Group sphere_group(const Effort& effort) {
                                 Ray ray = ray_through(g.center + 10 * to_eye, g.center + off * across(random, to_eye));
                                 ray.direction = to_float(size * normalize(ray.direction));
                                 return ray;
-                            }});
+                            },
+                        .lethal = size > 1e18});
     }
     return measure("spheres", "decisions",
                    {Column::limn, Column::limn_hit, Column::embree, Column::embree_robust, Column::book_sphere_float,
