@@ -141,7 +141,7 @@ def tables(group):
 def hard_section(cases, compared, full):
     lines = ["## The hard cases of the suite", ""]
     if cases is None:
-        lines += ["There is no `test_hard` in this build.", ""]
+        lines += ["Not run.", ""]
     else:
         failed = [c["case"] for c in cases if not c["passed"]]
         lines += [f"`tests/hard`, with {'all' if full else 'a tenth of'} the rays that its cases name: "
@@ -160,7 +160,7 @@ def report(head, groups, cases, compared, found):
         "# Accuracy", "",
         f"Written by `{head['command']}`; do not edit. {head['date']}, commit {head['commit']}, {head['processor']}, "
         f"{head['cores']} cores, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
-        ("Embree 3.13.5 of Debian in both modes, in a process of its own."
+        (f"Embree {head['embree']} in both modes, in a process of its own."
          if head["embree"] else "Embree is not installed here, so that its columns are missing."), "",
         "Truth is exact arithmetic on the stored numbers (`tests/support/exact_truth.h`); it decides every ray, so that "
         "as many are judged as are generated. Shapes and rays are made of float32 numbers, so that all columns get the "

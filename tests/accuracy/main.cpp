@@ -24,6 +24,14 @@ const NamedGroup kGroups[] = {
     {"instances", instance_group}, {"leaving", leaving_group},       {"furnace", furnace_group},
     {"bad-rays", bad_ray_group},   {"far-origins", far_origin_group}};
 
+// Null where there is none.
+Json embree_version() {
+#ifdef LIMN_EMBREE_VERSION
+    if (Embree::is_there()) return LIMN_EMBREE_VERSION;
+#endif
+    return nullptr;
+}
+
 Json to_json(const Group& group) {
     Json out{{"group", group.key}, {"measure", group.measure}, {"columns", group.columns}, {"rows", Json::array()}};
     for (const Row& row : group.rows) {
@@ -92,7 +100,7 @@ int run(int argc, char** argv) {
     if (time) {
         out = measure_cost();
     } else {
-        out = {{"embree", Embree::is_there()}, {"compiler", __VERSION__}, {"groups", Json::array()}};
+        out = {{"embree", embree_version()}, {"compiler", __VERSION__}, {"groups", Json::array()}};
         for (const NamedGroup* group : chosen) out["groups"].push_back(to_json(group->measure(effort)));
     }
     const std::string text = out.dump(1);

@@ -46,7 +46,7 @@ class Faults(unittest.TestCase):
 
 class Report(unittest.TestCase):
     head = {"command": "./build.sh accuracy", "date": "d", "commit": "c", "processor": "p", "cores": 2,
-            "compiler": "12", "embree": True, "minutes": 3}
+            "compiler": "12", "embree": "3", "minutes": 3}
 
     def test_every_group_has_its_table(self):
         measures = {"leaks": "leaks", "quad leaks": "leaks", "slabs": "leaks", "leaving": "leaving", "bad rays": "bad",
