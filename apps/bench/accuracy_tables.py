@@ -123,7 +123,8 @@ def bad_ray(_, cell):
 def tables(group):
     columns = group["columns"]
     if group["measure"] == "leaks":
-        return ["Misses a million:", ""] + table(
+        rays = sum(row["rays"] for row in group["rows"])
+        return [f"Misses a million; {count(rays)} rays in all rows together, 3 / N = {3 / rays:.0e}:", ""] + table(
             group, columns, lambda _, c: per_million(c["false_misses"], c["asked"]))
     if group["measure"] == "leaving":
         return ["Self-hits / lost:", ""] + table(
