@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The hard cases in six builds: g++ and clang, each at -O0, -O2 and -O3 -march=native, under build/hard/.
 #   tests/hard/builds.sh          the digests: are the answers to the fixed corpus the same bits in all of them?
-#   tests/hard/builds.sh --full   the whole hard-case suite in each
+#   tests/hard/builds.sh --full   the whole hard-case suite in each, and with link-time optimisation
 # Prints a table; exits with 0 only where everything passed and all digests are the same.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -27,7 +27,7 @@ launcher=()
 build() {
     cmake -S . -B "build/hard/$1" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$2" -DCMAKE_CXX_FLAGS="$3" \
         -DLIMN_WARNINGS_AS_ERRORS=OFF "${launcher[@]}" >"build/hard/$1.log" 2>&1 &&
-        cmake --build "build/hard/$1" --target test_hard >>"build/hard/$1.log" 2>&1
+        cmake --build "build/hard/$1" -j "$(nproc)" --target test_hard >>"build/hard/$1.log" 2>&1
 }
 
 # The digests that a run found, one line; Catch2 prints them as "found" == "expected".
@@ -38,7 +38,9 @@ failed=0
 all_digests=
 printf '%-26s %-8s %8s  %s\n' build result seconds "digests (compiled, described, surfaces)"
 for compiler in "$gcc" "$clang"; do
-    for flags in "-O0" "-O2" "-O3 -march=native"; do
+    variants=("-O0" "-O2" "-O3 -march=native")
+    [[ $full -eq 0 || $compiler != "$gcc" ]] || variants+=("-O3 -march=native -flto=auto")
+    for flags in "${variants[@]}"; do
         label="$(basename "$compiler") $flags"
         folder=${label//[ =]/_}
         result=passed found= seconds=

@@ -163,7 +163,7 @@ TEST_CASE(
     const Corpus corpus = make_corpus();
     const CompiledScene compiled = compile(corpus.scene);
     const HittableList described(corpus.scene.objects());
-    const std::vector<Ray> rays = corpus_rays(corpus, count(1e6));
+    const std::vector<Ray> rays = corpus_rays(corpus, count(2e5));
     const Answers expected = ask(compiled, described, rays, kDefault);
     for (const Environment& environment : kEnvironments) {
         const Answers found = ask(compiled, described, rays, environment.csr);
