@@ -18,7 +18,9 @@ inline Point3 interpolate(const Point3& at0, const Point3& at1, double time) {
 
 // Unit, outward for a positive radius. Taken from the hit point relative to the centre, where it does not cancel.
 inline Vec3 sphere_normal(const Point3& center, const Ray& ray, double t) {
-    return normalize((ray.origin - center) + t * ray.direction);
+    const Vec3 outward = normalize((ray.origin - center) + t * ray.direction);
+    // From so far away that rounding leaves nothing of the point, or beyond the squares of double: it faces the ray.
+    return is_finite(outward) ? outward : -normalize(ray.direction);
 }
 
 // Shirley, Ray Tracing: The Next Week, section 4.4. The clamp: rounding may push a unit vector's y past 1.

@@ -48,6 +48,7 @@ void survives(const Object& object, const BothWorlds& worlds, const Ray& ray, Ta
     ++tally.hits;
     if (!(hit->t > ray.t_min && hit->t <= ray.t_max && std::isfinite(hit->t)))
         tally.fault(ray, "t outside its interval");
+    if (std::isnan(hit->u) || std::isnan(hit->v)) tally.fault(ray, "u, v");
     if (!object->hit(ray)) tally.fault(ray, "not twice the same");
 }
 
