@@ -43,8 +43,8 @@ struct ShearedRay {
         direction_error = f.direction_error == 0 ? 0 : 4 * f.direction_error / std::abs(direction_z);
         if (!(direction_error < 0.5)) direction_error = kInfinity;
         relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
-        absolute = 2 * f.origin_error * (1 + 0x1p-30);
-        const double reach = 2 * extent + max_abs(origin);  // of edges too
+        absolute = 2 * f.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // |S| <= 1 + s
+        const double reach = 2 * extent + max_abs(origin);                      // of edges too
         coarse = determinant_error(reach, 2 * reach);
     }
 
