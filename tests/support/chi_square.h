@@ -100,7 +100,8 @@ public:
 
 private:
     static constexpr std::size_t kRows = 60, kColumns = 24, kAbsorbed = kRows * kColumns;
-    static constexpr std::size_t kSteps = 24;  // midpoints along each side of a cell
+    // Midpoints along each side of a cell. Ten million counts show what a rim where a density ends steeply costs 24.
+    static inline const std::size_t kSteps = kDraws > 1'000'000 ? 192 : 24;
 
     static std::size_t index(double fraction, std::size_t size) {
         return std::min(static_cast<std::size_t>(fraction * static_cast<double>(size)), size - 1);
