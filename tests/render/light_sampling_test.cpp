@@ -104,7 +104,8 @@ TEST_CASE("Light sampling: a ray in the direction drawn meets the lamp at the po
             }
             const double pdf = pdf_light(scene.flat(), hit->primitive, from, at, time);
             RC_ASSERT(std::abs(pdf - s->pdf) <= 1e2 * near * pdf);
-            RC_ASSERT(max_abs(s->point.position_error) > 0 && max_abs(s->point.position_error) <= 1e-13);
+            // gamma(64), 7e-15, of coordinates and edges of some units; an instance multiplies by its stretch, twice.
+            RC_ASSERT(max_abs(s->point.position_error) > 0 && max_abs(s->point.position_error) <= 4e-12);
         });
     }
 }
