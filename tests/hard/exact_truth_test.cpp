@@ -268,3 +268,39 @@ TEST_CASE("Exact truth: only three points on one line are flat", "[hard][truth]"
     // 0.1, 0.2, 0.3 are not multiples of one double.
     CHECK_FALSE(exactly_flat({0, 0, 0}, {0.1, 0.2, 0}, {0.3, 0.6, 0x1p-60}));
 }
+
+TEST_CASE(
+    "The judge notices what is missed, hit falsely, or at another t, u or v; beside an end the reported t decides",
+    "[hard][truth]") {
+    const Ray ray{{0, 0, 3}, {0, 0, -1}, 0, kInfinity, 0};
+    const auto faults = [](const Ray& r, const ExactHit& truth, const std::optional<Answer>& answer) {
+        const auto within = [](double t, const Ray& asked) { return t > asked.t_min && t <= asked.t_max; };
+        Tally tally;
+        judge(
+            tally, r,
+            [&](const Ray& asked) {
+                const bool inside = truth.hit && truth.t > Real(asked.t_min) && truth.t <= Real(asked.t_max);
+                return inside ? truth : ExactHit{};
+            },
+            [&](const Ray& asked) { return answer && within(answer->t, asked) ? answer : std::nullopt; });
+        return tally.wrong;
+    };
+    const ExactHit three{true, 3, Real(0.25), Real(0.5)};
+    CHECK(faults(ray, three, Answer{3, 0.25, 0.5, 0}) == 0);
+    CHECK(faults(ray, {}, std::nullopt) == 0);
+    CHECK(faults(ray, three, std::nullopt) == 1);
+    CHECK(faults(ray, {}, Answer{3, 0.25, 0.5, 0}) == 1);
+    CHECK(faults(ray, three, Answer{3 + 3 * 0x1.1p-23, 0.25, 0.5, 0}) == 1);
+    CHECK(faults(ray, three, Answer{3 + 3 * 0x0.fp-23, 0.25, 0.5, 0}) == 0);
+    CHECK(faults(ray, three, Answer{3, 0.25 + 0x1.1p-23, 0.5, 0}) == 1);
+    CHECK(faults(ray, three, Answer{3, 0.25, 0.5 - 0x1.1p-23, 0}) == 1);
+    for (const double t : {3.0, std::nextafter(3, 0), std::nextafter(3, 4)}) {
+        const Answer reported{t, 0.25, 0.5, 0};
+        for (const double end : {2.0, std::nextafter(3, 0), 3.0, std::nextafter(3, 4), 4.0}) {
+            CHECK(faults({ray.origin, ray.direction, 0, end, 0}, three, reported) == 0);
+            CHECK(faults({ray.origin, ray.direction, end, kInfinity, 0}, three, reported) == 0);
+        }
+    }
+    CHECK(faults({ray.origin, ray.direction, 0, 2, 0}, three, Answer{1, 0.25, 0.5, 0}) == 1);
+    CHECK(faults({ray.origin, ray.direction, 2.9, 3, 0}, three, std::nullopt) == 1);
+}

@@ -104,6 +104,8 @@ namespace detail {
 using ExactQuery = std::function<ExactHit(const Ray&)>;
 using LimnQuery = std::function<std::optional<Answer>(const Ray&)>;
 
+inline const Real kLargest = std::numeric_limits<double>::max();
+
 // Beside an end of the interval, closer than t may be off, the reported t decides whether it is inside. Returns the
 // truth by that rule: asks for hits with the interval a little wider, and what limn reports for them.
 inline ExactHit truth_at_ends(const Ray& ray, const ExactQuery& exact, const LimnQuery& limn) {
@@ -111,9 +113,12 @@ inline ExactHit truth_at_ends(const Ray& ray, const ExactQuery& exact, const Lim
     Ray wide = ray;
     wide.t_min = beside(ray.t_min, -1), wide.t_max = beside(ray.t_max, 1);
     for (int root = 0; root < 2; ++root) {
+        const ExactHit truth = exact(wide);
         const std::optional<Answer> reported = limn(wide);
-        if (!reported || reported->t > ray.t_max) return {};
-        if (reported->t > ray.t_min) return exact(wide);
+        if (!reported && truth.hit && absolute(truth.t) > Real(1 - 0x1p-22) * kLargest) return {};  // to infinity
+        if (!reported || !truth.hit) return truth;
+        if (reported->t > ray.t_max) return {};
+        if (reported->t > ray.t_min) return truth;
         wide.t_min = beside(ray.t_min, 1);
     }
     return {};
@@ -140,7 +145,7 @@ inline void judge(Tally& tally, const Ray& ray, const detail::ExactQuery& exact_
     ++tally.rays, ++tally.judged;
     const auto exact = [&](const Ray& r) {
         const ExactHit truth = exact_query(r);
-        return absolute(truth.t) > Real(std::numeric_limits<double>::max()) ? ExactHit{} : truth;
+        return absolute(truth.t) > Real(1 + 0x1p-22) * detail::kLargest ? ExactHit{} : truth;
     };
     const std::optional<Answer> answer = limn(ray);
     if (answer) ++tally.hits;
