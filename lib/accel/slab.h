@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "limn/core/box.h"
 #include "limn/core/ray.h"
@@ -51,10 +52,14 @@ struct SlabRay {
             origin_far[a] = ray.origin[a] - (negative[a] ? -wider : wider);
             inverse[a] = 1 / along;
         }
-        if (reach < 0x1p1000) return;
-        // Differences could overflow: every box is met.
+        if (reach < 0x1p1000 && wider < 0x1p1000) return;
+        // Nothing is known of where the ray is, or differences could overflow: every box is met but the empty one,
+        // whose sides are infinite.
         slack = kInfinity, t_min = -kInfinity;
-        for (double& i : inverse) i = 0;
+        for (std::size_t a = 0; a < 3; ++a) {
+            origin_near[a] = std::numeric_limits<double>::max(), origin_far[a] = -origin_near[a];
+            inverse[a] = 1, negative[a] = false;
+        }
     }
 
     // Whether a box entered at `near` cannot hold a hit up to t_max.

@@ -85,7 +85,6 @@ public:
                 if (size == 0) return false;
                 const Entry entry = stack[--size];
                 if (slab_.is_beyond(entry.near, query_.limit())) continue;
-                if (entry.count == flat::Node::kAbsent) continue;  // met where slabs cannot tell
                 if (entry.count == 0) {
                     node_row = entry.child;
                     break;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/bounds.h"
+#include "core/float_environment.h"
 #include "core/ray_frame.h"
 #include "shape/arguments.h"
 
@@ -61,6 +62,7 @@ Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& at_t
 Box Instance::bounds() const { return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds()); }
 
 std::optional<Hit> Instance::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const Transform m = moving_ ? interpolate(world_from_object0_, world_from_object1_, ray.time) : world_from_object0_;
     const Transform inv = inverse(m);

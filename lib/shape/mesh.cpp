@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/float_environment.h"
 #include "core/hit_error.h"
 #include "core/intersect_triangle.h"
 #include "core/mesh_triangle.h"
@@ -76,6 +77,7 @@ std::uint32_t Mesh::face(std::uint64_t element) const {
 }
 
 std::optional<Hit> Mesh::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const MeshView mesh = view_of(*data_);
     const RayFrame frame = frame_of(ray);

@@ -1,6 +1,7 @@
 #include "limn/shape/quad.h"
 
 #include "core/bounds.h"
+#include "core/float_environment.h"
 #include "core/intersect_quad.h"
 #include "core/plane_normal.h"
 #include "limn/shape/hittable_list.h"
@@ -19,6 +20,7 @@ Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::sh
 Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
 
 std::optional<Hit> Quad::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const RayFrame frame = frame_of(ray);
     PlanarHit hit;

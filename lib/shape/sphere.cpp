@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/bounds.h"
+#include "core/float_environment.h"
 #include "core/intersect_sphere.h"
 #include "core/sphere_uv.h"
 #include "shape/arguments.h"
@@ -26,6 +27,7 @@ Point3 Sphere::center(double time) const {
 Box Sphere::bounds() const { return sphere_bounds(center0_, center1_, radius_); }
 
 std::optional<Hit> Sphere::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const Point3 c = center(ray.time);
     const RayFrame frame = frame_of(ray);

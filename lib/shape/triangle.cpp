@@ -1,5 +1,6 @@
 #include "limn/shape/triangle.h"
 
+#include "core/float_environment.h"
 #include "core/hit_error.h"
 #include "core/intersect_triangle.h"
 #include "core/plane_normal.h"
@@ -20,6 +21,7 @@ Box Triangle::bounds() const {
 }
 
 std::optional<Hit> Triangle::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const RayFrame frame = frame_of(ray);
     PlanarHit hit;

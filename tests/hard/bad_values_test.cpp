@@ -1,5 +1,7 @@
 // Every special double in every field of a ray, a shape, a matrix: what cannot be used misses or is refused, all else
 // is answered exactly, and nothing aborts. hardcases.md rows 9, 17, 26 and 32.
+#include <bit>
+
 #include "catch.h"
 #include "hard/placed.h"
 #include "hard/special_values.h"
@@ -299,4 +301,49 @@ TEST_CASE("Bad rays: in a whole scene unusable rays miss, one by one and in a ba
         missed += any[i] == 0;
     }
     CHECK(missed == bad);
+}
+
+TEST_CASE("Bad geometry: random bits for coordinates are refused or answered alike in both worlds, without NaN",
+          "[hard][bad]") {
+    Random random(3260);
+    const auto bits = [&] {
+        return std::bit_cast<double>((std::uint64_t{random.index(std::size_t{1} << 32)} << 32) ^
+                                     random.index(std::size_t{1} << 32));
+    };
+    const auto any_vec = [&] {
+        const double x = bits(), y = bits();
+        return Vec3{x, y, bits()};
+    };
+    Tally tally;
+    int built = 0;
+    for (int i = 0; i < count(1e6); ++i) {
+        Object object;
+        const Point3 p = Point3{} + any_vec();
+        const Vec3 e = any_vec(), f = any_vec();
+        const double r = bits();
+        Transform m;
+        for (auto& row : m.rows)
+            for (double& x : row) x = random.chance(0.3) ? bits() : random.uniform(-1, 1);
+        try {
+            switch (i % 4) {
+                case 0: object = ball(p, r); break;
+                case 1: object = std::make_shared<Triangle>(p, p + e, p + f, nullptr); break;
+                case 2: object = std::make_shared<Quad>(p, e, f, nullptr); break;
+                default: object = std::make_shared<Instance>(ball({0, 0, 0}, 1), m); break;
+            }
+        } catch (const ArgumentError&) {
+            continue;
+        }
+        ++built;
+        const BothWorlds worlds(object, {ball({0, 0, 0}, 1)});
+        for (int k = 0; k < 4; ++k) {
+            Ray ray;
+            ray.origin = k % 2 ? Point3{} + any_vec() : Point3{0, 0, 0};
+            ray.direction = k < 2 ? any_vec() : p - ray.origin;
+            if (k == 3) ray.t_max = bits(), ray.t_min = bits();
+            survives(object, worlds, ray, tally);
+        }
+    }
+    check(tally, "random bits");
+    CHECK(built > count(1e6) / 4);
 }

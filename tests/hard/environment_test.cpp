@@ -185,6 +185,30 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("Environment: a single shape, asked by itself, answers with the bits of the default one and raises no trap",
+          "[hard][environment]") {
+    const Corpus corpus = make_corpus();
+    const std::vector<Ray> rays = corpus_rays(corpus, count(1e5));
+    for (const Object& object : corpus.scene.objects()) {
+        Tally tally;
+        for (const Ray& ray : rays) {
+            ++tally.rays, ++tally.judged;
+            const auto expected = object->hit(ray);
+            for (const Environment& environment : kEnvironments) {
+                std::optional<Hit> found;
+                {
+                    const InEnvironment there(environment.csr);
+                    found = object->hit(ray);
+                }
+                const std::string fault = compare(expected, found);
+                if (!fault.empty()) tally.fault(ray, std::string(environment.name) + ": " + fault);
+            }
+            if (count_traps([&] { object->hit(ray); })) tally.fault(ray, "trap");
+        }
+        check(tally, "a shape");
+    }
+}
+
 TEST_CASE("Environment: no query raises a trap, on usable rays or on others", "[hard][environment]") {
     const Corpus corpus = make_corpus();
     const CompiledScene compiled = compile(corpus.scene);

@@ -128,9 +128,12 @@ TEST_CASE("Instance: moved by up to 1e8 and of sizes from 1e-6 to 1e6, they are 
 
 TEST_CASE("Instance: a matrix near to singular is decided exactly too", "[hard][instance]") {
     judge_placements("near to singular", count(1e5), 3670, [](Random& random, Placed& placed) {
-        Transform m = random_matrix(random);
-        const double off = random.log_uniform(1e-9, 1e-3);
-        for (std::size_t j = 0; j < 3; ++j) m.rows[2][j] = m.rows[0][j] + off * random.uniform(-1, 1);
+        Transform m;
+        do {
+            m = random_matrix(random);
+            const double off = random.log_uniform(1e-16, 1e-3);
+            for (std::size_t j = 0; j < 3; ++j) m.rows[2][j] = m.rows[0][j] + off * random.uniform(-1, 1);
+        } while (determinant(m) == 0);  // refused
         placed.chain = {Transform::translate(random.in_cube(3)) * m};
     });
 }

@@ -42,7 +42,8 @@ struct Surface {
     Ray spawn_ray(const Vec3& direction, double time) const;
 
     /// A ray to `target` with t_max just under 1: a surface through the target does not count as an obstacle. Direction
-    /// is target - origin, so that t is a fraction of the way.
+    /// is target - origin, so that t is a fraction of the way. Of the target only its coordinates are known: for a
+    /// point computed on a large surface prefer the form below.
     Ray spawn_ray_to(const Point3& target, double time) const;
 
     /// The same for a target on another surface, which both ends leave by their error bounds.
