@@ -139,13 +139,13 @@ def tables(group):
             + table(group, columns, precision, bound=False))
 
 
-def hard_section(cases, compared, full):
+def hard_section(cases, all_rays, compared):
     lines = ["## The hard cases of the suite", ""]
     if cases is None:
         lines += ["Not run.", ""]
     else:
         failed = [c["case"] for c in cases if not c["passed"]]
-        lines += [f"`tests/hard`, with {'all' if full else 'a tenth of'} the rays that its cases name: "
+        lines += [f"`tests/hard`, with {'all' if all_rays else 'a tenth of'} the rays that its cases name: "
                   f"{len(cases)} cases, {len(failed)} failed, {sum(c['seconds'] for c in cases):.0f} s of one core.", ""]
         lines += [f"- failed: {name}" for name in failed] + [""] * bool(failed)
     if compared:
@@ -155,8 +155,7 @@ def hard_section(cases, compared, full):
     return lines
 
 
-def report(head, groups, cases, compared, found):
-    full = head["command"].endswith("--full")
+def report(head, groups, cases, all_rays, compared, found):
     lines = [
         "# Accuracy", "",
         f"Written by `{head['command']}`; do not edit. {head['date']}, commit {head['commit']}, {head['processor']}, "
@@ -177,4 +176,4 @@ def report(head, groups, cases, compared, found):
     for group in groups:
         title, text = TEXTS[group["group"]]
         lines += [f"## {title}", "", text, ""] + tables(group)
-    return "\n".join(lines + hard_section(cases, compared, full)).rstrip() + "\n"
+    return "\n".join(lines + hard_section(cases, all_rays, compared)).rstrip() + "\n"
