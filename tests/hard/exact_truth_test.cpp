@@ -270,7 +270,7 @@ TEST_CASE("Exact truth: only three points on one line are flat", "[hard][truth]"
 }
 
 TEST_CASE(
-    "The judge notices what is missed, hit falsely, or at another t, u or v; beside an end the reported t decides",
+    "The judge notices what is missed, hit falsely, or at another t, u or v, and beside an end the reported t decides",
     "[hard][truth]") {
     const Ray ray{{0, 0, 3}, {0, 0, -1}, 0, kInfinity, 0};
     const auto faults = [](const Ray& r, const ExactHit& truth, const std::optional<Answer>& answer) {

@@ -289,7 +289,7 @@ TEST_CASE("Meshes: triangles of exactly no area are dropped and counted, their n
     CHECK((flat > all / 10 && flat < all * 9 / 10));
 }
 
-TEST_CASE("Meshes: equal vertices, points in line and one point thrice are no area; NaN and infinity are refused",
+TEST_CASE("Meshes: equal vertices, points in line and one point thrice are no area, NaN and infinity are refused",
           "[hard][mesh]") {
     MeshData data;
     data.vertices = {{0, 0, 0},

@@ -129,7 +129,7 @@ TEST_CASE("Sphere: a ray from the centre leaves through the inside of the surfac
     CHECK(length(Vec3(surface.normal) + Vec3{0, 0.6, 0.8}) <= 2e-7);
 }
 
-TEST_CASE("Sphere: u and v are in [0, 1] and name the point, at poles and seam too", "[hard][sphere]") {
+TEST_CASE("Sphere: u and v are between 0 and 1 and name the point, at poles and seam too", "[hard][sphere]") {
     Random random(520);
     for (const double r : {1.0, 1e-3, 1e5}) {
         Scene scene;
