@@ -13,13 +13,12 @@
 
 namespace limn::accel {
 
-// Traversal compares where a ray enters a box with the t of hits found elsewhere, and a hit's t carries a rounding of
-// its own: relative to the coordinates that it was computed from, not to t. So t_min and t_max count as wider by this
-// much of the largest coordinate, in units of t; and since the edges of primitives are decided by numbers rounded
-// likewise, boxes count as larger by as much, in units of length. That is 2^9 times what moved origin, difference,
-// reciprocal and product lose together in a slab: at most 4 * 2^-53 of (|origin| + extent) * inverse. It only costs a
-// visit now and then. A ray inside an instance counts as wider by what its own numbers lost.
-inline constexpr double kSlack = 0x1p-42;
+// Traversal compares where a ray enters a box with the t of hits, and those may be off by 2^-32 of themselves
+// (filter.h), so by as much of the largest coordinate, in units of t. So t_min and t_max count as wider by four times
+// that; and boxes, against what moved origin, difference, reciprocal and product lose in a slab: at most 4 * 2^-53 of
+// (|origin| + extent) * inverse. It only costs a visit now and then. A ray inside an instance counts as wider by what
+// its own numbers lost; where its direction may be off by more than an eighth, nothing is known of where it goes.
+inline constexpr double kSlack = 0x1p-30;
 
 struct SlabRay {
     double origin_near[3], origin_far[3];  // moved so that boxes seem larger
@@ -52,8 +51,8 @@ struct SlabRay {
             origin_far[a] = ray.origin[a] - (negative[a] ? -wider : wider);
             inverse[a] = 1 / along;
         }
-        if (reach < 0x1p1000 && wider < 0x1p1000) return;
-        // Nothing is known of where the ray is, or differences could overflow: every box is met but the empty one,
+        if (reach < 0x1p1000 && wider < 0x1p1000 && direction_error < 0x1p-3 * length) return;
+        // Or differences could overflow: every box is met but the empty one,
         // whose sides are infinite.
         slack = kInfinity, t_min = -kInfinity;
         for (std::size_t a = 0; a < 3; ++a) {

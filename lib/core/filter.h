@@ -29,8 +29,8 @@ inline bool is_accurate(const Approximate& t) {
     return t.error <= kAccurate * std::abs(t.value) && !misses_round;
 }
 
-// Where hits may lie: t in (t_min, t_max], finite. The t that is reported decides, so that it agrees with the interval,
-// and with that of any other hit.
+// Where hits may lie: t in (t_min, t_max], finite. The t that is reported decides, so that the interval and the
+// order of hits are judged by the number that the caller sees.
 struct Search {
     double t_min, t_max;
 

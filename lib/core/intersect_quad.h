@@ -1,8 +1,6 @@
 // Ray against parallelogram, one definition for the described and the compiled world.
 #pragma once
 
-#include <algorithm>
-
 #include "core/settle.h"
 #include "core/sheared_ray.h"
 
@@ -13,7 +11,7 @@ namespace limn {
 // belongs to the quad, a ray in its plane misses. A ray can only hit if |w| <= |det|, which tells rays along the plane
 // apart from those in it.
 //
-// u and v are off by at most 3 e / |det|; z changes by at most |edge_u.z| + |edge_v.z| over the quad.
+// u and v are off by at most 4 e / |det|; z changes by at most |edge_u.z| + |edge_v.z| over the quad.
 inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const ShearedRay& ray,
                                 const Search& search) {
     const Vec3 to_corner = corner - ray.origin;
@@ -34,13 +32,13 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
     if (is_missed(e)) return {Decision::miss};
     if (!(least > e && det - most > 3 * e)) return {Decision::unsure};
 
-    const double u = std::min(wu / det, 1.0), v = std::min(wv / det, 1.0);
+    const double u = wu / det, v = wv / det;
     const double z = q.z + (u * eu.z + v * ev.z);
     const PlanarAnswer answer =
         planar_answer(ray, ray.coordinate_error(reach), 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
         const double edge = larger(max_abs(edge_u), max_abs(edge_v));
-        if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), turned ? -ray.direction_z : ray.direction_z, edge, 0,
+        if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), turned != (ray.direction_z < 0), edge, 0,
                       max_abs(to_corner)))
             return {Decision::miss};
     }

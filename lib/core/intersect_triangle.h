@@ -39,8 +39,8 @@ inline PlanarAnswer filter_triangle(const Point3& a, const Point3& b, const Poin
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
         const Vec3 ab = qb - qa, ac = qc - qa;
         const double edge = larger(max_abs(ab), max_abs(ac)), edge_error = kRoundoff * (2 * reach + edge);
-        if (is_behind(ray, dot(cross(ab, ac), qa), -det * ray.direction_z, edge, edge_error, max_abs(qa)))
-            return {Decision::miss};
+        const bool turned = (det < 0) == (ray.direction_z < 0);  // the normal, against the ray
+        if (is_behind(ray, dot(cross(ab, ac), qa), turned, edge, edge_error, max_abs(qa))) return {Decision::miss};
     }
     return answer;
 }

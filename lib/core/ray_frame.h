@@ -20,6 +20,9 @@ struct InverseError {
 // determinant is uncertain.
 InverseError inverse_error(const Transform& m);
 
+// Whether the determinant of the linear part is exactly 0.
+bool is_singular(const Transform& m);
+
 // A ray in the space of an instance's object, or (without `outer`) the ray itself.
 struct RayFrame {
     Ray ray;                     // as the shapes there see it, rounded

@@ -9,7 +9,7 @@ namespace limn {
 
 struct PlanarHit;
 
-// Whether the shape is hit within the search; t, u and v to the nearest double (ratio).
+// Whether the shape is hit within the search; t, u and v rounded (ratio).
 bool settle_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                      PlanarHit& hit);
 bool settle_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,

@@ -73,14 +73,13 @@ struct PlanarAnswer {
 
 // Whether a plane lies behind the ray's origin: a surface behind the ray that leaves it, which the t of a search, close
 // to 0, seldom tells. `product` is n.q, n the normal and q from the origin to a point of the plane, both computed, and
-// `denominator` has the sign of n.d. `edge` is the largest coordinate of the edges that n is the cross product of, each
-// of which is off by at most `edge_error`; then n is off by 4 edge edge_error + 4 u edge^2, and n.q by three times that
-// times |q|, 6 edge^2 (u |q| + e) from q, and 18 u edge^2 |q| from the products.
-inline bool is_behind(const ShearedRay& ray, double product, double denominator, double edge, double edge_error,
-                      double q) {
+// `against` whether n.d < 0. `edge` is the largest coordinate of the edges that n is the cross product of, each
+// of which is off by at most `edge_error`; then n is off by 4 edge edge_error + 4 u edge^2 and less than a third of the
+// former, and n.q by three times that times |q|, 6 edge^2 (u |q| + e) from q, and 18 u edge^2 |q| from the products.
+inline bool is_behind(const ShearedRay& ray, double product, bool against, double edge, double edge_error, double q) {
     const double error =
-        edge * (12 * edge_error * q + edge * (36 * kRoundoff * q + 3 * ray.absolute)) * (1 + 0x1p-30) + 0x1p-900;
-    return std::abs(product) > error && (product < 0) != (denominator < 0);
+        edge * (16 * edge_error * q + edge * (36 * kRoundoff * q + 3 * ray.absolute)) * (1 + 0x1p-30) + 0x1p-900;
+    return std::abs(product) > error && (product < 0) != against;
 }
 
 // The hit at depth `z`, computed as a weighted mean by at most 8 operations; its weights are off by `weight_error`, u

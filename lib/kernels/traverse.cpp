@@ -176,12 +176,7 @@ private:
     }
 
     bool foreign(const flat::Foreign& shape, std::uint64_t number) {
-        if (frame_.outer == nullptr) return foreign_here(shape, number);
         const FrameScope scope(frame_);  // it may consist of limn's own shapes
-        return foreign_here(shape, number);
-    }
-
-    bool foreign_here(const flat::Foreign& shape, std::uint64_t number) {
         Ray rest = ray_;
         rest.t_max = query_.limit();
         ForeignHit hit;

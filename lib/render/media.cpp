@@ -14,7 +14,8 @@ constexpr double kLargestExtinction = 1e300;
 constexpr Vec3 kAside{0.4327561, -0.7915372, 0.4313921};
 
 // Crossings of one surface point come once for each primitive that meets there, their t apart by rounding alone.
-// Doubles place them to some 2^-48; true crossings that close bound no visible depth.
+// Where primitives share an edge exactly their t are a few 2^-53 apart; true crossings that close bound no visible
+// depth.
 bool same_point(double a, double b) { return std::abs(a - b) <= 0x1p-40 * std::abs(a); }
 
 // For each place where crossings are, in order, one of them, and whether the others there go the same way. It goes into

@@ -131,7 +131,7 @@ LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_
                 double t, bool with_uv, bool& front) {
     if (level == place.depth) {
         const LocalHit hit = on_primitive(scene, place, frame, t, with_uv);
-        front = dot(hit.normal, frame.ray.direction) < 0;  // here, where no transform has rounded
+        front = dot(hit.normal, frame.ray.direction) < 0;  // here, where the normal is not transformed
         return hit;
     }
     const flat::Instance& instance = scene.instances[place.instances[level]];

@@ -53,8 +53,11 @@ Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& at_t
     require_not_null(object_, "Instance", "the object");
     require_finite(at_time0, "Instance", "the transform");
     require_finite(at_time1, "Instance", "the transform at time 1");
-    inverse(at_time0);  // throws if singular
-    inverse(at_time1);
+    const FloatEnvironment environment;
+    for (const Transform& m : {at_time0, at_time1}) {
+        if (is_singular(m)) throw ArgumentError("Instance: the matrix is singular");
+        inverse(m);  // throws if double cannot hold it
+    }
     if (moving_ && has_root(determinant_over_time(at_time0, at_time1)))
         throw ArgumentError("Instance: the moving transform is singular at some time of the shutter");
 }

@@ -58,6 +58,7 @@ Mesh::Mesh(MeshData data, std::shared_ptr<const Material> material)
 
 Mesh::Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials)
     : data_(std::make_shared<const MeshData>(std::move(data))), materials_(std::move(materials)) {
+    const FloatEnvironment environment;
     if (materials_.empty()) materials_.emplace_back();
     check(*data_, materials_.size());
     const MeshView mesh = view_of(*data_);

@@ -11,6 +11,7 @@ namespace limn {
 
 Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::shared_ptr<const Material> material)
     : corner_(corner), edge_u_(edge_u), edge_v_(edge_v), material_(std::move(material)) {
+    const FloatEnvironment environment;
     require_finite(corner, "Quad", "the corner");
     require_finite(edge_u, "Quad", "edge u");
     require_finite(edge_v, "Quad", "edge v");

@@ -10,6 +10,7 @@ namespace limn {
 
 Triangle::Triangle(const Point3& a, const Point3& b, const Point3& c, std::shared_ptr<const Material> material)
     : a_(a), b_(b), c_(c), material_(std::move(material)) {
+    const FloatEnvironment environment;
     for (const Point3& p : {a, b, c}) require_finite(p, "Triangle", "a vertex");
     if (are_collinear(a, b, c)) throw ArgumentError("Triangle: the area must not be zero");
 }

@@ -1,0 +1,76 @@
+// Rays that an earlier form of the kernels got wrong.
+#include <memory>
+
+#include "catch.h"
+#include "limn/core/error.h"
+#include "limn/render/compiled_scene.h"
+#include "limn/shape/bvh.h"
+#include "limn/shape/hittable_list.h"
+#include "limn/shape/instance.h"
+#include "limn/shape/mesh.h"
+#include "limn/shape/sphere.h"
+#include "limn/shape/triangle.h"
+
+using namespace limn;
+
+namespace {
+
+CompiledScene scene_of(const std::shared_ptr<const Hittable>& object) {
+    Scene scene;
+    scene.add(object);
+    return compile(scene);
+}
+
+}  // namespace
+
+TEST_CASE("Triangle: a plane ahead is not taken for one behind where its determinant underflows", "[hard][reviewed]") {
+    const auto triangle =
+        std::make_shared<Triangle>(Point3{0, 0, 0}, Point3{0x1p-8, 0, 0}, Point3{0, 0x1p-8, 0}, nullptr);
+    for (const double side : {1.0, -1.0}) {
+        const Ray ray{.origin = {0x1p-10, 0x1p-10, side * 0x1p-53}, .direction = {0, 0, -side * 0x1p-1060}};
+        const auto hit = triangle->hit(ray);
+        REQUIRE(hit);
+        CHECK(hit->t == 0x1p1007);
+        CHECK(scene_of(triangle).closest_hit(ray)->t == 0x1p1007);
+    }
+}
+
+TEST_CASE("Needles: a t just before their box is found by tree and scene too", "[hard][reviewed]") {
+    MeshData data;
+    data.vertices = {{0x1.720b2p-1f, 0x1.732bf6p-1f, -0x1.f23b98p-2f},
+                     {0x1.720b2p-1f, 0x1.7337aap-1f, 0x1.97d7ccp+0f},
+                     {0x1.720b2p-1f, 0x1.7362b2p-1f, -0x1.c71b16p-2f}};
+    data.triangles = {{0, 1, 2}};
+    const auto mesh = std::make_shared<Mesh>(data, nullptr);
+    Ray ray{.origin = {0, 0, 0}, .direction = {0x1.fd51b6913d03cp-1, 0x1.fef38e925bdddp-1, 1}};
+    const auto hit = mesh->hit(ray);
+    REQUIRE(hit);
+    ray.t_max = hit->t;
+    const Bvh tree({mesh});
+    CHECK(tree.hit(ray));
+    CHECK(scene_of(mesh).closest_hit(ray));
+    CHECK(scene_of(mesh).any_hit(ray));
+}
+
+TEST_CASE("Instance: boxes are met where the rounded direction tells little of the exact one", "[hard][reviewed]") {
+    const Transform m{{{{-0.5, 0, 0, 0}, {0.7, 0.6, 2e-19, 0}, {-0.8, 0.8, -2e-19, 0}}}};
+    const auto ball = std::make_shared<Sphere>(Point3{10, 0, 0}, 1, nullptr);
+    const auto other = std::make_shared<Sphere>(Point3{-10, 0, 0}, 1, nullptr);
+    const auto pair = std::make_shared<HittableList>();
+    pair->add(ball);
+    pair->add(other);
+    const Ray ray{.origin = {0, 0, 0}, .direction = {-0.5, 0.7, -0.8}, .t_min = 5};
+    const auto hit = scene_of(std::make_shared<Instance>(pair, m)).closest_hit(ray);
+    REQUIRE(hit);
+    CHECK(hit->t == Instance(ball, m).hit(ray)->t);
+    CHECK(hit->t == Approx(9));
+}
+
+TEST_CASE("Instance: a matrix is refused where it is exactly singular, though its rounded determinant is not 0",
+          "[hard][reviewed]") {
+    Transform m;
+    m.rows[0] = {0.1f, 0.1f, 0.2f, 0};
+    m.rows[1] = {0.2f, 0.1f, 0.1f, 0};
+    for (std::size_t j = 0; j < 3; ++j) m.rows[2][j] = m.rows[0][j] + m.rows[1][j];  // exact: they are float32
+    CHECK_THROWS_AS(Instance(std::make_shared<Sphere>(Point3{0, 0, 0}, 1, nullptr), m), ArgumentError);
+}
