@@ -52,7 +52,7 @@ struct SlabRay {
             inverse[a] = 1 / along;
         }
         if (reach < 0x1p1000 && wider < 0x1p1000 && direction_error < 0x1p-3 * length) return;
-        // Or differences could overflow: every box is met but the empty one,
+        // Nothing is known of where the ray goes, or differences could overflow: every box is met but the empty one,
         // whose sides are infinite.
         slack = kInfinity, t_min = -kInfinity;
         for (std::size_t a = 0; a < 3; ++a) {

@@ -11,7 +11,7 @@
 
 namespace limn {
 
-// a - b rounded up, a + b rounded down. The error of a sum is exact in double: Knuth, The Art of Computer Programming,
+// a - b rounded up, and rounded down. The error of a sum is exact in double: Knuth, The Art of Computer Programming,
 // vol. 2, section 4.2.2, theorem B.
 inline double difference_up(double a, double b) {
     const double difference = a - b, b_seen = a - difference, a_seen = difference + b_seen;

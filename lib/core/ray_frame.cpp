@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scaled_matrix.h"
 #include "limn/core/math.h"
 
 namespace limn {
@@ -13,8 +14,6 @@ thread_local const RayFrame* current_frame = nullptr;
 
 // Beside the rounding of products that underflow.
 constexpr double kTiny = 0x1p-1000;
-
-Vec3 from_translation(const Ray& ray, const Transform& m) { return (ray.origin - Point3{}) - m.translation(); }
 
 // The adjugate's rows are cross products of the matrix's columns.
 struct ExactInverse {
@@ -36,25 +35,20 @@ struct ExactInverse {
 }  // namespace
 
 InverseError inverse_error(const Transform& m) {
-    double largest = 0;
-    for (const auto& row : m.rows)
-        for (std::size_t j = 0; j < 3; ++j) largest = std::max(largest, std::abs(row[j]));
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    const auto at = [&](std::size_t i, std::size_t j) { return std::ldexp(m.rows[i % 3][j % 3], -exponent); };
+    const ScaledMatrix scaled(m);
+    const auto at = [&](std::size_t i, std::size_t j) { return scaled.matrix.rows[i % 3][j % 3]; };
     const auto cofactor_magnitude = [&](std::size_t i, std::size_t j) {
         return std::abs(at(i + 1, j + 1) * at(i + 2, j + 2)) + std::abs(at(i + 1, j + 2) * at(i + 2, j + 1));
     };
-    double det = 0, permanent = 0, row_sum = 0;
+    double permanent = 0, row_sum = 0;
     for (std::size_t j = 0; j < 3; ++j) {
-        det += at(0, j) * (at(1, j + 1) * at(2, j + 2) - at(1, j + 2) * at(2, j + 1));
         permanent += std::abs(at(0, j)) * cofactor_magnitude(0, j);
-    }
-    for (std::size_t j = 0; j < 3; ++j)  // a row of the inverse belongs to a column of the matrix
+        // A row of the inverse belongs to a column of the matrix.
         row_sum = std::max(row_sum, cofactor_magnitude(0, j) + cofactor_magnitude(1, j) + cofactor_magnitude(2, j));
-    det = std::abs(det);
+    }
+    const double det = std::abs(determinant(scaled.matrix));
     if (!(det > 32 * kRoundoff * permanent + kTiny)) return {kInfinity, kInfinity};
-    const double norm = std::ldexp(row_sum / det, -exponent) * (1 + 0x1p-20);
+    const double norm = std::ldexp(row_sum / det, -scaled.exponent) * (1 + 0x1p-20);
     return {24 * kRoundoff * (permanent / det) * norm, norm};
 }
 
@@ -65,7 +59,7 @@ RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const T
     : ray(outer_frame.ray), outer(&outer_frame), world_from_object(&matrix) {
     // The translation is subtracted first, where it cancels best. The direction keeps its length, so that t means the
     // same on both sides.
-    const Vec3 v = from_translation(ray, matrix);
+    const Vec3 v = (ray.origin - Point3{}) - matrix.translation();
     const Vec3 d = ray.direction;
     ray.origin = Point3{} + transform_vector(object_from_world, v);
     ray.direction = transform_vector(object_from_world, d);

@@ -31,7 +31,6 @@ struct RayFrame {
     const RayFrame* outer = nullptr;
     const Transform* world_from_object = nullptr;  // the instance between `outer` and here
 
-    RayFrame() = default;
     explicit RayFrame(const Ray& r) : ray(r) {}
 
     // The ray of `outer_frame` inside an instance. Both frame and matrix are kept by reference.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scaled_matrix.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
 
@@ -83,24 +84,15 @@ double determinant(const Transform& m) {
 
 Transform inverse(const Transform& m) {
     if (!is_finite(m)) throw ArgumentError("inverse: the matrix must be finite");
-    // Scaled by a power of two, exactly, so that tiny and huge matrices neither underflow nor overflow.
-    double largest = 0;
-    for (const auto& row : m.rows)
-        for (std::size_t j = 0; j < 3; ++j) largest = std::max(largest, std::abs(row[j]));
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    Transform scaled = m;
-    for (auto& row : scaled.rows)
-        for (std::size_t j = 0; j < 3; ++j) row[j] = std::ldexp(row[j], -exponent);
-
-    const double det = determinant(scaled);
+    const ScaledMatrix scaled(m);
+    const double det = determinant(scaled.matrix);
     if (!(std::abs(det) > 0)) throw ArgumentError("inverse: the matrix is singular");
-    const auto& r = scaled.rows;
+    const auto& r = scaled.matrix.rows;
     Transform inv;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            inv.rows[i][j] = std::ldexp((r[a][c] * r[b][d] - r[a][d] * r[b][c]) / det, -exponent);
+            inv.rows[i][j] = std::ldexp((r[a][c] * r[b][d] - r[a][d] * r[b][c]) / det, -scaled.exponent);
         }
         inv.rows[i][3] = 0;
     }

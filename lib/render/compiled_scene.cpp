@@ -37,9 +37,32 @@ RayHit complete(const flat::Scene& scene, const Ray& ray, const flat::RawHit& ra
             .primitive = raw.primitive};
 }
 
-std::size_t count_unusable(std::span<const Ray> rays) {
-    return static_cast<std::size_t>(
-        std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_usable(ray); }));
+// \pre is_usable(ray), as below
+std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
+    const flat::RawHit hit = closest_of_all(scene, ray);
+    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
+    return complete(scene, ray, hit);
+}
+
+bool find_any(const flat::Scene& scene, const Ray& ray) {
+    return kernels::any_hit(scene, ray) ||
+           std::any_of(scene.media.begin(), scene.media.end(), [&](const flat::Medium& medium) {
+               return kernels::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
+           });
+}
+
+// answer(i) for every ray that can be used; the number of the others, whose answers stay a miss.
+template <class Answer>
+std::size_t answer_all(std::span<const Ray> rays, const Answer& answer) {
+    const FloatEnvironment environment;
+    std::size_t unusable = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (is_usable(rays[i]))
+            answer(i);
+        else
+            ++unusable;
+    }
+    return unusable;
 }
 
 SceneStats stats_of(const flat::Scene& s) {
@@ -61,31 +84,24 @@ CompiledScene::~CompiledScene() = default;
 
 std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
     const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
-    const flat::RawHit hit = closest_of_all(*scene_, ray);
-    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
-    return complete(*scene_, ray, hit);
+    return is_usable(ray) ? find_closest(*scene_, ray) : std::nullopt;
 }
 
 bool CompiledScene::any_hit(const Ray& ray) const {
     const FloatEnvironment environment;
-    if (!is_usable(ray)) return false;
-    return kernels::any_hit(*scene_, ray) ||
-           std::any_of(scene_->media.begin(), scene_->media.end(), [&](const flat::Medium& medium) {
-               return kernels::closest_boundary(*scene_, medium, ray).primitive != flat::RawHit::kMiss;
-           });
+    return is_usable(ray) && find_any(*scene_, ray);
 }
 
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i]).value_or(RayHit{});
-    return count_unusable(rays);
+    std::fill(hits.begin(), hits.end(), RayHit{});
+    return answer_all(rays, [&](std::size_t i) { hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{}); });
 }
 
 std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
-    for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = any_hit(rays[i]) ? 1 : 0;
-    return count_unusable(rays);
+    std::fill(occluded.begin(), occluded.end(), std::uint8_t{0});
+    return answer_all(rays, [&](std::size_t i) { occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0; });
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
