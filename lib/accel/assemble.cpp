@@ -6,115 +6,135 @@
 #include <utility>
 
 #include "accel/order.h"
+#include "accel/reference.h"
 
 namespace limn::accel {
 
 namespace {
 
+constexpr std::uint32_t kPart = 1 << 14;  // references whose nodes one thread writes
+
 struct Rows {
     std::uint32_t node = 0, leaf = 0, id = 0;
 };
 
+// Items are parts of the tree, depth first. At the top each has one node, which others hang from.
 class Assembler {
 public:
-    explicit Assembler(const Tree& tree) : tree_(tree) {}
+    explicit Assembler(std::span<const std::uint32_t> ids) : ids_(ids) {}
 
-    // A node over rows of the binary tree, and perhaps what stands aside.
-    std::uint32_t add_node(const std::vector<std::uint32_t>& rows, const Aside& aside) {
-        const std::uint32_t number = next_.node++;
-        WideNode wide = empty_node();
-        std::size_t slot = 0;
-        for (; slot < rows.size(); ++slot) {
-            const SplitNode& child = tree_.nodes[rows[slot]];
-            set_box(wide, slot, child.box);
-            if (child.is_leaf) wide.child[slot] = add_part(tree_.parts[rows[slot]]);  // top nodes have parts below
+    void add_tree(const SplitNode& node) {
+        if (node.size() <= kPart) {
+            items_.emplace_back().whole = &node;
+            return;
         }
-        if (!aside.part.leaves.empty()) {
-            set_box(wide, slot, aside.box);
-            if (aside.part.nodes.empty()) wide.child[slot] = add_part(aside.part);
+        std::vector<const SplitNode*> children;
+        fill_slots(*node.left, node.left_slots[kWidth], children);
+        fill_slots(*node.right, kWidth - node.left_slots[kWidth], children);
+        add_node(children, {});
+    }
+
+    // `aside` becomes the last child.
+    void add_node(std::span<const SplitNode* const> children, Aside aside) {
+        const std::size_t item = items_.size();
+        Part& part = items_.emplace_back().part;
+        PartWriter writer(ids_, part);
+        writer.add_node(children);
+        const bool has_aside = !aside.part.leaves.empty();
+        if (has_aside) {
+            set_box(part.nodes[0], children.size(), aside.box);
+            part.nodes[0].child[children.size()] = aside.part.nodes.empty() ? writer.add_leaf(aside.part.ids) : 0;
+            set_order(part.nodes[0]);
         }
-        for (slot = 0; slot < rows.size(); ++slot)
-            if (!tree_.nodes[rows[slot]].is_leaf) wide.child[slot] = add_inner(rows[slot]);
-        if (!aside.part.nodes.empty()) wide.child[slot] = add_part(aside.part);
-        set_order(wide);
-        top_.push_back({number, wide});
-        return number;
+        for (std::size_t slot = 0; slot < children.size(); ++slot) {
+            if (children[slot]->is_leaf) continue;
+            items_[item].links.push_back({slot, items_.size()});
+            add_tree(*children[slot]);
+        }
+        if (has_aside && !aside.part.nodes.empty()) {
+            items_[item].links.push_back({children.size(), items_.size()});
+            items_.emplace_back().part = std::move(aside.part);
+        }
     }
 
     WideBvh build() {
+        for_each_item([&](Item& item) {
+            if (item.whole != nullptr) PartWriter(ids_, item.part).add_tree(*item.whole);
+        });
         WideBvh bvh;
-        bvh.nodes.resize(next_.node);
-        bvh.leaves.resize(next_.leaf);
-        bvh.ids.resize(next_.id);
-        for (const auto& [row, node] : top_) bvh.nodes[row] = node;
-        tbb::parallel_for(std::size_t{0}, placed_.size(), [&](std::size_t i) { copy(placed_[i], bvh); });
+        if (items_.size() == 1) {
+            Part& part = items_[0].part;
+            bvh.nodes = std::move(part.nodes), bvh.leaves = std::move(part.leaves), bvh.ids = std::move(part.ids);
+            return bvh;
+        }
+        Rows next;
+        for (Item& item : items_) {
+            item.first = next;
+            next.node += static_cast<std::uint32_t>(item.part.nodes.size());
+            next.leaf += static_cast<std::uint32_t>(item.part.leaves.size());
+            next.id += static_cast<std::uint32_t>(item.part.ids.size());
+        }
+        bvh.nodes.resize(next.node), bvh.leaves.resize(next.leaf), bvh.ids.resize(next.id);
+        for_each_item([&](const Item& item) { copy(item, bvh); });
         return bvh;
     }
 
 private:
-    struct Placed {
-        const Part* part;
-        Rows rows;
+    struct Item {
+        const SplitNode* whole = nullptr;  // what is to be written
+        Part part;
+        struct Link {
+            std::size_t slot, item;
+        };
+        std::vector<Link> links;  // of its first node
+        Rows first;
     };
 
-    std::uint32_t add_inner(std::uint32_t row) {
-        if (tree_.nodes[row].right == 0) return add_part(tree_.parts[row]);
-        std::vector<std::uint32_t> rows;
-        spread(tree_.nodes, row, kWidth, rows);
-        return add_node(rows, {});
+    template <class Function>
+    void for_each_item(const Function& function) {
+        if (items_.size() == 1) return function(items_[0]);
+        tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { function(items_[i]); });
     }
 
-    std::uint32_t add_part(const Part& part) {
-        placed_.push_back({&part, next_});
-        const std::uint32_t child = part.nodes.empty() ? WideNode::kLeaf | next_.leaf : next_.node;
-        next_.node += static_cast<std::uint32_t>(part.nodes.size());
-        next_.leaf += static_cast<std::uint32_t>(part.leaves.size());
-        next_.id += static_cast<std::uint32_t>(part.ids.size());
-        return child;
-    }
-
-    static void copy(const Placed& placed, WideBvh& bvh) {
-        const auto& [part, rows] = placed;
-        for (std::size_t i = 0; i < part->nodes.size(); ++i) {
-            WideNode& node = bvh.nodes[rows.node + i] = part->nodes[i];
+    void copy(const Item& item, WideBvh& bvh) const {
+        const Part& part = item.part;
+        const Rows& first = item.first;
+        for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+            WideNode& node = bvh.nodes[first.node + i] = part.nodes[i];
             for (std::uint32_t& child : node.child)
-                if (child != WideNode::kAbsent) child += (child & WideNode::kLeaf) != 0 ? rows.leaf : rows.node;
+                if (child != WideNode::kAbsent) child += (child & WideNode::kLeaf) != 0 ? first.leaf : first.node;
         }
-        for (std::size_t i = 0; i < part->leaves.size(); ++i)
-            bvh.leaves[rows.leaf + i] = {part->leaves[i].first + rows.id, part->leaves[i].count};
-        std::copy(part->ids.begin(), part->ids.end(), bvh.ids.begin() + rows.id);
+        for (const auto& [slot, target] : item.links) bvh.nodes[first.node].child[slot] = items_[target].first.node;
+        for (std::size_t i = 0; i < part.leaves.size(); ++i)
+            bvh.leaves[first.leaf + i] = {part.leaves[i].first + first.id, part.leaves[i].count};
+        std::copy(part.ids.begin(), part.ids.end(), bvh.ids.begin() + first.id);
     }
 
-    const Tree& tree_;
-    std::vector<std::pair<std::uint32_t, WideNode>> top_;
-    std::vector<Placed> placed_;
-    Rows next_;
+    std::span<const std::uint32_t> ids_;
+    std::vector<Item> items_;
 };
 
-// Returns the child that has all of it. Leaves of one node follow each other, for halves that differ by one are both
-// leaves, or the larger one is the lower.
 class Halver {
 public:
-    Halver(std::span<const FloatBox> boxes, const BuildSettings& settings, Part& part)
-        : boxes_(boxes), settings_(settings), part_(part) {}
+    Halver(std::span<const FloatBox> boxes, const BuildSettings& settings, Aside& aside)
+        : boxes_(boxes), settings_(settings), aside_(aside) {}
 
+    // Returns the child that has them all. If one half is a leaf the other is one too, or comes later.
     std::uint32_t add(std::span<const std::uint32_t> ids) {
+        Part& part = aside_.part;
         if (ids.size() <= settings_.max_leaf) {
-            const auto size = static_cast<std::uint32_t>(ids.size());
-            part_.leaves.push_back({static_cast<std::uint32_t>(part_.ids.size()), size});
-            part_.ids.insert(part_.ids.end(), ids.begin(), ids.end());
-            part_.cost += leaf_cost(size, settings_);
-            return WideNode::kLeaf | static_cast<std::uint32_t>(part_.leaves.size() - 1);
+            aside_.cost += leaf_cost(static_cast<std::uint32_t>(ids.size()), settings_);
+            return PartWriter({}, part).add_leaf(ids);
         }
-        const auto row = static_cast<std::uint32_t>(part_.nodes.size());
-        part_.nodes.push_back(empty_node());
-        part_.cost += settings_.node_cost;
+        const auto row = static_cast<std::uint32_t>(part.nodes.size());
+        part.nodes.push_back(empty_node());
+        aside_.cost += settings_.node_cost;
         const std::size_t half = ids.size() / 2;
         const std::span<const std::uint32_t> halves[2] = {ids.first(half), ids.subspan(half)};
         for (std::size_t k = 0; k < 2; ++k) {
             const std::uint32_t child = add(halves[k]);
-            part_.nodes[row].child[k] = child;
-            set_box(part_.nodes[row], k, around(halves[k]));
+            part.nodes[row].child[k] = child;
+            set_box(part.nodes[row], k, around(halves[k]));
         }
         return row;
     }
@@ -128,7 +148,7 @@ public:
 private:
     std::span<const FloatBox> boxes_;
     const BuildSettings& settings_;
-    Part& part_;
+    Aside& aside_;
 };
 
 }  // namespace
@@ -136,37 +156,32 @@ private:
 Aside set_aside(std::span<const FloatBox> boxes, std::span<const std::uint32_t> ids, const BuildSettings& settings) {
     Aside aside;
     if (ids.empty()) return aside;
-    Halver halver(boxes, settings, aside.part);
+    Halver halver(boxes, settings, aside);
     aside.box = halver.around(ids);
     halver.add(ids);
     return aside;
 }
 
-WideBvh assemble(Tree tree, Aside aside, const BuildSettings& settings) {
-    WideBvh bvh;
-    const bool any_aside = !aside.part.leaves.empty();
-    if (tree.nodes.empty() && !any_aside) return bvh;
-    const bool lone = tree.nodes.size() == 1;
-    if (lone && !tree.nodes[0].is_leaf && !any_aside) {  // one part is all there is
-        Part& part = tree.parts[0];
-        bvh.nodes = std::move(part.nodes), bvh.leaves = std::move(part.leaves), bvh.ids = std::move(part.ids);
-        bvh.cost = part.cost / half_area(tree.nodes[0].box);
-        return bvh;
+WideBvh assemble(const SplitNode* root, const ForestCosts& costs, std::span<const std::uint32_t> ids, Aside aside,
+                 const BuildSettings& settings) {
+    const bool has_aside = !aside.part.leaves.empty();
+    if (root == nullptr && !has_aside) return {};
+    double cost = root == nullptr ? 0 : costs[0] / half_area(root->box);
+    Assembler assembler(ids);
+    if (!has_aside && !root->is_leaf) {
+        assembler.add_tree(*root);
+    } else {
+        std::vector<const SplitNode*> children;
+        if (root != nullptr) {
+            const std::size_t slots = has_aside ? kWidth - 1 : 1;
+            fill_slots(*root, slots, children);
+            cost = costs[slots - 1] / half_area(root->box);
+        }
+        cost += settings.node_cost + aside.cost;
+        assembler.add_node(children, std::move(aside));
     }
-    std::vector<std::uint32_t> rows;
-    const std::size_t slots = any_aside ? kWidth - 1 : kWidth;
-    const bool open = !lone && !tree.nodes.empty() && (!any_aside || slots >= tree.nodes[0].open_from);
-    if (open) {
-        spread(tree.nodes, 0, slots, rows);
-    } else if (!tree.nodes.empty()) {
-        rows.push_back(0);
-    }
-    Assembler assembler(tree);
-    assembler.add_node(rows, aside);
-    bvh = assembler.build();
-    if (!tree.nodes.empty()) bvh.cost = tree.costs[any_aside ? kWidth - 2 : 0] / half_area(tree.nodes[0].box);
-    if (any_aside || lone) bvh.cost += settings.node_cost;
-    bvh.cost += aside.part.cost;
+    WideBvh bvh = assembler.build();
+    bvh.cost = cost;
     return bvh;
 }
 

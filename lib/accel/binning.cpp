@@ -6,26 +6,31 @@ namespace limn::accel {
 
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kMaxBins = 32;
 
 struct Bins {
-    Bounds bounds[3][kBins];
-    Int4 count[kBins];  // by axis
-    Vec4 origin, scale;
+    Bounds bounds[3][kMaxBins];
+    Int4 count[kMaxBins];  // by axis
+    int bins;
+    Vec4 origin, scale, last;
 
-    explicit Bins(const Range& range) : origin(range.centers.lower), scale{} {
-        for (int b = 0; b < kBins; ++b) {
+    explicit Bins(const Range& range)
+        : bins(std::clamp(static_cast<int>(range.size() / 4) + 8, 8, kMaxBins)),
+          origin(range.centers.lower),
+          scale{},
+          last(splat(static_cast<float>(bins - 1))) {
+        for (int b = 0; b < bins; ++b) {
             for (int axis = 0; axis < 3; ++axis) bounds[axis][b] = kEmpty;
             count[b] = Int4{};
         }
         const Vec4 extent = range.centers.upper - origin;
         // An axis along which all centres are one, or the reciprocal could overflow, has one bin.
         for (int axis = 0; axis < 3; ++axis)
-            if (extent[axis] > 0x1p-120f) scale[axis] = kBins / extent[axis];
+            if (extent[axis] > 0x1p-120f) scale[axis] = static_cast<float>(bins) / extent[axis];
     }
 
     void add(const Reference& r) {
-        const Int4 place = __builtin_convertvector(min((r.center() - origin) * scale, splat(kBins - 1)), Int4);
+        const Int4 place = __builtin_convertvector(min((r.center() - origin) * scale, last), Int4);
         const auto weight = static_cast<std::int32_t>(r.weight());
         for (int axis = 0; axis < 3; ++axis) {
             bounds[axis][place[axis]].extend(r.bounds());
@@ -59,10 +64,10 @@ Split best_split(const Reference* references, const Range& range, std::uint32_t 
         return areas(side, scale) * __builtin_convertvector(tests, Vec4);
     };
 
-    Vec4 lower_cost[kBins];
+    Vec4 lower_cost[kMaxBins];
     Bounds side[3] = {kEmpty, kEmpty, kEmpty};
     Int4 count{};
-    for (int b = 0; b + 1 < kBins; ++b) {
+    for (int b = 0; b + 1 < bins.bins; ++b) {
         for (int axis = 0; axis < 3; ++axis) side[axis].extend(bins.bounds[axis][b]);
         count += bins.count[b];
         lower_cost[b + 1] = cost(side, count);
@@ -72,7 +77,7 @@ Split best_split(const Reference* references, const Range& range, std::uint32_t 
     // An empty side costs infinity times nothing, which is not less than anything.
     Vec4 least = kEndless;
     Int4 where{};
-    for (int b = kBins - 1; b > 0; --b) {
+    for (int b = bins.bins - 1; b > 0; --b) {
         for (int axis = 0; axis < 3; ++axis) side[axis].extend(bins.bounds[axis][b]);
         count += bins.count[b];
         const Vec4 both = lower_cost[b] + cost(side, count);

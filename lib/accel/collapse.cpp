@@ -44,7 +44,7 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
     // More slots never cost more.
     ForestCosts costs;
     costs[0] = closed;
-    node.open_from = kWidth;
+    node.open_from = node.is_leaf ? kWidth + 1 : kWidth;
     for (std::size_t slots = kWidth - 1; slots >= 2; --slots) {
         if (open[slots] < closed) node.open_from = static_cast<std::uint8_t>(slots);
         costs[slots - 1] = std::min(open[slots], closed);
@@ -52,34 +52,13 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
     return costs;
 }
 
-void spread(const std::vector<SplitNode>& nodes, std::uint32_t row, std::size_t slots,
-            std::vector<std::uint32_t>& rows) {
-    const auto place = [&](std::uint32_t child, std::size_t its_slots) {
-        if (its_slots < nodes[child].open_from) {
-            rows.push_back(child);
-        } else {
-            spread(nodes, child, its_slots, rows);
-        }
-    };
-    const SplitNode& node = nodes[row];
-    place(node.left, node.left_slots[slots]);
-    place(node.right, slots - node.left_slots[slots]);
-}
-
-WideNode empty_node() {
-    constexpr float kEndless = std::numeric_limits<float>::infinity();
-    WideNode node;
-    for (std::size_t a = 0; a < 3; ++a) {
-        std::fill_n(node.lower[a], kWidth, kEndless);
-        std::fill_n(node.upper[a], kWidth, -kEndless);
+void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled) {
+    if (slots < node.open_from) {
+        filled.push_back(&node);
+        return;
     }
-    std::fill_n(node.child, kWidth, WideNode::kAbsent);
-    std::fill_n(node.order, kWidth, 0x76543210u);
-    return node;
-}
-
-void set_box(WideNode& node, std::size_t slot, const FloatBox& box) {
-    for (std::size_t a = 0; a < 3; ++a) node.lower[a][slot] = box.lower[a], node.upper[a][slot] = box.upper[a];
+    fill_slots(*node.left, node.left_slots[slots], filled);
+    fill_slots(*node.right, slots - node.left_slots[slots], filled);
 }
 
 }  // namespace limn::accel

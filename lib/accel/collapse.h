@@ -11,8 +11,8 @@ namespace limn::accel {
 
 struct SplitNode {
     FloatBox box;
-    std::uint32_t begin = 0, end = 0;   // of the references under it
-    std::uint32_t left = 0, right = 0;  // rows of its children; 0 if it has none
+    std::uint32_t begin = 0, end = 0;  // of the references under it
+    SplitNode *left = nullptr, *right = nullptr;
     // The plan: if all that is under the node may fill so many slots, two or more, how many of them its left child
     // gets; and with fewer than `open_from` the node fills one, by itself, as a node or a leaf.
     std::uint8_t left_slots[kWidth + 1] = {};
@@ -35,12 +35,7 @@ ForestCosts closed_costs(double cost);
 ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
                       const BuildSettings& settings);
 
-// The rows that make the most of so many slots under an inner node.
-void spread(const std::vector<SplitNode>& nodes, std::uint32_t row, std::size_t slots,
-            std::vector<std::uint32_t>& rows);
-
-// A wide node without children.
-WideNode empty_node();
-void set_box(WideNode& node, std::size_t slot, const FloatBox& box);
+// Adds the nodes that make the most of so many slots for all that is under `node`.
+void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled);
 
 }  // namespace limn::accel

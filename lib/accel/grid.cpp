@@ -54,47 +54,45 @@ struct Group {
 // Splits cells until their references are few enough.
 class CellTree {
 public:
-    CellTree(std::uint32_t enough, const BuildSettings& settings, std::vector<SplitNode>& nodes,
+    CellTree(std::uint32_t enough, const BuildSettings& settings, std::deque<SplitNode>& nodes,
              std::vector<std::uint32_t>& range_of_cell)
         : enough_(enough), settings_(settings), nodes_(nodes), range_of_cell_(range_of_cell) {}
 
-    std::vector<OpenRange> build(std::vector<Reference> cells, std::uint32_t begin, std::uint32_t row, int depth) {
-        begin_ = begin;
+    std::vector<OpenRange> build(std::vector<Reference> cells, std::uint32_t begin, SplitNode& root, int depth) {
+        next_ = begin;
         std::vector<Reference> spare(cells.size());
-        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), row, depth);
+        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), 2, root, depth);
         return std::move(ranges_);
     }
 
 private:
-    void split(Reference* cells, Reference* spare, std::uint32_t begin, std::uint32_t end, std::uint32_t row,
-               int depth) {
+    void split(Reference* cells, Reference* spare, std::uint32_t begin, std::uint32_t end, std::uint32_t min_cells,
+               SplitNode& node, int depth) {
+        const Range range = range_over(cells, begin, end);
         std::uint32_t size = 0;
         for (std::uint32_t i = begin; i < end; ++i) size += cells[i].weight();
-        const Range range = range_over(cells, begin, end);
-        nodes_[row].box = to_box(range.bounds);
-        nodes_[row].begin = begin_, nodes_[row].end = begin_ + size;
-        const bool first = ranges_.empty() && end == range.size();
+        node.box = to_box(range.bounds);
+        node.begin = next_, node.end = next_ + size;
         Split best;
-        if (size > enough_ && range.size() >= (first ? 2 : kMinCells) && may_split(size, depth))
+        if (size > enough_ && range.size() >= min_cells && may_split(size, depth))
             best = best_split(cells, range, settings_.leaf_width);
         if (!best.exists()) {
             for (std::uint32_t i = begin; i < end; ++i)
                 range_of_cell_[cells[i].id()] = static_cast<std::uint32_t>(ranges_.size());
-            ranges_.push_back({row, depth, begin_, begin_ + size});
-            begin_ += size;
+            ranges_.push_back({&node, depth, next_, next_ + size});
+            next_ += size;
             return;
         }
         const std::uint32_t middle = partition(cells, spare, range, best);
-        const auto left = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.resize(nodes_.size() + 2);
-        nodes_[row].left = left, nodes_[row].right = left + 1;
-        split(spare, cells, begin, middle, left, depth + 1);
-        split(spare, cells, middle, end, left + 1, depth + 1);
+        node.left = &nodes_.emplace_back();
+        split(spare, cells, begin, middle, kMinCells, *node.left, depth + 1);
+        node.right = &nodes_.emplace_back();
+        split(spare, cells, middle, end, kMinCells, *node.right, depth + 1);
     }
 
-    std::uint32_t enough_, begin_ = 0;
+    std::uint32_t enough_, next_ = 0;
     const BuildSettings& settings_;
-    std::vector<SplitNode>& nodes_;
+    std::deque<SplitNode>& nodes_;
     std::vector<std::uint32_t>& range_of_cell_;
     std::vector<OpenRange> ranges_;
 };
@@ -106,9 +104,9 @@ bool has_extent(const Range& range) {
     return std::max({extent[0], extent[1], extent[2]}) > kMinExtent;
 }
 
-std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, std::uint32_t row,
+std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, SplitNode& node,
                                      int depth, std::uint32_t enough, const BuildSettings& settings,
-                                     std::vector<SplitNode>& nodes) {
+                                     std::deque<SplitNode>& nodes) {
     const int bits = std::clamp(static_cast<int>(std::bit_width(range.size())) - 2, 6, kMaxBits);
     const std::size_t cells = std::size_t{1} << bits;
     const Grid grid(range, bits);
@@ -141,7 +139,7 @@ std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const
     }
     std::vector<std::uint32_t> range_of_cell(cells, 0);
     std::vector<OpenRange> ranges =
-        CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), range.begin, row, depth);
+        CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), range.begin, node, depth);
 
     // Within a range the references keep their order.
     std::vector<std::uint32_t> next;

@@ -2,6 +2,7 @@
 // every level, for all levels at once with two passes over the references.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "accel/collapse.h"
@@ -9,9 +10,9 @@
 
 namespace limn::accel {
 
-// A range that is left to be built, under a row of the binary tree.
+// References that a node of the binary tree is left to be built of.
 struct OpenRange {
-    std::uint32_t row;
+    SplitNode* node;
     int depth;
     std::uint32_t begin, end;
 
@@ -22,10 +23,9 @@ struct OpenRange {
 bool has_extent(const Range& range);
 
 // Sorts the range, from one place to the same place elsewhere, into ranges of up to `enough` references if the grid's
-// cells are fine enough for that. Adds the tree above these ranges at `row`, which exists.
-// \pre has_extent(range)
-std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, std::uint32_t row,
+// cells are fine enough for that. Adds the tree above these ranges under `node`. \pre has_extent(range)
+std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, SplitNode& node,
                                      int depth, std::uint32_t enough, const BuildSettings& settings,
-                                     std::vector<SplitNode>& nodes);
+                                     std::deque<SplitNode>& nodes);
 
 }  // namespace limn::accel

@@ -1,6 +1,7 @@
-// The part of a tree over references few enough for one thread and its cache.
+// The binary tree over references few enough for one thread and its cache.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "accel/collapse.h"
@@ -11,20 +12,26 @@ namespace limn::accel {
 // No path in the binary tree has more nodes.
 inline constexpr int kMaxSplitDepth = kMaxWideDepth - 2;
 
-// Whether splits by area may be as uneven as they like, or boxes must be halved from here on for the depth to stay
-// within its limit.
+// Whether a split may be as uneven as it likes, or boxes must be halved from here on for the depth to stay within its
+// limit.
 bool may_split(std::uint32_t size, int depth);
 
-// Rows count from the part's own first. A part of one leaf has no node.
-struct Part {
-    std::vector<WideNode> nodes;
-    std::vector<Leaf> leaves;
-    std::vector<std::uint32_t> ids;
-    double cost = 0;  // times the root's area
-};
+class SubtreeBuilder {
+public:
+    // `ids` gets the numbers of the references, at their places in the tree.
+    SubtreeBuilder(const BuildSettings& settings, std::uint32_t* ids) : settings_(settings), ids_(ids) {}
 
-// `references` has what is in the range; it and `spare`, as large, are used up. \pre the range is not empty
-Part build_subtree(Reference* references, Reference* spare, const Range& range, int depth,
-                   const BuildSettings& settings);
+    // Fills in `root` and adds what is under it. `references` has what is in the range; both it and `spare`, of the
+    // same rows, are used up. \pre the range is not empty; once only
+    ForestCosts build(Reference* references, Reference* spare, const Range& range, int depth, SplitNode& root);
+
+private:
+    ForestCosts split(Reference* references, Reference* spare, const Range& range, int depth, SplitNode& node);
+    ForestCosts make_leaf(const Reference* references, const SplitNode& node);
+
+    const BuildSettings& settings_;
+    std::uint32_t* ids_;
+    std::vector<SplitNode> nodes_;
+};
 
 }  // namespace limn::accel
