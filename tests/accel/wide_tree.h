@@ -35,14 +35,33 @@ inline accel::FloatBox box_of(const accel::WideNode& node, std::size_t slot) {
             {node.upper[0][slot], node.upper[1][slot], node.upper[2][slot]}};
 }
 
-// Area over the root's; what is infinite counts as large as all that is finite.
-inline double share(const accel::FloatBox& box, const accel::FloatBox& root) {
-    const auto area = [](const accel::FloatBox& b) {
-        const double x = double{b.upper[0]} - b.lower[0], y = double{b.upper[1]} - b.lower[1],
-                     z = double{b.upper[2]} - b.lower[2];
-        return x * y + y * z + z * x;
-    };
-    return area(box) / area(root);
+inline double half_area(const accel::FloatBox& b) {
+    const double x = double{b.upper[0]} - b.lower[0], y = double{b.upper[1]} - b.lower[1],
+                 z = double{b.upper[2]} - b.lower[2];
+    return x * y + y * z + z * x;
+}
+
+inline accel::FloatBox merged(const std::vector<accel::FloatBox>& boxes) {
+    accel::FloatBox all{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (const accel::FloatBox& b : boxes)
+        for (std::size_t a = 0; a < 3; ++a)
+            all.lower[a] = std::min(all.lower[a], b.lower[a]), all.upper[a] = std::max(all.upper[a], b.upper[a]);
+    return all;
+}
+
+// What a random ray that meets the root is expected to cost.
+inline double expected_cost(const accel::WideBvh& bvh, const accel::BuildSettings& settings) {
+    using accel::WideNode;
+    double sum = settings.node_cost;
+    for (const WideNode& node : bvh.nodes)
+        for (std::size_t slot = 0; slot < accel::kWidth && node.child[slot] != WideNode::kAbsent; ++slot) {
+            const bool is_leaf = (node.child[slot] & WideNode::kLeaf) != 0;
+            const std::uint32_t count = is_leaf ? bvh.leaves[node.child[slot] & ~WideNode::kLeaf].count : 0;
+            const double cost =
+                is_leaf ? std::ceil(double(count) / settings.leaf_width) * settings.leaf_cost : settings.node_cost;
+            sum += cost * half_area(box_of(node, slot)) / half_area(bvh.bounds);
+        }
+    return sum;
 }
 
 class TreeCheck {
@@ -114,5 +133,64 @@ inline int check_tree(const std::vector<accel::FloatBox>& boxes, const accel::Bu
     const accel::WideBvh bvh = accel::build_wide_bvh(boxes, settings);
     return TreeCheck(bvh, boxes, settings).run();
 }
+
+// Of a tree by exact sweeps over sorted centres, whose node is opened into eight by opening the largest first; for
+// leaves of up to eight, tested at once.
+class ReferenceTree {
+public:
+    static double cost(std::vector<accel::FloatBox> boxes) {
+        const double area = half_area(merged(boxes));
+        return node_cost(std::move(boxes)) / area;
+    }
+
+private:
+    using Boxes = std::vector<accel::FloatBox>;
+
+    static double node_cost(Boxes boxes) {
+        double cost = half_area(merged(boxes));
+        std::vector<Boxes> children{std::move(boxes)};
+        while (children.size() < accel::kWidth) {
+            std::size_t largest = children.size();
+            for (std::size_t i = 0; i < children.size(); ++i)
+                if (children[i].size() > 8 && (largest == children.size() ||
+                                               half_area(merged(children[i])) > half_area(merged(children[largest]))))
+                    largest = i;
+            if (largest == children.size()) break;
+            auto [lower, upper] = split(std::move(children[largest]));
+            children[largest] = std::move(lower);
+            children.push_back(std::move(upper));
+        }
+        for (Boxes& child : children)
+            cost += child.size() <= 8 ? half_area(merged(child)) : node_cost(std::move(child));
+        return cost;
+    }
+
+    static std::pair<Boxes, Boxes> split(Boxes boxes) {
+        double least = INFINITY;
+        std::pair<Boxes, Boxes> best;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::sort(boxes.begin(), boxes.end(), [&](const accel::FloatBox& a, const accel::FloatBox& b) {
+                return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis];
+            });
+            const std::size_t n = boxes.size();
+            std::vector<double> upper_area(n);
+            accel::FloatBox side = merged({});
+            for (std::size_t i = n; i-- > 1;) upper_area[i] = half_area(side = merged({side, boxes[i]}));
+            side = merged({});
+            std::size_t middle = 0;
+            for (std::size_t i = 1; i < n; ++i) {
+                side = merged({side, boxes[i - 1]});
+                const double cost = half_area(side) * double((i + 7) / 8) + upper_area[i] * double((n - i + 7) / 8);
+                if (cost < least) least = cost, middle = i;
+            }
+            if (middle == 0) continue;
+            const auto at = boxes.begin() + static_cast<std::ptrdiff_t>(middle);
+            best = {Boxes(boxes.begin(), at), Boxes(at, boxes.end())};
+        }
+        return best;
+    }
+};
+
+inline double reference_cost(const std::vector<accel::FloatBox>& boxes) { return ReferenceTree::cost(boxes); }
 
 }  // namespace limn::test
