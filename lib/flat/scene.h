@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/huge_pages.h"
+#include "core/mesh_triangle.h"
 #include "core/ray_frame.h"
 #include "flat/tree.h"
 #include "limn/core/box.h"
@@ -42,7 +43,12 @@ static_assert(sizeof(Sphere) == 40);
 using MovingSphere = SphereRecord;
 using Triangle = TriangleRecord;
 using Quad = QuadRecord;
-using Mesh = MeshRecord;
+
+// A mesh without normals and texture coordinates has no arrays but slots of its own: its vertices are those that are
+// packed in the tree, at places[triangle], a pair of words in Scene::blocks times kMaxBlock plus the lane.
+struct Mesh : MeshRecord {
+    std::vector<std::uint32_t> places, slots;
+};
 using Foreign = ForeignRecord;
 
 struct Instance {
@@ -152,6 +158,9 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::
 
 // Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
+
+// Exactly as described.
+TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 
