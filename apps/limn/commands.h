@@ -8,5 +8,6 @@ int render_command(int argc, const char* const* argv);
 int compare_command(int argc, const char* const* argv);
 int info_command(int argc, const char* const* argv);
 int trace_command(int argc, const char* const* argv);
+int bench_command(int argc, const char* const* argv);
 
 }  // namespace limn::app

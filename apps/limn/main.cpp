@@ -16,10 +16,11 @@ constexpr std::string_view kUsage =
     "       limn compare TEST REF [REF_B] [--json FILE]   the error between two images\n"
     "       limn info FILE [--json FILE]                  what a model or an image holds\n"
     "       limn trace MODEL.obj [options]                which face each ray hits: text or float64 in and out\n"
+    "       limn bench [MODEL.obj ...] [options]          rays a second here, beside Embree where it is there\n"
     "       limn COMMAND --help                           the options of a command\n"
     "       limn --version\n";
 
-constexpr std::string_view kReserved[] = {"bench", "merge"};
+constexpr std::string_view kReserved[] = {"merge"};
 
 int dispatch(int argc, char** argv) {
     if (argc < 2) throw ArgumentError("a command is missing\n" + std::string(kUsage));
@@ -28,6 +29,7 @@ int dispatch(int argc, char** argv) {
     if (command == "compare") return compare_command(argc - 1, argv + 1);
     if (command == "info") return info_command(argc - 1, argv + 1);
     if (command == "trace") return trace_command(argc - 1, argv + 1);
+    if (command == "bench") return bench_command(argc - 1, argv + 1);
     for (const std::string_view name : kReserved)
         if (command == name) throw ArgumentError(command + ": this command is not available in this version");
     if (argc > 2) throw ArgumentError("'" + command + "' is not a command\n" + std::string(kUsage));

@@ -1,0 +1,52 @@
+/// \file
+/// Who is measured: limn, and the peers that modules bring (see peer_module.h).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/rays.h"
+
+namespace limn::bench {
+
+// What a ray was answered. Of rays that ask for any hit t alone counts: 0 for a hit.
+struct Answer {
+    double t = kInfinity;  // a miss
+    double u = 0, v = 0;
+    std::uint64_t primitive = 0;
+    bool operator==(const Answer&) const = default;
+};
+
+// One way of asking a built scene. What is measured is trace(): from rays as they lie ready in memory, in whatever form
+// suits, to answers in memory.
+class Subject {
+public:
+    virtual ~Subject() = default;
+    virtual std::string name() const = 0;
+    virtual std::size_t chunk() const { return 4096; }  // how many rays it likes to be given at a time
+    virtual void prepare(const RaySet& set) = 0;        // `set` stays until the next
+    // Several threads may do so for parts that do not overlap; `first` is a multiple of chunk().
+    virtual void trace(std::size_t first, std::size_t count) = 0;
+    virtual Answer answer(std::size_t i) const = 0;
+};
+
+class BuiltScene {
+public:
+    virtual ~BuiltScene() = default;
+    virtual double seconds() const = 0;     // that building took
+    virtual std::size_t bytes() const = 0;  // that it holds, the arrays that it shares with the geometry included
+    virtual std::vector<std::unique_ptr<Subject>> subjects() const = 0;  // valid as long as this
+};
+
+class Contender {
+public:
+    virtual ~Contender() = default;
+    virtual std::string name() const = 0;
+    // \param geometry stays as long as the scene
+    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry) const = 0;
+};
+
+}  // namespace limn::bench

@@ -1,0 +1,47 @@
+/// \file
+/// What limn and its peers build their scenes from: plain arrays, every number of them a float32, so that all of them
+/// trace the same.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limn/scene/camera.h"
+#include "limn/scene/scene.h"
+#include "limn/shape/mesh.h"
+
+namespace limn::bench {
+
+struct Ball {
+    Point3 center;
+    double radius = 0;
+};
+
+struct Parallelogram {
+    Point3 corner;
+    Vec3 edge_u, edge_v;
+};
+
+struct Geometry {
+    std::string name;
+    std::shared_ptr<const Mesh> mesh;  // or none
+    std::vector<Transform> places;     // world from object: instances of the mesh; empty: the mesh itself
+    std::vector<Ball> balls;
+    std::vector<Parallelogram> quads;
+    std::optional<Camera> camera{};  // by default the one that frames all
+    std::optional<Point3> light{};   // by default above, to the left in front
+};
+
+// The description that limn compiles.
+Scene describe(const Geometry& geometry);
+
+std::size_t stored_primitives(const Geometry& geometry);
+
+// The nearest float32, as a double.
+inline double to_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
+inline Vec3 to_float32(const Vec3& v) { return {to_float32(v.x), to_float32(v.y), to_float32(v.z)}; }
+inline Point3 to_float32(const Point3& p) { return {to_float32(p.x), to_float32(p.y), to_float32(p.z)}; }
+
+}  // namespace limn::bench

@@ -1,0 +1,93 @@
+#include "bench/limn_contender.h"
+
+namespace limn::bench {
+
+namespace {
+
+// Answers lie as the public queries give them.
+class LimnSubject : public Subject {
+public:
+    LimnSubject(std::string name, const CompiledScene& scene) : name_(std::move(name)), scene_(scene) {}
+
+    std::string name() const override { return name_; }
+
+    void prepare(const RaySet& set) override {
+        set_ = &set;
+        hits_.assign(set.any ? 0 : set.rays.size(), {});
+        occluded_.assign(set.any ? set.rays.size() : 0, 0);
+    }
+
+    Answer answer(std::size_t i) const override {
+        if (set_->any) return {.t = occluded_[i] != 0 ? 0 : kInfinity};
+        const RayHit& hit = hits_[i];
+        return {.t = hit.t, .u = hit.u, .v = hit.v, .primitive = hit.primitive};
+    }
+
+protected:
+    const CompiledScene& scene() const { return scene_; }
+    const RaySet& set() const { return *set_; }
+    std::vector<RayHit>& hits() { return hits_; }
+    std::vector<std::uint8_t>& occluded() { return occluded_; }
+
+private:
+    std::string name_;
+    const CompiledScene& scene_;
+    const RaySet* set_ = nullptr;
+    std::vector<RayHit> hits_;
+    std::vector<std::uint8_t> occluded_;
+};
+
+class Single final : public LimnSubject {
+public:
+    using LimnSubject::LimnSubject;
+
+    void trace(std::size_t first, std::size_t count) override {
+        const Ray* const rays = set().rays.data();
+        if (set().any) {
+            for (std::size_t i = first; i < first + count; ++i) occluded()[i] = scene().any_hit(rays[i]) ? 1 : 0;
+        } else {
+            for (std::size_t i = first; i < first + count; ++i)
+                hits()[i] = scene().closest_hit(rays[i]).value_or(RayHit{});
+        }
+    }
+};
+
+class Batch final : public LimnSubject {
+public:
+    Batch(std::string name, const CompiledScene& scene, std::size_t chunk)
+        : LimnSubject(std::move(name), scene), chunk_(chunk) {}
+
+    std::size_t chunk() const override { return chunk_; }
+
+    void trace(std::size_t first, std::size_t count) override {
+        const std::span<const Ray> rays = std::span(set().rays).subspan(first, count);
+        if (set().any)
+            scene().any_hit(rays, std::span(occluded()).subspan(first, count));
+        else
+            scene().closest_hit(rays, std::span(hits()).subspan(first, count));
+    }
+
+private:
+    std::size_t chunk_;
+};
+
+}  // namespace
+
+LimnScene::LimnScene(const Scene& scene)
+    : begin_(std::chrono::steady_clock::now()),
+      scene_(compile(scene)),
+      seconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count()) {}
+
+std::vector<std::unique_ptr<Subject>> LimnScene::subjects() const {
+    std::vector<std::unique_ptr<Subject>> subjects;
+    subjects.push_back(std::make_unique<Single>("limn", scene_));
+    subjects.push_back(std::make_unique<Batch>("limn batch", scene_, 4096));
+    subjects.push_back(std::make_unique<Batch>("limn whole", scene_, std::size_t{1} << 16));
+    return subjects;
+}
+
+std::unique_ptr<BuiltScene> LimnContender::build(const Geometry& geometry) const {
+    return std::make_unique<LimnScene>(describe(geometry));
+}
+
+}  // namespace limn::bench

@@ -1,0 +1,33 @@
+/// \file
+#pragma once
+
+#include <chrono>
+
+#include "bench/contender.h"
+
+namespace limn::bench {
+
+class LimnScene final : public BuiltScene {
+public:
+    // Describing is not timed: it is the copying of what a program has into what limn asks for.
+    explicit LimnScene(const Scene& scene);
+
+    double seconds() const override { return seconds_; }
+    std::size_t bytes() const override { return scene_.stats().memory_bytes; }
+    // "limn" asks ray by ray, "limn batch" with spans of some thousand rays, "limn whole" with much longer ones.
+    std::vector<std::unique_ptr<Subject>> subjects() const override;
+    const CompiledScene& compiled() const { return scene_; }
+
+private:
+    std::chrono::steady_clock::time_point begin_;
+    CompiledScene scene_;
+    double seconds_;
+};
+
+class LimnContender final : public Contender {
+public:
+    std::string name() const override { return "limn"; }
+    std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override;
+};
+
+}  // namespace limn::bench

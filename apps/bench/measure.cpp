@@ -1,0 +1,85 @@
+#include "bench/measure.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace limn::bench {
+
+namespace {
+
+constexpr double kSameT = 1e-3;  // relative: only what is another surface counts
+
+double quantile(const std::vector<double>& sorted, double q) {
+    const double place = q * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+double trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
+    const std::size_t chunk = subject.chunk();
+    const std::size_t chunks = (rays + chunk - 1) / chunk;
+    const auto part = [&](std::size_t i) { subject.trace(i * chunk, std::min(chunk, rays - i * chunk)); };
+    const auto begin = std::chrono::steady_clock::now();
+    if (arena == nullptr)
+        for (std::size_t i = 0; i < chunks; ++i) part(i);
+    else
+        arena->execute([&] { tbb::parallel_for(std::size_t{0}, chunks, part); });
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+bool agrees(const Answer& a, const Answer& b) {
+    if ((a.t == kInfinity) != (b.t == kInfinity)) return false;
+    return a.t == b.t || std::abs(a.t - b.t) <= kSameT * std::abs(a.t);
+}
+
+}  // namespace
+
+Spread spread_of(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    return {.median = quantile(values, 0.5), .low = quantile(values, 0.25), .high = quantile(values, 0.75)};
+}
+
+Spread ratio(const Timing& a, const Timing& b) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(a.seconds.size(), b.seconds.size()); ++i)
+        ratios.push_back(b.seconds[i] / a.seconds[i]);
+    return spread_of(std::move(ratios));
+}
+
+std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
+                            int rounds, const KeepGoing& keep_going) {
+    std::unique_ptr<tbb::task_arena> arena;
+    if (threads > 1) arena = std::make_unique<tbb::task_arena>(threads);
+    const std::size_t rays = set.rays.size();
+    std::vector<Timing> timings;
+    for (const auto& subject : subjects) {
+        subject->prepare(set);
+        trace_all(*subject, rays, arena.get());
+        timings.push_back({.subject = subject->name(), .seconds = {}, .mismatches = 0});
+        for (std::size_t i = 0; i < rays; ++i)
+            if (!agrees(subjects.front()->answer(i), subject->answer(i))) ++timings.back().mismatches;
+        if (!keep_going()) return timings;
+    }
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t s = 0; s < subjects.size(); ++s) {
+            timings[s].seconds.push_back(trace_all(*subjects[s], rays, arena.get()));
+            if (!keep_going()) return timings;
+        }
+    }
+    return timings;
+}
+
+std::size_t differences(const Subject& a, const Subject& b, std::size_t rays) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays; ++i)
+        if (!(a.answer(i) == b.answer(i))) ++count;
+    return count;
+}
+
+}  // namespace limn::bench

@@ -1,0 +1,20 @@
+/// \file
+/// What a loadable module of `limn bench` gives: somebody to compare with. Nothing else of limn's links those
+/// libraries.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/contender.h"
+
+namespace limn::bench {
+
+// The contenders that the modules beside the program bring; none where a module is not there. In `notes`: why not.
+std::vector<std::shared_ptr<const Contender>> load_peers(std::vector<std::string>& notes);
+
+// What a module exports, as limn_bench_peers.
+using PeerList = void(std::vector<std::shared_ptr<const Contender>>&);
+
+}  // namespace limn::bench

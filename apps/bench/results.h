@@ -1,0 +1,16 @@
+/// \file
+/// The results of `limn bench` for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/session.h"
+#include "json_output.h"
+
+namespace limn::bench {
+
+std::string results_table(const std::vector<SceneResult>& results);
+app::Json results_json(const Plan& plan, const std::vector<SceneResult>& results);
+
+}  // namespace limn::bench

@@ -1,0 +1,210 @@
+#include "bench/scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "bench/random.h"
+#include "limn/core/error.h"
+#include "limn/core/warp.h"
+#include "limn/io/obj.h"
+
+namespace limn::bench {
+
+namespace {
+
+Float3 to_float3(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
+
+std::shared_ptr<const Mesh> mesh_of(MeshData data) { return std::make_shared<Mesh>(std::move(data), nullptr); }
+
+// A closed ball with hills: r = 1 + a sum of waves, the finer the lower.
+class Hills {
+public:
+    Hills() {
+        for (std::size_t i = 0; i < waves_.size(); ++i) {
+            const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
+            const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
+            waves_[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
+        }
+    }
+
+    Vec3 at(const Vec3& direction) const {
+        double r = 1;
+        for (const Wave& w : waves_) r += w.height * std::sin(dot(w.frequency, direction) + w.phase);
+        return r * direction;
+    }
+
+private:
+    struct Wave {
+        Vec3 frequency;
+        double phase = 0, height = 0;
+    };
+    std::array<Wave, 32> waves_;
+};
+
+// The faces of a cube, cut into squares and blown up to a ball. Points on the cube's edges belong to several faces and
+// are worked out from the same whole numbers in each, so that they have the same bits: the surface is closed.
+Geometry displaced_sphere(double scale) {
+    const auto cuts = static_cast<std::uint32_t>(std::max(1.0, std::round(std::sqrt(2e6 * scale / 12))));
+    const Hills hills;
+    MeshData data;
+    for (int face = 0; face < 6; ++face) {
+        const auto first = static_cast<std::uint32_t>(data.vertices.size());
+        const int axis = face / 2, side = face % 2;
+        for (std::uint32_t j = 0; j <= cuts; ++j) {
+            for (std::uint32_t i = 0; i <= cuts; ++i) {
+                // tan() of equal steps gives squares of much the same size on the ball.
+                const auto along = [cuts](std::uint32_t k) {
+                    return std::tan(std::numbers::pi / 4 * (2 * static_cast<double>(k) - cuts) / cuts);
+                };
+                std::array<double, 3> p{};
+                p[static_cast<std::size_t>(axis)] = along(side == 1 ? cuts : 0);
+                p[static_cast<std::size_t>((axis + 1) % 3)] = along(i);
+                p[static_cast<std::size_t>((axis + 2) % 3)] = along(j);
+                data.vertices.push_back(to_float3(hills.at(normalize(Vec3(p[0], p[1], p[2])))));
+            }
+        }
+        for (std::uint32_t j = 0; j < cuts; ++j) {
+            for (std::uint32_t i = 0; i < cuts; ++i) {
+                const std::uint32_t a = first + j * (cuts + 1) + i, b = a + 1, c = a + cuts + 1, d = c + 1;
+                if (side == 1)
+                    data.triangles.insert(data.triangles.end(), {{a, b, d}, {a, d, c}});
+                else
+                    data.triangles.insert(data.triangles.end(), {{a, d, b}, {a, c, d}});
+            }
+        }
+    }
+    return {.name = "displaced sphere", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
+}
+
+// Triangles of any direction, scattered over the unit cube. Their size keeps the mean free path the same, whatever
+// their number.
+Geometry soup(double scale) {
+    const std::size_t count = scaled(1e6, scale);
+    const double size = 0.01 / std::sqrt(scale);
+    MeshData data;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };
+        const Vec3 center{u(0), u(1), u(2)};
+        const auto first = static_cast<std::uint32_t>(data.vertices.size());
+        for (std::uint64_t corner = 0; corner < 3; ++corner)
+            data.vertices.push_back(
+                to_float3(center + size * sample_uniform_sphere(u(3 + 2 * corner), u(4 + 2 * corner))));
+        data.triangles.push_back({first, first + 1, first + 2});
+    }
+    return {.name = "soup", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
+}
+
+// As many as in the book's last picture, standing still.
+Geometry spheres(double scale) {
+    Geometry g{.name = "spheres", .mesh = nullptr, .places = {}, .balls = {}, .quads = {}};
+    g.balls.push_back({{0, -1000, 0}, 1000});
+    for (const double x : {-4.0, 0.0, 4.0}) g.balls.push_back({{x, 1, 0}, 1});
+    const int reach = std::max(1, static_cast<int>(11 * std::sqrt(scale)));
+    for (int i = -reach; i < reach; ++i) {
+        for (int j = -reach; j < reach; ++j) {
+            const auto u = [&](std::uint64_t dimension) {
+                return random_number(4, static_cast<std::uint64_t>((i + reach) * 2 * reach + j + reach), dimension);
+            };
+            g.balls.push_back({to_float32(Point3{i + 0.9 * u(0), 0.2, j + 0.9 * u(1)}), to_float32(0.2)});
+        }
+    }
+    g.camera = Camera{.look_from = {13, 2, 3}, .vertical_fov = 20};
+    g.light = Point3{-5, 20, 10};
+    return g;
+}
+
+void add_box(Geometry& g, const Vec3& size, const Transform& place) {
+    const auto quad = [&](const Point3& corner, const Vec3& u, const Vec3& v) {
+        g.quads.push_back({to_float32(transform_point(place, corner)), to_float32(transform_vector(place, u)),
+                           to_float32(transform_vector(place, v))});
+    };
+    const Vec3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
+    const Point3 low{}, high = low + size;
+    quad(low, y, x), quad(low, z, y), quad(low, x, z);
+    quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x);
+}
+
+// Five walls, a lamp and two boxes: 18 quads, whatever the scale.
+Geometry cornell_box() {
+    Geometry g{.name = "cornell box", .mesh = nullptr, .places = {}, .balls = {}, .quads = {}};
+    const Vec3 x{555, 0, 0}, y{0, 555, 0}, z{0, 0, 555};
+    g.quads = {{{555, 0, 0}, y, z}, {{0, 0, 0}, y, z},   {{0, 0, 0}, x, z},
+               {{0, 555, 0}, x, z}, {{0, 0, 555}, x, y}, {{343, 554, 332}, {-130, 0, 0}, {0, 0, -105}}};
+    add_box(g, {165, 330, 165}, Transform::translate({265, 0, 295}) * Transform::rotate_y(15));
+    add_box(g, {165, 165, 165}, Transform::translate({130, 0, 65}) * Transform::rotate_y(-18));
+    g.camera = Camera{.look_from = {278, 278, -800}, .look_at = {278, 278, 0}, .vertical_fov = 40};
+    g.light = Point3{278, 550, 279.5};
+    return g;
+}
+
+// A trunk of long triangles and a crown of leaves, one high.
+MeshData tree(std::size_t count) {
+    constexpr std::uint32_t kSides = 16;
+    MeshData data;
+    data.vertices.push_back({0, 1, 0});
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kSides;
+        data.vertices.push_back(to_float3({0.03 * std::cos(angle), 0, 0.03 * std::sin(angle)}));
+        data.triangles.push_back({0, 1 + (i + 1) % kSides, 1 + i});
+    }
+    for (std::size_t i = kSides; i < count; ++i) {
+        const auto u = [i](std::uint64_t dimension) { return random_number(5, i, dimension); };
+        const Vec3 inside = sample_uniform_ball(u(0), u(1), u(2));
+        const Vec3 center{0.3 * inside.x, 0.65 + 0.35 * inside.y, 0.3 * inside.z};
+        const auto first = static_cast<std::uint32_t>(data.vertices.size());
+        for (std::uint64_t corner = 0; corner < 3; ++corner)
+            data.vertices.push_back(
+                to_float3(center + 0.015 * sample_uniform_sphere(u(3 + 2 * corner), u(4 + 2 * corner))));
+        data.triangles.push_back({first, first + 1, first + 2});
+    }
+    return data;
+}
+
+Geometry forest(double scale) {
+    Geometry g{.name = "forest", .mesh = mesh_of(tree(scaled(1e4, scale))), .places = {}, .balls = {}, .quads = {}};
+    const int side = std::max(1, static_cast<int>(std::round(100 * std::sqrt(scale))));
+    for (int i = 0; i < side * side; ++i) {
+        const auto u = [i](std::uint64_t dimension) {
+            return random_number(6, static_cast<std::uint64_t>(i), dimension);
+        };
+        const double size = 0.7 + 0.6 * u(0);
+        Transform place = Transform::translate({0.5 * (i % side + u(1)), 0, 0.5 * (i / side + u(2))}) *
+                          Transform::rotate_y(360 * u(3)) * Transform::scale(size, size, size);
+        for (auto& row : place.rows)
+            for (double& entry : row) entry = to_float32(entry);
+        g.places.push_back(place);
+    }
+    return g;
+}
+
+}  // namespace
+
+const std::vector<std::string>& scene_names() {
+    static const std::vector<std::string> names{"sphere", "soup", "spheres", "cornell", "forest"};
+    return names;
+}
+
+Geometry make_scene(const std::string& name, double scale) {
+    if (name == "sphere") return displaced_sphere(scale);
+    if (name == "soup") return soup(scale);
+    if (name == "spheres") return spheres(scale);
+    if (name == "cornell") return cornell_box();
+    if (name == "forest") return forest(scale);
+    throw ArgumentError("'" + name + "' is not the name of a scene");
+}
+
+Geometry load_scene(const std::string& path) {
+    const Model model = load_obj(path, {.textures = false});
+    return {.name = std::filesystem::path(path).filename().string(),
+            .mesh = model.meshes.front(),  // an OBJ gives one
+            .places = {},
+            .balls = {},
+            .quads = {}};
+}
+
+}  // namespace limn::bench

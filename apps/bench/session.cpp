@@ -1,0 +1,147 @@
+#include "bench/session.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+
+#include "bench/limn_contender.h"
+#include "bench/scenes.h"
+
+namespace limn::bench {
+
+namespace {
+
+bool is_batch(const std::string& subject) { return subject.starts_with("limn "); }
+
+// Embree's ways of asking have a name of more than its scene's, single rays of the default scene count too: where they
+// are fastest they are its best.
+bool is_peer_mode(const std::string& subject) {
+    return subject.starts_with("Embree") && !subject.starts_with("Embree robust");
+}
+
+const Timing* fastest(const std::vector<Timing>& timings, bool (*counts)(const std::string&)) {
+    const Timing* best = nullptr;
+    for (const Timing& t : timings)
+        if (counts(t.subject) && !t.seconds.empty() &&
+            (best == nullptr || spread_of(t.seconds).median < spread_of(best->seconds).median))
+            best = &t;
+    return best;
+}
+
+class Session {
+public:
+    Session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers, const Observer& observer)
+        : plan_(plan), peers_(peers), observer_(observer) {}
+
+    std::vector<SceneResult> run() {
+        for (const std::string& name : plan_.scenes)
+            if (goes_on()) measure_scene(name, [&] { return make_scene(name, plan_.scale); });
+        for (const std::string& path : plan_.models)
+            if (goes_on()) measure_scene(path, [&] { return load_scene(path); });
+        return std::move(results_);
+    }
+
+private:
+    bool goes_on() {
+        going_ = going_ && observer_.keep_going();
+        return going_;
+    }
+
+    void doing(const std::string& what, double part) const {
+        const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
+        observer_.doing(what, (static_cast<double>(scenes_done_) + part) / scenes);
+    }
+
+    template <class Make>
+    void measure_scene(const std::string& name, const Make& make) {
+        doing(name, 0);
+        const Geometry geometry = make();
+        SceneResult& result = results_.emplace_back();
+        result.name = geometry.name;
+        result.primitives = stored_primitives(geometry);
+        measure_builds(geometry, result);
+        if (goes_on()) measure_rays(geometry, result);
+        ++scenes_done_;
+    }
+
+    void measure_builds(const Geometry& geometry, SceneResult& result) {
+        const LimnContender limn;
+        for (const int threads : plan_.threads) {
+            // What Embree does in an arena of its own is held by this too.
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+            BuildRow& row = result.builds.emplace_back();
+            row.threads = threads;
+            row.timings.push_back({.subject = limn.name(), .seconds = {}});
+            for (const auto& peer : peers_) row.timings.push_back({.subject = peer->name(), .seconds = {}});
+            for (int round = 0; round < plan_.build_rounds && goes_on(); ++round) {
+                row.timings[0].seconds.push_back(limn.build(geometry)->seconds());
+                for (std::size_t i = 0; i < peers_.size(); ++i)
+                    row.timings[i + 1].seconds.push_back(peers_[i]->build(geometry)->seconds());
+            }
+        }
+    }
+
+    void measure_rays(const Geometry& geometry, SceneResult& result) {
+        const LimnScene limn(describe(geometry));
+        std::vector<std::unique_ptr<BuiltScene>> built;
+        std::vector<std::unique_ptr<Subject>> subjects = limn.subjects();
+        result.bytes.emplace_back("limn", limn.bytes());
+        for (const auto& peer : peers_) {
+            built.push_back(peer->build(geometry));
+            result.bytes.emplace_back(peer->name(), built.back()->bytes());
+            auto more = built.back()->subjects();
+            // Of the robust scene single rays are enough.
+            if (peer->name() == "Embree robust") more.resize(1);
+            for (auto& subject : more) subjects.push_back(std::move(subject));
+        }
+        std::vector<RaySet> sets = make_rays(geometry, limn.compiled(), plan_.rays);
+        if (!plan_.kinds.empty())
+            std::erase_if(sets, [&](const RaySet& set) {
+                return std::find(plan_.kinds.begin(), plan_.kinds.end(), set.name) == plan_.kinds.end();
+            });
+        double done = 0;
+        for (const RaySet& set : sets) {
+            for (const int threads : plan_.threads) {
+                if (!goes_on()) return;
+                doing(geometry.name + ", " + set.name, done / static_cast<double>(sets.size() * plan_.threads.size()));
+                ++done;
+                RayRow& row = result.rows.emplace_back();
+                row.rays = set.name, row.count = set.rays.size(), row.any = set.any, row.threads = threads;
+                row.timings = measure(subjects, set, threads, plan_.rounds, [&] { return goes_on(); });
+                for (std::size_t i = 1; i < row.timings.size(); ++i)
+                    if (is_batch(row.timings[i].subject))
+                        row.differences += differences(*subjects[0], *subjects[i], set.rays.size());
+            }
+        }
+    }
+
+    const Plan& plan_;
+    const std::vector<std::shared_ptr<const Contender>>& peers_;
+    const Observer& observer_;
+    std::vector<SceneResult> results_;
+    std::size_t scenes_done_ = 0;
+    bool going_ = true;
+};
+
+}  // namespace
+
+const Timing* RayRow::find(const std::string& subject) const {
+    const auto found =
+        std::find_if(timings.begin(), timings.end(), [&](const Timing& t) { return t.subject == subject; });
+    return found == timings.end() || found->seconds.empty() ? nullptr : &*found;
+}
+
+const Timing* RayRow::best_batch() const { return fastest(timings, is_batch); }
+const Timing* RayRow::best_peer() const { return fastest(timings, is_peer_mode); }
+
+double RayRow::million_a_second(const Timing& timing) const {
+    return static_cast<double>(count) / spread_of(timing.seconds).median * 1e-6;
+}
+
+std::vector<SceneResult> run_session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
+                                     const Observer& observer) {
+    return Session(plan, peers, observer).run();
+}
+
+}  // namespace limn::bench
