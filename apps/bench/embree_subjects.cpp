@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kMiss = std::numeric_limits<float>::infinity();
 // Of streams, in rays: what this processor is fastest with.
-constexpr std::size_t kStream = 256;
+constexpr std::size_t kStream = 64;
 
 // Embree asks its callers to have denormal numbers flushed; limn must not be measured with that.
 class FlushDenormals {

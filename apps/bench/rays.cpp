@@ -37,7 +37,8 @@ public:
           box_(describe(geometry).bounds()),
           side_(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)) / kTile)) * kTile),
           camera_(geometry.camera.value_or(frame_box(box_)), static_cast<int>(side_), static_cast<int>(side_)),
-          light_(to_float32(geometry.light.value_or(box_.center() + length(box_.diagonal()) * Vec3(-0.7, 1.1, 0.8)))) {}
+          light_(to_float32(geometry.light.value_or(box_.center() + length(box_.diagonal()) * Vec3(-0.7, 1.1, 0.8)))),
+          t_min_(to_float32(geometry.t_min)) {}
 
     std::vector<RaySet> make() {
         for (int pass = 0; pass < kMostPasses && !is_full(); ++pass) {
@@ -101,6 +102,7 @@ private:
         add(occlusion_, rays);
         rays.clear();
         for (const Path& path : paths) {
+            if (dot(Vec3(path.at.normal), light_ - path.at.position) <= 0) continue;  // its own surface is in the way
             // t is the share of the way; a float32 just below 1 keeps what holds the light from being in its way.
             rays.push_back(leave(path.at, light_ - path.at.position));
             rays.back().t_max = 1 - 0x1p-10;
@@ -126,12 +128,13 @@ private:
     }
 
     // spawn_ray leaves the surface in double; what rounding to float32 may move the origin by is added to that.
-    static Ray leave(const Surface& from, const Vec3& direction) {
+    Ray leave(const Surface& from, const Vec3& direction) const {
         Ray ray = from.spawn_ray(direction, 0);
         const Vec3 out = dot(direction, Vec3(from.normal)) < 0 ? -Vec3(from.normal) : Vec3(from.normal);
         const double largest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
         ray.origin = to_float32(ray.origin + largest * 0x1p-21 * out);
         ray.direction = to_float32(ray.direction);
+        ray.t_min = t_min_;
         return ray;
     }
 
@@ -143,11 +146,12 @@ private:
     const std::size_t side_;  // of the picture, in pixels
     const CameraRays camera_;
     const Point3 light_;
+    const double t_min_;
     RaySet primary_{.name = "primary", .any = false, .coherent = true, .rays = {}};
     RaySet diffuse_[kDepths] = {
         {.name = "diffuse 1", .rays = {}}, {.name = "diffuse 2", .rays = {}}, {.name = "diffuse 3", .rays = {}}};
     RaySet occlusion_{.name = "occlusion", .any = true, .coherent = false, .rays = {}};
-    RaySet shadow_{.name = "shadow", .any = true, .coherent = true, .rays = {}};
+    RaySet shadow_{.name = "shadow", .any = true, .coherent = false, .rays = {}};
 };
 
 }  // namespace

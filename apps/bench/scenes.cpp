@@ -85,7 +85,7 @@ Geometry displaced_sphere(double scale) {
 // their number.
 Geometry soup(double scale) {
     const std::size_t count = scaled(1e6, scale);
-    const double size = 0.01 / std::sqrt(scale);
+    const double size = 0.03 / std::sqrt(scale);
     MeshData data;
     for (std::size_t i = 0; i < count; ++i) {
         const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };
@@ -115,6 +115,7 @@ Geometry spheres(double scale) {
     }
     g.camera = Camera{.look_from = {13, 2, 3}, .vertical_fov = 20};
     g.light = Point3{-5, 20, 10};
+    g.t_min = 0x1p-10;
     return g;
 }
 

@@ -43,12 +43,15 @@ void add_options(CLI::App& cli, Plan& plan, bool& quiet) {
                    fmt::format("A scene to measure: {}; repeatable; without it and without a model, all",
                                fmt::join(bench::scene_names(), ", ")))
         ->type_name("NAME")
+        ->allow_extra_args(false)
         ->each([](const std::string& name) {
             const auto& names = bench::scene_names();
             if (std::find(names.begin(), names.end(), name) == names.end())
                 refuse("--scene", name, fmt::format("is none of {}", fmt::join(names, ", ")));
         });
-    cli.add_option("--kind", plan.kinds, "Only rays of this kind; repeatable")->type_name("NAME");
+    cli.add_option("--kind", plan.kinds, "Only rays of this kind; repeatable")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     cli.add_option_function<std::string>(
            "--scale",
            [&plan](const std::string& text) {
