@@ -24,13 +24,22 @@ struct Answer {
 // suits, to answers in memory.
 class Subject {
 public:
+    explicit Subject(std::string name, std::size_t chunk = 4096) : name_(std::move(name)), chunk_(chunk) {}
     virtual ~Subject() = default;
-    virtual std::string name() const = 0;
-    virtual std::size_t chunk() const { return 4096; }  // how many rays it likes to be given at a time
-    virtual void prepare(const RaySet& set) = 0;        // `set` stays until the next
+    Subject(const Subject&) = delete;
+    Subject& operator=(const Subject&) = delete;
+
+    const std::string& name() const { return name_; }
+    std::size_t chunk() const { return chunk_; }  // how many rays it likes to be given at a time
+
+    virtual void prepare(const RaySet& set) = 0;  // `set` stays until the next
     // Several threads may do so for parts that do not overlap; `first` is a multiple of chunk().
     virtual void trace(std::size_t first, std::size_t count) = 0;
     virtual Answer answer(std::size_t i) const = 0;
+
+private:
+    std::string name_;
+    std::size_t chunk_;
 };
 
 class BuiltScene {

@@ -41,8 +41,7 @@ struct Found {
 
 class EmbreeSubject : public Subject {
 public:
-    EmbreeSubject(std::string name, RTCScene scene) : name_(std::move(name)), scene_(scene) {}
-    std::string name() const override { return name_; }
+    EmbreeSubject(std::string name, RTCScene scene) : Subject(std::move(name)), scene_(scene) {}
 
 protected:
     RTCScene scene() const { return scene_; }
@@ -60,7 +59,6 @@ protected:
     }
 
 private:
-    std::string name_;
     RTCScene scene_;
     const RaySet* set_ = nullptr;
 };

@@ -7,9 +7,8 @@ namespace {
 // Answers lie as the public queries give them.
 class LimnSubject : public Subject {
 public:
-    LimnSubject(std::string name, const CompiledScene& scene) : name_(std::move(name)), scene_(scene) {}
-
-    std::string name() const override { return name_; }
+    LimnSubject(std::string name, const CompiledScene& scene, std::size_t chunk = 4096)
+        : Subject(std::move(name), chunk), scene_(scene) {}
 
     void prepare(const RaySet& set) override {
         set_ = &set;
@@ -30,7 +29,6 @@ protected:
     std::vector<std::uint8_t>& occluded() { return occluded_; }
 
 private:
-    std::string name_;
     const CompiledScene& scene_;
     const RaySet* set_ = nullptr;
     std::vector<RayHit> hits_;
@@ -54,10 +52,7 @@ public:
 
 class Batch final : public LimnSubject {
 public:
-    Batch(std::string name, const CompiledScene& scene, std::size_t chunk)
-        : LimnSubject(std::move(name), scene), chunk_(chunk) {}
-
-    std::size_t chunk() const override { return chunk_; }
+    using LimnSubject::LimnSubject;
 
     void trace(std::size_t first, std::size_t count) override {
         const std::span<const Ray> rays = std::span(set().rays).subspan(first, count);
@@ -66,9 +61,6 @@ public:
         else
             scene().closest_hit(rays, std::span(hits()).subspan(first, count));
     }
-
-private:
-    std::size_t chunk_;
 };
 
 }  // namespace

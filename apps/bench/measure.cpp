@@ -20,16 +20,29 @@ double quantile(const std::vector<double>& sorted, double q) {
     return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-double trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
+// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
+constexpr double kLeastSeconds = 0.004;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+void trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
     const std::size_t chunk = subject.chunk();
     const std::size_t chunks = (rays + chunk - 1) / chunk;
     const auto part = [&](std::size_t i) { subject.trace(i * chunk, std::min(chunk, rays - i * chunk)); };
-    const auto begin = std::chrono::steady_clock::now();
     if (arena == nullptr)
         for (std::size_t i = 0; i < chunks; ++i) part(i);
     else
         arena->execute([&] { tbb::parallel_for(std::size_t{0}, chunks, part); });
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Of one pass over the rays.
+double time_of(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
+    const Clock::time_point begin = Clock::now();
+    for (int passes = 1;; ++passes) {
+        trace_all(subject, rays, arena);
+        if (const double seconds = seconds_since(begin); seconds >= kLeastSeconds) return seconds / passes;
+    }
 }
 
 bool agrees(const Answer& a, const Answer& b) {
@@ -68,7 +81,7 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
     }
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t s = 0; s < subjects.size(); ++s) {
-            timings[s].seconds.push_back(trace_all(*subjects[s], rays, arena.get()));
+            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena.get()));
             if (!keep_going()) return timings;
         }
     }

@@ -149,12 +149,17 @@ private:
     const double t_min_;
     RaySet primary_{.name = "primary", .any = false, .coherent = true, .rays = {}};
     RaySet diffuse_[kDepths] = {
-        {.name = "diffuse 1", .rays = {}}, {.name = "diffuse 2", .rays = {}}, {.name = "diffuse 3", .rays = {}}};
+        {.name = "diffuse1", .rays = {}}, {.name = "diffuse2", .rays = {}}, {.name = "diffuse3", .rays = {}}};
     RaySet occlusion_{.name = "occlusion", .any = true, .coherent = false, .rays = {}};
     RaySet shadow_{.name = "shadow", .any = true, .coherent = false, .rays = {}};
 };
 
 }  // namespace
+
+const std::vector<std::string>& ray_kinds() {
+    static const std::vector<std::string> kinds{"primary", "diffuse1", "diffuse2", "diffuse3", "occlusion", "shadow"};
+    return kinds;
+}
 
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count) {
     return Maker(geometry, scene, count).make();
