@@ -180,6 +180,9 @@ Geometry forest(double scale) {
             for (double& entry : row) entry = to_float32(entry);
         g.places.push_back(place);
     }
+    const double width = 0.5 * side;
+    g.camera =
+        Camera{.look_from = {0.5 * width, 0.2 * width + 1, 1.4 * width}, .look_at = {0.5 * width, 0, 0.6 * width}};
     return g;
 }
 
