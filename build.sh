@@ -41,7 +41,7 @@ install_missing() {
 install_needs() {
     install_missing \
         g++ cmake ninja-build pkg-config python3 \
-        libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev librandom123-dev \
+        libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev \
         libcli11-dev libfmt-dev nlohmann-json3-dev \
         catch2 librapidcheck-dev libboost-dev xplanet-images
 }

@@ -2,6 +2,7 @@
 
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED CONFIG)
+find_package(hwy REQUIRED CONFIG)
 find_package(tinyobjloader REQUIRED CONFIG)
 find_path(LIMN_STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 find_path(LIMN_RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -27,7 +27,7 @@ install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/l
 # pkg-config finds the prefix from where limn.pc stands.
 file(RELATIVE_PATH prefix_from_pc "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
-set(requires "tbb")
+set(requires "tbb libhwy")
 if(LIMN_WITH_OPENIMAGEIO)
     string(APPEND requires " OpenImageIO")
 endif()

@@ -128,8 +128,9 @@ std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
     std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
                       bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
-                      bytes(s.references) + bytes(s.nodes) + bytes(s.first_of_object) + bytes(s.medium_shapes) +
-                      bytes(s.media) + bytes(s.lights) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept);
+                      bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) +
+                      bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) + bytes(s.materials) +
+                      bytes(s.textures) + bytes(s.kept);
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +

@@ -1,29 +1,16 @@
 #include "compile/groups.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
-#include "accel/binary_bvh.h"
+#include "compile/group_tree.h"
 #include "compile/reach.h"
 #include "core/bounds.h"
-#include "core/mesh_triangle.h"
 #include "limn/core/error.h"
 
 namespace limn::compiler {
 
 namespace {
-
-float round_down(double x) {
-    const auto f = static_cast<float>(x);
-    return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
-
-float round_up(double x) {
-    const auto f = static_cast<float>(x);
-    return f < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
-}
 
 class TreeBuilder {
 public:
@@ -35,8 +22,7 @@ public:
         const auto index = static_cast<std::size_t>(id);
         if (height_[index] != kUnbuilt) return height_[index];
         std::uint32_t height = 0;
-        std::vector<Box> boxes;
-        std::vector<flat::Reference> references;
+        GroupTree tree(scene_);
         for (std::uint32_t i = 0; i < scene_.groups[index].range_count; ++i) {
             const std::uint32_t row = scene_.groups[index].first_range + i;
             const PrimitiveRange range = scene_.ranges[row];
@@ -51,121 +37,16 @@ public:
                     throw ArgumentError("scene: the boundary of a medium contains a medium");
                 holds_media_[index] = true;
             }
-            add(range, row, boxes, references);
+            tree.add(range, row);
         }
         if (height > flat::kMaxNesting)
             throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
         height_[index] = height;
-        const accel::BinaryBvh bvh = accel::build_binary_bvh(boxes);
-        scene_.groups[index].bounds = bvh.bounds();
-        scene_.groups[index].extent = bvh.extent;
-        scene_.groups[index].root = pack(bvh, references);
+        tree.finish(scene_.groups[index]);
         return height;
     }
 
 private:
-    void add(const PrimitiveRange& range, std::uint32_t row, std::vector<Box>& boxes,
-             std::vector<flat::Reference>& references) {
-        if (range.kind == PrimitiveKind::medium) return;  // apart, see place_media
-        const std::uint64_t stored = range.kind == PrimitiveKind::instance ? 1 : range.count;
-        if (stored + references.size() >= flat::Node::kAbsent) throw ArgumentError("scene: too many primitives");
-        for (std::uint32_t i = 0; i < stored; ++i) {
-            const std::uint32_t r = range.first_row + (range.kind == PrimitiveKind::mesh ? 0 : i);
-            Box box;
-            switch (range.kind) {
-                case PrimitiveKind::sphere: {
-                    const flat::Sphere& s = scene_.spheres[r];
-                    box = sphere_bounds(s.center, s.center, s.radius);
-                    break;
-                }
-                case PrimitiveKind::moving_sphere: {
-                    const flat::MovingSphere& s = scene_.moving_spheres[r];
-                    box = sphere_bounds(s.center0, s.center1, s.radius);
-                    break;
-                }
-                case PrimitiveKind::triangle: {
-                    const flat::Triangle& t = scene_.triangles[r];
-                    box = triangle_bounds({t.a, t.b, t.c});
-                    break;
-                }
-                case PrimitiveKind::quad: {
-                    const flat::Quad& q = scene_.quads[r];
-                    box = quad_bounds(q.corner, q.edge_u, q.edge_v);
-                    break;
-                }
-                case PrimitiveKind::mesh: {
-                    const TriangleVertices v = triangle_vertices(scene_.meshes[r].arrays, i);
-                    if (is_degenerate(v)) {
-                        ++scene_.degenerate;
-                        continue;
-                    }
-                    box = triangle_bounds(v);
-                    break;
-                }
-                case PrimitiveKind::instance: {
-                    const flat::Instance& instance = scene_.instances[r];
-                    box = instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                          flat::group_at(scene_, instance.group).bounds);
-                    break;
-                }
-                case PrimitiveKind::foreign: box = scene_.foreign[r].bounds; break;
-                case PrimitiveKind::medium: break;
-            }
-            scene_.kinds |= flat::bit(range.kind);
-            scene_.stored_primitives += range.kind != PrimitiveKind::instance;
-            boxes.push_back(box);
-            references.push_back({row, i});
-        }
-    }
-
-    // Copies the tree behind what is packed already; returns the row of its root.
-    std::uint32_t pack(const accel::BinaryBvh& bvh, const std::vector<flat::Reference>& references) {
-        const auto root = static_cast<std::uint32_t>(scene_.nodes.size());
-        const auto first_reference = static_cast<std::uint32_t>(scene_.references.size());
-        for (const std::uint32_t id : bvh.ids) scene_.references.push_back(references[id]);
-        // A node holds the boxes of its children, so a tree of one leaf, or of nothing, needs a node above it.
-        const bool lone = bvh.nodes.empty() || bvh.nodes.front().count > 0;
-        if (lone) {
-            scene_.nodes.push_back(empty_node());
-            if (!bvh.nodes.empty()) set_child(scene_.nodes.back(), 0, bvh.nodes.front(), first_reference, {});
-            return root;
-        }
-        std::vector<std::uint32_t> row(bvh.nodes.size(), 0);  // of inner nodes
-        std::uint32_t next = root;
-        for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
-            if (bvh.nodes[i].count == 0) row[i] = next++;
-        for (const accel::BinaryNode& node : bvh.nodes) {
-            if (node.count > 0) continue;
-            flat::Node packed = empty_node();
-            for (std::size_t side = 0; side < 2; ++side)
-                set_child(packed, side, bvh.nodes[node.first + side], first_reference, row[node.first + side]);
-            scene_.nodes.push_back(packed);
-        }
-        return root;
-    }
-
-    static flat::Node empty_node() {
-        flat::Node node{};
-        for (std::size_t side = 0; side < 2; ++side) {
-            node.count[side] = flat::Node::kAbsent;
-            for (std::size_t a = 0; a < 3; ++a) {
-                node.lower[side][a] = std::numeric_limits<float>::infinity();
-                node.upper[side][a] = -std::numeric_limits<float>::infinity();
-            }
-        }
-        return node;
-    }
-
-    static void set_child(flat::Node& node, std::size_t side, const accel::BinaryNode& child,
-                          std::uint32_t first_reference, std::uint32_t row) {
-        for (std::size_t a = 0; a < 3; ++a) {
-            node.lower[side][a] = round_down(child.bounds.lower[a]);
-            node.upper[side][a] = round_up(child.bounds.upper[a]);
-        }
-        node.count[side] = child.count;
-        node.child[side] = child.count > 0 ? first_reference + child.first : row;
-    }
-
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "core/ray_frame.h"
+#include "flat/tree.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
 #include "limn/core/math.h"
@@ -23,16 +25,7 @@ struct RawHit {
 };
 static_assert(sizeof(RawHit) == 16);
 
-// Two children with their boxes, rounded outward to float.
-struct Node {
-    float lower[2][3], upper[2][3];
-    std::uint32_t child[2];  // inner: node; leaf: first reference
-    std::uint32_t count[2];  // 0: inner; else references in the leaf; kAbsent: no child
-    static constexpr std::uint32_t kAbsent = 0xffffffff;
-};
-static_assert(sizeof(Node) == 64);
-
-// A primitive as the tree names it.
+// A primitive as a leaf names it.
 struct Reference {
     std::uint32_t range;    // row of Scene::ranges
     std::uint32_t element;  // within the range
@@ -62,11 +55,12 @@ struct Instance {
 
 // Primitives under one tree. Numbers count from 0 in each group.
 struct Group {
-    std::uint32_t root = 0;         // row of Scene::nodes
+    Child root = kNothing;
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
     Box bounds;
     double extent = 0;  // the largest finite coordinate in the tree
+    double scale = 1;   // of the nodes' boxes: a power of two that takes `extent` below 1
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.
@@ -114,7 +108,8 @@ struct Scene {
     std::vector<Group> groups;  // [0] is the scene itself
     std::vector<PrimitiveRange> ranges;
     std::vector<Reference> references;
-    std::vector<Node> nodes;
+    HugeVector<Node> nodes;
+    HugeVector<std::uint32_t> blocks;            // see Block
     std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
 
     std::vector<MediumRecord> medium_shapes;

@@ -1,5 +1,5 @@
-// Rays against the compiled scene, exactly. Scalar so far: each function has one definition of a hit, shared with the
-// described shapes through lib/core/intersect_*.h.
+// Rays against the compiled scene, exactly: whatever the SIMD kernels find or leave open is decided by the definitions
+// that the described shapes use too, lib/core/intersect_*.h.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,20 @@
 
 namespace limn::kernels {
 
+struct Hit : flat::RawHit {
+    double u = 0, v = 0;  // of triangles and quads, and as foreign shapes say
+};
+
 // The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre
 // is_usable(ray)
-flat::RawHit closest_hit(const flat::Scene& scene, const Ray& ray);
+Hit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
 
 // Whether something stops light on the way: a foreign shape that says its boundary is index-matched does not.
 bool is_occluded(const flat::Scene& scene, const Ray& ray);
 
 // The same for the boundary of a medium.
-flat::RawHit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
+Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
 
 // Where a ray passes through a medium's boundary.
 struct Crossing {

@@ -13,12 +13,12 @@ namespace limn {
 namespace {
 
 // Among surfaces and the boundaries of media.
-flat::RawHit closest_of_all(const flat::Scene& scene, const Ray& ray) {
-    flat::RawHit best = kernels::closest_hit(scene, ray);
+kernels::Hit closest_of_all(const flat::Scene& scene, const Ray& ray) {
+    kernels::Hit best = kernels::closest_hit(scene, ray);
     for (const flat::Medium& medium : scene.media) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
-        const flat::RawHit hit = kernels::closest_boundary(scene, medium, rest);
+        const kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
         if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
     }
     return best;
@@ -39,7 +39,7 @@ RayHit complete(const flat::Scene& scene, const Ray& ray, const flat::RawHit& ra
 
 // \pre is_usable(ray), as below
 std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
-    const flat::RawHit hit = closest_of_all(scene, ray);
+    const kernels::Hit hit = closest_of_all(scene, ray);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
     return complete(scene, ray, hit);
 }

@@ -59,11 +59,12 @@ bool is_of_library(const Include& include) {
                        [&](const Library& library) { return std::regex_match(include.path, library.include); });
 }
 
-// std headers have neither a dot nor a slash; writing files safely needs POSIX.
+// std headers have neither a dot nor a slash; writing files safely and huge pages need POSIX.
 bool is_std_or_posix(const SourceFile& file, const Include& include) {
-    static const std::regex std_name("[a-z0-9_]+"), posix(R"((unistd|fcntl|sys/\w+)\.h)");
+    static const std::regex std_name("[a-z0-9_]+"), posix(R"((unistd|fcntl|sys/\w+)\.h)"),
+        home(R"(lib/(io/.*|core/huge_pages)\.cpp)");
     return std::regex_match(include.path, std_name) ||
-           (std::regex_match(include.path, posix) && file.path.starts_with("lib/io/") && !is_header(file));
+           (std::regex_match(include.path, posix) && std::regex_match(file.path, home));
 }
 
 int code_lines(const SourceFile& file) {

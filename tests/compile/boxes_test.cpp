@@ -62,12 +62,14 @@ TEST_CASE("CompiledScene: a box in float is the smallest around the one in doubl
     for (int i = 0; i < 1000; ++i) {
         const auto ball = std::make_shared<Sphere>(Point3{} + random.in_cube(100), random.uniform(0.1, 10), nullptr);
         Scene scene;
-        scene.add(ball);
+        for (std::size_t k = 0; k <= flat::kMaxBlock; ++k) scene.add(ball);  // a leaf alone has no node
         const CompiledScene compiled = compile(scene);
         const flat::Node& node = compiled.flat().nodes.front();
-        const Box box = ball->bounds();
+        const double scale = compiled.flat().groups.front().scale;
+        Box box = ball->bounds();
         for (std::size_t a = 0; a < 3; ++a) {
-            const float lower = node.lower[0][a], upper = node.upper[0][a];
+            const float lower = node.lower[a][0], upper = node.upper[a][0];
+            box.lower[a] *= scale, box.upper[a] *= scale;
             CHECK((lower <= box.lower[a] && std::nextafter(lower, kFar) > box.lower[a]));
             CHECK((upper >= box.upper[a] && std::nextafter(upper, -kFar) < box.upper[a]));
         }

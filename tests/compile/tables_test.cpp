@@ -18,30 +18,46 @@ namespace {
 
 using Seen = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;  // range and element
 
-// Counts the references below a node; a child's box must hold the boxes of its own children.
-void visit(const flat::Scene& scene, std::uint32_t row, Seen& seen, int depth = 0) {
-    REQUIRE(depth < 100);
-    const flat::Node& node = scene.nodes.at(row);
-    for (std::size_t side = 0; side < 2; ++side) {
-        const std::uint32_t count = node.count[side];
-        if (count == flat::Node::kAbsent) {
-            CHECK(node.lower[side][0] > node.upper[side][0]);
-            continue;
-        }
-        if (count > 0) {
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const flat::Reference& r = scene.references.at(node.child[side] + i);
+void visit_leaf(const flat::Scene& scene, flat::Child child, Seen& seen) {
+    flat::BlockView block{scene.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
+    for (;;) {
+        const flat::Block header = block.header();
+        REQUIRE((header.count > 0 && header.count <= flat::kMaxBlock));
+        for (std::size_t i = 0; i < header.count; ++i) {
+            if (header.kind == PrimitiveKind::mesh) {
+                ++seen[{header.range, block.id(i)}];
+            } else {
+                const flat::Reference& r = scene.references.at(block.id(i));
+                CHECK(scene.ranges.at(r.range).kind == header.kind);
                 ++seen[{r.range, r.element}];
             }
+        }
+        if (header.last) return;
+        block.words += flat::words_of(header.kind, header.count);
+        REQUIRE(block.words + flat::kSlackWords < scene.blocks.data() + scene.blocks.size());
+    }
+}
+
+// Counts the primitives below a child; its box must hold the boxes of its own children.
+void visit(const flat::Scene& scene, flat::Child child, Seen& seen, int depth = 0) {
+    REQUIRE(depth < 100);
+    if (child == flat::kNothing) return;
+    if ((child & flat::kLeaf) != 0) return visit_leaf(scene, child, seen);
+    const flat::Node& node = scene.nodes.at(child);
+    for (std::size_t i = 0; i < flat::kWidth; ++i) {
+        if (node.child[i] == flat::kNothing) {
+            CHECK(node.lower[0][i] > node.upper[0][i]);
             continue;
         }
-        const flat::Node& child = scene.nodes.at(node.child[side]);
-        for (std::size_t inner = 0; inner < 2; ++inner)
-            for (std::size_t a = 0; a < 3; ++a) {
-                CHECK(child.lower[inner][a] >= node.lower[side][a]);
-                CHECK(child.upper[inner][a] <= node.upper[side][a]);
-            }
-        visit(scene, node.child[side], seen, depth + 1);
+        if ((node.child[i] & flat::kLeaf) == 0) {
+            const flat::Node& child_node = scene.nodes.at(node.child[i]);
+            for (std::size_t k = 0; k < flat::kWidth && child_node.child[k] != flat::kNothing; ++k)
+                for (std::size_t a = 0; a < 3; ++a) {
+                    CHECK(child_node.lower[a][k] >= node.lower[a][i]);
+                    CHECK(child_node.upper[a][k] <= node.upper[a][i]);
+                }
+        }
+        visit(scene, node.child[i], seen, depth + 1);
     }
 }
 
@@ -74,24 +90,24 @@ TEST_CASE("Trees: each primitive of a group stands in one leaf of its tree, unde
             references += seen.size();
             if (scene.degenerate == 0) CHECK(seen.size() == expected);
         }
-        CHECK(references == scene.references.size());
+        std::size_t of_meshes = 0;
+        for (const PrimitiveRange& range : scene.ranges)
+            if (range.kind == PrimitiveKind::mesh) of_meshes += range.count;
+        if (scene.degenerate == 0) CHECK(references == scene.references.size() + of_meshes);
     }
 }
 
 TEST_CASE("Trees: in a node the boxes are those of the shapes, rounded outward to float by less than an ulp",
           "[compile][tables]") {
     for (const double x : {0.1, -0.1, 1e30, -1e-30, 0.5}) {
-        const flat::Scene scene = flatten({std::make_shared<Triangle>(
-            Point3{x, 0.5, 0.5}, Point3{x + std::abs(x), 1, 0.75}, Point3{x, 1, 1}, nullptr)});
+        const auto triangle =
+            std::make_shared<Triangle>(Point3{x, 0.5, 0.5}, Point3{x + std::abs(x), 1, 0.75}, Point3{x, 1, 1}, nullptr);
+        const flat::Scene scene = flatten(std::vector<Object>(flat::kMaxBlock + 1, triangle));
         const flat::Node& node = scene.nodes.at(scene.groups.at(0).root);
-        CHECK((node.count[0] == 1 && node.count[1] == flat::Node::kAbsent));
-        const double lower = x, upper = x + std::abs(x);
+        const double lower = x, upper = x + std::abs(x), scale = scene.groups[0].scale;
         const float inf = std::numeric_limits<float>::infinity();
-        CHECK((static_cast<double>(node.lower[0][0]) <= lower &&
-               static_cast<double>(std::nextafter(node.lower[0][0], inf)) > lower));
-        CHECK((static_cast<double>(node.upper[0][0]) >= upper &&
-               static_cast<double>(std::nextafter(node.upper[0][0], -inf)) < upper));
-        CHECK((node.lower[0][1] == 0.5F && node.upper[0][1] == 1));  // exact in float: left as they are
+        CHECK((node.lower[0][0] <= scale * lower && std::nextafter(node.lower[0][0], inf) > scale * lower));
+        CHECK((node.upper[0][0] >= scale * upper && std::nextafter(node.upper[0][0], -inf) < scale * upper));
         CHECK(scene.groups[0].bounds == Box{{lower, 0.5, 0.5}, {upper, 1, 1}});
         CHECK(scene.groups[0].extent == std::max(1.0, std::max(std::abs(lower), std::abs(upper))));
     }

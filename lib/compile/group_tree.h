@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "accel/wide_bvh.h"
+#include "flat/scene.h"
+
+namespace limn::compiler {
+
+// Collects the primitives of one group, then builds the tree over them.
+class GroupTree {
+public:
+    explicit GroupTree(flat::Scene& scene) : scene_(scene) {}
+
+    // `row` of Scene::ranges. The groups of instances are built already. \throws ArgumentError if there are too many
+    void add(const PrimitiveRange& range, std::uint32_t row);
+
+    // Sets the group's root, bounds, extent and scale.
+    void finish(flat::Group& group);
+
+private:
+    // The boxes of a range, from boxes_[first] on.
+    struct Part {
+        PrimitiveRange range;
+        std::size_t first = 0, count = 0;
+    };
+
+    void measure_mesh(const Part& part);
+    Box bounds_of(const PrimitiveRange& range, std::uint32_t element) const;
+    void scale_boxes(double scale);
+
+    flat::Scene& scene_;
+    std::vector<Part> parts_;
+    std::vector<flat::Reference> references_;
+    std::vector<accel::FloatBox> boxes_;
+    std::vector<Box> others_;  // of what is not in a mesh: not yet in float
+    Box bounds_;
+    double extent_ = 0;  // the largest finite coordinate
+};
+
+}  // namespace limn::compiler

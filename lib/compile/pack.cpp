@@ -1,0 +1,193 @@
+#include "compile/pack.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "core/mesh_triangle.h"
+#include "limn/core/error.h"
+
+namespace limn::compiler {
+
+namespace {
+
+using Rows = std::array<float, 9>;
+
+void put(Rows& rows, std::size_t at, const Point3& p) {
+    for (std::size_t a = 0; a < 3; ++a) rows[at + a] = static_cast<float>(p[a]);
+}
+
+class Packer {
+public:
+    Packer(accel::WideBvh& bvh, std::span<const flat::Reference> references, flat::Scene& scene)
+        : bvh_(bvh), references_(references), scene_(scene) {}
+
+    flat::Child pack() {
+        if (bvh_.nodes.empty()) return flat::kNothing;
+        for_all(bvh_.leaves.size(), [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
+        place_leaves();
+        const auto root = static_cast<std::uint32_t>(scene_.nodes.size());
+        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == accel::WideNode::kAbsent;
+        for_all(bvh_.leaves.size(), [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
+        if (is_lone) return flat::kLeaf | static_cast<flat::Child>(places_[0] / 2);
+        scene_.nodes.resize(root + bvh_.nodes.size());
+        for_all(bvh_.nodes.size(), [&](std::size_t i) { scene_.nodes[root + i] = node(bvh_.nodes[i], root); });
+        return root;
+    }
+
+private:
+    template <class Body>
+    static void for_all(std::size_t count, const Body& body) {
+        using Range = oneapi::tbb::blocked_range<std::size_t>;
+        oneapi::tbb::parallel_for(Range(0, count, 1024), [&](const Range& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+        });
+    }
+
+    const PrimitiveRange& range_of(std::uint32_t id) const { return scene_.ranges[references_[id].range]; }
+
+    void sort_by_kind(const accel::Leaf& leaf) {
+        const auto kind_of = [&](std::uint32_t id) { return range_of(id).kind; };
+        const std::span ids = std::span(bvh_.ids).subspan(leaf.first, leaf.count);
+        if (!std::ranges::is_sorted(ids, {}, kind_of)) std::ranges::stable_sort(ids, {}, kind_of);
+    }
+
+    // How many of the ids from `first` on share a block. `last`: where the leaf ends.
+    std::uint32_t block_size(std::uint32_t first, std::uint32_t last) const {
+        const flat::Reference& reference = references_[bvh_.ids[first]];
+        const PrimitiveKind kind = range_of(bvh_.ids[first]).kind;
+        std::uint32_t end = first + 1;
+        while (end < last && end - first < flat::kMaxBlock) {
+            const flat::Reference& next = references_[bvh_.ids[end]];
+            const bool same =
+                kind == PrimitiveKind::mesh ? next.range == reference.range : scene_.ranges[next.range].kind == kind;
+            if (!same) break;
+            ++end;
+        }
+        return end - first;
+    }
+
+    // visit(first id, count, kind) for each block of a leaf.
+    template <class Visit>
+    void for_each_block(const accel::Leaf& leaf, const Visit& visit) const {
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count;) {
+            const std::uint32_t count = block_size(i, leaf.first + leaf.count);
+            visit(i, count, range_of(bvh_.ids[i]).kind);
+            i += count;
+        }
+    }
+
+    void place_leaves() {
+        std::size_t end = scene_.blocks.size(), references = scene_.references.size();
+        if (end > 0) end -= flat::kSlackWords;
+        places_.resize(bvh_.leaves.size());
+        first_reference_.resize(bvh_.leaves.size());
+        for (std::size_t i = 0; i < bvh_.leaves.size(); ++i) {
+            places_[i] = end;
+            first_reference_[i] = static_cast<std::uint32_t>(references);
+            for_each_block(bvh_.leaves[i], [&](std::uint32_t, std::uint32_t count, PrimitiveKind kind) {
+                end += flat::words_of(kind, count);
+                if (kind != PrimitiveKind::mesh) references += count;
+            });
+        }
+        if (end / 2 >= flat::kLeaf || references >= flat::kNothing) throw ArgumentError("scene: too many primitives");
+        scene_.blocks.resize(end + flat::kSlackWords);
+        scene_.references.resize(references);
+    }
+
+    void write_leaf(const accel::Leaf& leaf, std::size_t at) {
+        std::uint32_t reference = first_reference_[static_cast<std::size_t>(&leaf - bvh_.leaves.data())];
+        for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
+            std::uint32_t* words = scene_.blocks.data() + at;
+            const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,
+                                     0, references_[bvh_.ids[first]].range};
+            const auto head = std::bit_cast<std::array<std::uint32_t, 2>>(header);
+            words[0] = head[0], words[1] = head[1];
+            std::uint32_t* ids = words + flat::kHeaderWords;
+            const std::size_t row_count = flat::rows_of(kind);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const flat::Reference& r = references_[bvh_.ids[first + i]];
+                ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
+                if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
+                const Rows rows = rows_for(scene_.ranges[r.range], r.element);
+                for (std::size_t row = 0; row < row_count; ++row)
+                    ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
+            }
+            at += flat::words_of(kind, count);
+        });
+    }
+
+    // Rounded to the nearest float, but for mesh vertices, which are floats.
+    Rows rows_for(const PrimitiveRange& range, std::uint32_t element) const {
+        Rows rows{};
+        const std::uint32_t row = range.first_row + element;
+        switch (range.kind) {
+            case PrimitiveKind::mesh: {
+                const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
+                put(rows, 0, v.a), put(rows, 3, v.b), put(rows, 6, v.c);
+                break;
+            }
+            case PrimitiveKind::triangle: {
+                const flat::Triangle& t = scene_.triangles[row];
+                put(rows, 0, t.a), put(rows, 3, t.b), put(rows, 6, t.c);
+                break;
+            }
+            case PrimitiveKind::quad: {
+                const flat::Quad& q = scene_.quads[row];
+                put(rows, 0, q.corner), put(rows, 3, q.corner + q.edge_u), put(rows, 6, q.corner + q.edge_v);
+                break;
+            }
+            case PrimitiveKind::sphere: {
+                const flat::Sphere& s = scene_.spheres[row];
+                put(rows, 0, s.center), rows[3] = static_cast<float>(std::abs(s.radius));
+                break;
+            }
+            case PrimitiveKind::moving_sphere: {
+                const flat::MovingSphere& s = scene_.moving_spheres[row];
+                put(rows, 0, s.center0), put(rows, 3, s.center1), rows[6] = static_cast<float>(std::abs(s.radius));
+                break;
+            }
+            case PrimitiveKind::instance:
+            case PrimitiveKind::foreign:
+            case PrimitiveKind::medium: break;
+        }
+        return rows;
+    }
+
+    flat::Node node(const accel::WideNode& from, std::uint32_t root) const {
+        static_assert(flat::kWidth == accel::kWidth);
+        flat::Node to;
+        for (std::size_t i = 0; i < flat::kWidth; ++i) {
+            for (std::size_t a = 0; a < 3; ++a) to.lower[a][i] = from.lower[a][i], to.upper[a][i] = from.upper[a][i];
+            const std::uint32_t child = from.child[i];
+            if (child == accel::WideNode::kAbsent)
+                to.child[i] = flat::kNothing;
+            else if (child & accel::WideNode::kLeaf)
+                to.child[i] = flat::kLeaf | static_cast<flat::Child>(places_[child & ~accel::WideNode::kLeaf] / 2);
+            else
+                to.child[i] = root + child;
+            to.order[i] = 0;
+            for (std::size_t k = 0; k < flat::kWidth; ++k)
+                to.order[i] |= (from.order[i] >> (4 * k) & 15) << (4 * (flat::kWidth - 1 - k));
+        }
+        return to;
+    }
+
+    accel::WideBvh& bvh_;
+    std::span<const flat::Reference> references_;
+    flat::Scene& scene_;
+    std::vector<std::size_t> places_;             // of leaves, in words
+    std::vector<std::uint32_t> first_reference_;  // of leaves
+};
+
+}  // namespace
+
+flat::Child pack_tree(accel::WideBvh& bvh, std::span<const flat::Reference> references, flat::Scene& scene) {
+    return Packer(bvh, references, scene).pack();
+}
+
+}  // namespace limn::compiler

@@ -1,0 +1,79 @@
+// The tree that rays walk through: nodes of eight boxes, and leaves of blocks in which primitives are packed for SIMD.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "limn/records.h"
+
+namespace limn::flat {
+
+inline constexpr std::size_t kWidth = 8;
+
+// What a node refers to: another node, a leaf, or nothing.
+using Child = std::uint32_t;
+inline constexpr Child kLeaf = 0x80000000u;  // bit: the rest is where the leaf starts, in pairs of words
+inline constexpr Child kNothing = 0xffffffffu;
+
+// Boxes are scaled by Group::scale, so that no coordinate exceeds 1, and rounded outward to float.
+struct alignas(64) Node {
+    float lower[3][kWidth], upper[3][kWidth];  // of the children; of an absent one +infinity and -infinity
+    Child child[kWidth];
+    // By the signs of a ray's direction, bit a for a negative direction[a]: the children as such rays tend to meet
+    // them, four bits each, the FARTHEST lowest, absent ones first.
+    std::uint32_t order[kWidth];
+};
+static_assert(sizeof(Node) == 256);
+
+// The primitives of a leaf, or some of them, all of one kind. In words of 32 bits: this header; an id for each; rows of
+// floats, one number for each primitive in a row; a word of padding if the sum is odd. SIMD reads past the end of a
+// row, so kSlackWords follow the last block.
+//
+// mesh: id is the triangle, `range` the mesh's. Others: id is the row of Scene::references.
+struct Block {
+    PrimitiveKind kind;
+    std::uint8_t count;
+    bool last;  // of its leaf
+    std::uint8_t unused;
+    std::uint32_t range;
+};
+static_assert(sizeof(Block) == 8);
+
+inline constexpr std::size_t kHeaderWords = sizeof(Block) / 4, kSlackWords = 16, kMaxBlock = 8;
+
+// Rows of a kind: the three vertices of a triangle or of half a quad, x y z of each; a sphere's centre and radius, a
+// moving one's two centres and radius. Others are asked one by one.
+constexpr std::size_t rows_of(PrimitiveKind kind) {
+    switch (kind) {
+        case PrimitiveKind::mesh:
+        case PrimitiveKind::triangle:
+        case PrimitiveKind::quad: return 9;
+        case PrimitiveKind::sphere: return 4;
+        case PrimitiveKind::moving_sphere: return 7;
+        case PrimitiveKind::instance:
+        case PrimitiveKind::foreign:
+        case PrimitiveKind::medium: break;
+    }
+    return 0;
+}
+
+constexpr std::size_t words_of(PrimitiveKind kind, std::size_t count) {
+    return (kHeaderWords + count * (1 + rows_of(kind)) + 1) / 2 * 2;
+}
+
+// A block where it lies among the words.
+struct BlockView {
+    const std::uint32_t* words;
+
+    Block header() const { return std::bit_cast<Block>(std::array{words[0], words[1]}); }
+    std::uint32_t id(std::size_t i) const { return words[kHeaderWords + i]; }
+    const std::uint32_t* rows(std::size_t count) const { return words + kHeaderWords + count; }
+    // \pre count is the header's
+    float number(std::size_t count, std::size_t row, std::size_t i) const {
+        return std::bit_cast<float>(rows(count)[row * count + i]);
+    }
+};
+
+}  // namespace limn::flat

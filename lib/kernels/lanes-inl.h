@@ -1,0 +1,51 @@
+// What the kernels share. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_LANES_INL_H
+#undef LIMN_KERNELS_LANES_INL_H
+#else
+#define LIMN_KERNELS_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "flat/tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Eight floats where the processor has them, else four.
+using Lanes = hn::CappedTag<float, flat::kWidth>;
+using V = hn::Vec<Lanes>;
+using M = hn::Mask<Lanes>;
+
+HWY_INLINE std::uint32_t bits(M mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Lanes(), mask, bytes);
+    return bytes[0];
+}
+
+HWY_INLINE V max_abs(V a, V b, V c) { return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))); }
+
+// Primitives of a block that the ray may hit, or hits for sure, by bit, and bounds on the t of each.
+struct Candidates {
+    std::uint32_t open = 0, certain = 0;
+    HWY_ALIGN float near[flat::kMaxBlock], far[flat::kMaxBlock];
+
+    HWY_INLINE void add(M is_open, M is_certain, V t_near, V t_far, std::size_t at) {
+        const Lanes d;
+        const std::uint32_t these = bits(is_open);
+        open |= these << at;
+        certain |= (bits(is_certain) & these) << at;
+        hn::StoreU(t_near, d, near + at);
+        hn::StoreU(t_far, d, far + at);
+    }
+};
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,94 @@
+// Triangles and quads of a block against a ray, in float, several at once. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_PLANAR_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_PLANAR_INL_H
+#undef LIMN_KERNELS_PLANAR_INL_H
+#else
+#define LIMN_KERNELS_PLANAR_INL_H
+#endif
+
+#include "kernels/lanes-inl.h"
+#include "kernels/leaf_rays.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+// The vertices are A, B, C; a quad is A + u (B - A) + v (C - A). Edge values as in filter_triangle, each off by at most
+// e: all beyond e on one side are a hit, two beyond it on different sides a miss. The edges of a quad are wb, wc, wa +
+// wb and wa + wc, the sums off by 3 e.
+//
+// Where a hit is certain its weights are off by 5 e / |det|, so z by twice that times the depth, by E, and by 24
+// roundings of z, of which there are 56 in 4 E; t by that, and the bounds' own rounding. Where it is not, z lies
+// between that of the vertices, for a quad as far again.
+template <bool kQuad>
+HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t count, const PlanarRay& ray, float t_min,
+                                  float t_max) {
+    const Lanes d;
+    const auto* rows = reinterpret_cast<const float*>(block.rows(count));
+    const auto high_x = hn::Set(d, ray.origin.high[ray.x]), low_x = hn::Set(d, ray.origin.low[ray.x]);
+    const auto high_y = hn::Set(d, ray.origin.high[ray.y]), low_y = hn::Set(d, ray.origin.low[ray.y]);
+    const auto high_z = hn::Set(d, ray.origin.high[ray.z]), low_z = hn::Set(d, ray.origin.low[ray.z]);
+    const auto shear_x = hn::Set(d, ray.shear_x), shear_y = hn::Set(d, ray.shear_y);
+    const float* x = rows + ray.x * count;
+    const float* y = rows + ray.y * count;
+    const float* z = rows + ray.z * count;
+    const std::size_t vertex = 3 * count;
+
+    Candidates found;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto seen = [&](const float* row, auto high, auto low) {
+            return hn::Sub(hn::Sub(hn::LoadU(d, row + i), high), low);
+        };
+        const auto az = seen(z, high_z, low_z), bz = seen(z + vertex, high_z, low_z),
+                   cz = seen(z + 2 * vertex, high_z, low_z);
+        const auto ax = hn::NegMulAdd(shear_x, az, seen(x, high_x, low_x)),
+                   bx = hn::NegMulAdd(shear_x, bz, seen(x + vertex, high_x, low_x)),
+                   cx = hn::NegMulAdd(shear_x, cz, seen(x + 2 * vertex, high_x, low_x));
+        const auto ay = hn::NegMulAdd(shear_y, az, seen(y, high_y, low_y)),
+                   by = hn::NegMulAdd(shear_y, bz, seen(y + vertex, high_y, low_y)),
+                   cy = hn::NegMulAdd(shear_y, cz, seen(y + 2 * vertex, high_y, low_y));
+        const auto wa = hn::MulSub(cx, by, hn::Mul(cy, bx));
+        const auto wb = hn::MulSub(ax, cy, hn::Mul(ay, cx));
+        const auto wc = hn::MulSub(bx, ay, hn::Mul(by, ax));
+        auto least = hn::Min(wb, wc), most = hn::Max(wb, wc);
+        if constexpr (kQuad) {
+            const auto third = hn::Set(d, 0.333f);
+            const auto ab = hn::Mul(third, hn::Add(wa, wb)), ac = hn::Mul(third, hn::Add(wa, wc));
+            least = hn::Min(least, hn::Min(ab, ac)), most = hn::Max(most, hn::Max(ab, ac));
+        } else {
+            least = hn::Min(least, wa), most = hn::Max(most, wa);
+        }
+        const auto across = hn::Max(max_abs(ax, bx, cx), max_abs(ay, by, cy));
+        const auto coordinate_error =
+            hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)), hn::Set(d, ray.absolute));
+        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
+        const auto missed = hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e));
+        const auto open = hn::AndNot(missed, hn::FirstN(d, count - i));
+        if (HWY_LIKELY(hn::AllFalse(d, open))) continue;
+
+        const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
+        const auto det = hn::Add(wa, hn::Add(wb, wc));
+        const auto inverse = hn::Div(hn::Set(d, 1.0f), det);
+        const auto mean = hn::Mul(hn::MulAdd(wa, az, hn::MulAdd(wb, bz, hn::Mul(wc, cz))), inverse);
+        const auto lowest = hn::Min(az, hn::Min(bz, cz)), highest = hn::Max(az, hn::Max(bz, cz));
+        const auto depth = hn::Sub(highest, lowest);
+        const auto weight_error = hn::Mul(hn::Mul(hn::Set(d, 10.0f), e), hn::Abs(inverse));
+        const auto e4 = hn::Mul(hn::Set(d, 4.0f), coordinate_error);
+        const auto z_error =
+            hn::MulAdd(weight_error, depth, hn::MulAdd(hn::Set(d, ray.direction_error), hn::Abs(mean), e4));
+        auto z_low = hn::Sub(lowest, e4), z_high = hn::Add(highest, e4);
+        if constexpr (kQuad) z_low = hn::Sub(z_low, depth), z_high = hn::Add(z_high, depth);
+        const auto slope = hn::Set(d, ray.t_from_z);
+        const auto t1 = hn::Mul(slope, hn::IfThenElse(certain, hn::Sub(mean, z_error), z_low));
+        const auto t2 = hn::Mul(slope, hn::IfThenElse(certain, hn::Add(mean, z_error), z_high));
+        const auto near = hn::Min(t1, t2), far = hn::Max(t1, t2);
+        // Where nothing is known there is a NaN, and no comparison drops it.
+        const auto dropped = hn::Or(hn::Gt(near, hn::Set(d, t_max)), hn::Lt(far, hn::Set(d, t_min)));
+        found.add(hn::AndNot(dropped, open), certain, near, far, i);
+    }
+    return found;
+}
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

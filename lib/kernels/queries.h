@@ -1,0 +1,47 @@
+// What to do with hits. `limit` is the t beyond which nothing matters; `report` returns true to end the search.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/sheared_ray.h"
+#include "flat/scene.h"
+#include "kernels/traverse.h"
+
+namespace limn::kernels {
+
+struct Closest {
+    static constexpr bool kEveryHit = false, kThroughBoundaries = false, kFirstHit = false;
+    flat::RawHit best;
+    double u = 0, v = 0;  // of the best
+
+    double limit() const { return best.t; }
+    bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/) {
+        if (hit.t < best.t || number < best.primitive) best = {hit.t, number}, u = hit.u, v = hit.v;
+        return false;
+    }
+};
+
+template <bool kThrough>
+struct Any {
+    static constexpr bool kEveryHit = false, kThroughBoundaries = kThrough, kFirstHit = true;
+    double t_max;
+    bool found = false;
+
+    double limit() const { return t_max; }
+    bool report(const PlanarHit&, std::uint64_t, bool) { return found = true; }
+};
+
+struct Every {
+    static constexpr bool kEveryHit = true, kThroughBoundaries = false, kFirstHit = false;
+    double t_max;
+    std::vector<Crossing>& crossings;
+
+    double limit() const { return t_max; }
+    bool report(const PlanarHit& hit, std::uint64_t, bool inward) {
+        crossings.push_back({hit.t, inward});
+        return false;
+    }
+};
+
+}  // namespace limn::kernels

@@ -1,0 +1,294 @@
+// One ray through one group. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_TRAVERSAL_INL_H
+#undef LIMN_KERNELS_TRAVERSAL_INL_H
+#else
+#define LIMN_KERNELS_TRAVERSAL_INL_H
+#endif
+
+#include <utility>
+
+#include "core/sphere_uv.h"
+#include "kernels/exact_tests.h"
+#include "kernels/node-inl.h"
+#include "kernels/planar-inl.h"
+#include "kernels/queries.h"
+#include "kernels/sphere-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+// kKinds: the primitive kinds that the scene has; code for the others is left out.
+//
+// Boxes and packed primitives are tested in float. What those tests leave open is asked exactly at once. Of hits that
+// they are sure of, `bound_` keeps a t that none of interest lies beyond, and only those that may be the nearest are
+// asked exactly, at the end: mostly one.
+template <unsigned kKinds, class Query>
+class Traversal {
+public:
+    // `frame` and `query` are kept by reference.
+    Traversal(const flat::Scene& scene, const flat::Group& group, const RayFrame& frame, std::uint64_t first_number,
+              Query& query)
+        : scene_(scene),
+          group_(group),
+          frame_(frame),
+          box_ray_(frame, group),
+          first_number_(first_number),
+          query_(query),
+          exact_(frame, group.extent),
+          bound_(box_ray_.upper(query.limit())),
+          certain_after_(box_ray_.lower(frame.ray.t_min) + 4 * box_ray_.slack),
+          certain_before_(bound_ - 4 * box_ray_.slack) {
+        if constexpr (has_planar()) planar_.emplace(box_ray_, packed_error());
+        if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
+    }
+
+    // True if the query ended the search.
+    bool run() {
+        if (group_.root == flat::kNothing) return false;
+        const NodeTest test(box_ray_);
+        Stack stack;
+        flat::Child next = group_.root;
+        for (;;) {
+            while (!(next & flat::kLeaf)) next = test.visit(scene_.nodes[next], bound_, stack);
+            if (next != flat::kNothing && leaf(next)) return true;
+            do {
+                if (stack.size == 0) return ask_pending();
+                --stack.size;
+            } while (stack.near[stack.size] > bound_);
+            next = stack.child[stack.size];
+        }
+    }
+
+private:
+    static constexpr bool has(PrimitiveKind kind) { return (kKinds & flat::bit(kind)) != 0; }
+    static constexpr bool has_planar() {
+        return has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle) || has(PrimitiveKind::quad);
+    }
+    static constexpr bool has_spheres() { return has(PrimitiveKind::sphere) || has(PrimitiveKind::moving_sphere); }
+    // Vertices of meshes are packed as they are; other coordinates are rounded, moving centres then interpolated.
+    double packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22 * group_.extent; }
+
+    // A hit for sure, not asked exactly yet.
+    struct Pending {
+        flat::BlockView block;
+        std::uint32_t lane;
+        float near;
+    };
+    static constexpr std::size_t kMaxPending = 8;
+
+    bool leaf(flat::Child child) {
+        flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
+        for (;;) {
+            const flat::Block header = block.header();
+            if (test(block, header)) return true;
+            if (header.last) return false;
+            block.words += flat::words_of(header.kind, header.count);
+        }
+    }
+
+    HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header) {
+        if constexpr (kKinds == flat::bit(PrimitiveKind::mesh)) {
+            return take(test_planar<false>(block, header.count, *planar_, box_ray_.t_min, bound_), block, header);
+        } else {
+            switch (header.kind) {
+                case PrimitiveKind::mesh:
+                case PrimitiveKind::triangle:
+                    if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
+                        return take(test_planar<false>(block, header.count, *planar_, box_ray_.t_min, bound_), block,
+                                    header);
+                    break;
+                case PrimitiveKind::quad:
+                    if constexpr (has(PrimitiveKind::quad))
+                        return take(test_planar<true>(block, header.count, *planar_, box_ray_.t_min, bound_), block,
+                                    header);
+                    break;
+                case PrimitiveKind::sphere:
+                    if constexpr (has(PrimitiveKind::sphere))
+                        return take(test_spheres<false>(block, header.count, *round_, 0, box_ray_.t_min, bound_), block,
+                                    header);
+                    break;
+                case PrimitiveKind::moving_sphere:
+                    if constexpr (has(PrimitiveKind::moving_sphere))
+                        return take(test_spheres<true>(block, header.count, *round_, time(), box_ray_.t_min, bound_),
+                                    block, header);
+                    break;
+                case PrimitiveKind::instance:
+                case PrimitiveKind::foreign:
+                    for (std::uint32_t i = 0; i < header.count; ++i)
+                        if (ask(block, header, i)) return true;
+                    break;
+                case PrimitiveKind::medium: break;  // never in a tree
+            }
+            return false;
+        }
+    }
+
+    // As interpolate() clamps it.
+    float time() const { return static_cast<float>(std::clamp(frame_.ray.time, 0.0, 1.0)); }
+
+    HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block, const flat::Block& header) {
+        for (std::uint32_t open = found.open; open != 0; open &= open - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(open));
+            const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
+                                 found.far[lane] < certain_before_;
+            if (certain && Query::kFirstHit) return query_.report({}, 0, false);
+            if (certain && !Query::kEveryHit) {
+                if (found.near[lane] > bound_) continue;  // another lane's hit is nearer
+                bound_ = smaller(bound_, found.far[lane] + box_ray_.slack);
+                postpone({block, lane, found.near[lane]});
+            } else if (ask(block, header, lane)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    static float smaller(float a, float b) { return a < b ? a : b; }
+
+    HWY_INLINE void postpone(const Pending& hit) {
+        if (pending_count_ == kMaxPending) ask_pending();
+        pending_[pending_count_++] = hit;
+    }
+
+    bool ask_pending() {
+        for (std::size_t i = 0; i < pending_count_; ++i) {
+            const Pending& hit = pending_[i];
+            if (hit.near <= bound_ && ask(hit.block, hit.block.header(), hit.lane)) return true;
+        }
+        pending_count_ = 0;
+        return false;
+    }
+
+    // Exactly.
+    bool ask(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
+        const std::uint32_t id = block.id(lane);
+        bool end = false;
+        if constexpr (has(PrimitiveKind::mesh)) {
+            if (header.kind == PrimitiveKind::mesh) {
+                const auto vertex = [&](std::size_t row) {
+                    return Point3{block.number(header.count, row, lane), block.number(header.count, row + 1, lane),
+                                  block.number(header.count, row + 2, lane)};
+                };
+                end = triangle(vertex(0), vertex(3), vertex(6),
+                               first_number_ + scene_.ranges[header.range].first_number + id);
+                bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+                return end;
+            }
+        }
+        if constexpr (kKinds != flat::bit(PrimitiveKind::mesh)) {
+            end = ask(scene_.references[id]);
+            bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+        }
+        return end;
+    }
+
+    bool ask(const flat::Reference& reference) {
+        const PrimitiveRange& range = scene_.ranges[reference.range];
+        const std::uint64_t number = first_number_ + range.first_number + reference.element;
+        const std::uint32_t row = range.first_row + reference.element;
+        switch (range.kind) {
+            case PrimitiveKind::sphere:
+                if constexpr (has(PrimitiveKind::sphere)) {
+                    const flat::Sphere& s = scene_.spheres[row];
+                    return sphere(s.center, s.radius, number);
+                }
+                break;
+            case PrimitiveKind::moving_sphere:
+                if constexpr (has(PrimitiveKind::moving_sphere)) {
+                    const flat::MovingSphere& s = scene_.moving_spheres[row];
+                    return sphere(interpolate(s.center0, s.center1, frame_.ray.time), s.radius, number);
+                }
+                break;
+            case PrimitiveKind::triangle:
+                if constexpr (has(PrimitiveKind::triangle)) {
+                    const flat::Triangle& t = scene_.triangles[row];
+                    return triangle(t.a, t.b, t.c, number);
+                }
+                break;
+            case PrimitiveKind::quad:
+                if constexpr (has(PrimitiveKind::quad)) {
+                    const flat::Quad& q = scene_.quads[row];
+                    PlanarHit hit;
+                    return exact_.quad(q.corner, q.edge_u, q.edge_v, search(), hit) &&
+                           query_.report(hit, number, inward(cross(q.edge_u, q.edge_v)));
+                }
+                break;
+            case PrimitiveKind::instance:
+                if constexpr (has(PrimitiveKind::instance)) {
+                    const flat::Instance& instance = scene_.instances[range.first_row];
+                    if (ask_pending()) return true;  // so that the limit says all there is to say
+                    return inside(instance, frame_, [&](const RayFrame& frame) {
+                        return is_usable(frame.ray) &&
+                               Traversal(scene_, flat::group_at(scene_, instance.group), frame, number, query_).run();
+                    });
+                }
+                break;
+            case PrimitiveKind::foreign:
+                if constexpr (has(PrimitiveKind::foreign)) {
+                    if (ask_pending()) return true;
+                    return foreign(scene_.foreign[row], number);
+                }
+                break;
+            case PrimitiveKind::mesh:           // see above
+            case PrimitiveKind::medium: break;  // never in a tree
+        }
+        return false;
+    }
+
+    bool inward(const Vec3& outward) const { return Query::kEveryHit && dot(outward, frame_.ray.direction) < 0; }
+
+    Search search() const { return {frame_.ray.t_min, query_.limit()}; }
+
+    bool sphere(const Point3& center, double radius, std::uint64_t number) {
+        if constexpr (Query::kEveryHit) {
+            const SphereHits hits = exact_.sphere(center, std::abs(radius), search(), true);
+            return (hits.near_found && query_.report({hits.near, 0, 0}, number, radius > 0)) ||
+                   (hits.far_found && query_.report({hits.far, 0, 0}, number, radius < 0));
+        } else {
+            PlanarHit hit{};
+            return exact_.sphere(center, std::abs(radius), search(), hit.t) && query_.report(hit, number, false);
+        }
+    }
+
+    bool triangle(const Point3& a, const Point3& b, const Point3& c, std::uint64_t number) {
+        PlanarHit hit;
+        return exact_.triangle(a, b, c, search(), hit) &&
+               query_.report(hit, number, Query::kEveryHit && inward(cross(b - a, c - a)));
+    }
+
+    bool foreign(const flat::Foreign& shape, std::uint64_t number) {
+        const FrameScope scope(frame_);  // it may consist of limn's own shapes
+        Ray rest = frame_.ray;
+        rest.t_max = query_.limit();
+        ForeignHit hit;
+        while (shape.hit(*shape.object, rest, hit)) {
+            if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
+            const bool passes = Query::kThroughBoundaries && hit.index_matched;
+            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward(Vec3(hit.normal)))) return true;
+            if (!passes && !Query::kEveryHit) return false;
+            rest.t_min = hit.t;
+        }
+        return false;
+    }
+
+    const flat::Scene& scene_;
+    const flat::Group& group_;
+    const RayFrame& frame_;
+    const BoxRay box_ray_;
+    std::optional<PlanarRay> planar_;
+    std::optional<RoundRay> round_;
+    const std::uint64_t first_number_;
+    Query& query_;
+    ExactTests exact_;
+    float bound_;  // in BoxRay's t: no hit of interest is beyond
+    const float certain_after_,
+        certain_before_;  // hits of which the whole interval lies between count, by t_min and t_max
+    std::size_t pending_count_ = 0;
+    Pending pending_[kMaxPending];
+};
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
