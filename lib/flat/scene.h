@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/huge_pages.h"
 #include "core/ray_frame.h"
+#include "flat/features.h"
 #include "flat/tree.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
@@ -133,8 +135,6 @@ struct Scene {
     double compile_seconds = 0;
 };
 
-constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
-
 // Instances may nest this deep, those of a medium's boundary included.
 inline constexpr std::uint32_t kMaxNesting = 16;
 
@@ -152,6 +152,11 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::
 
 // Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
+
+// None where they are not built.
+inline std::span<const Medium> media_of(const Scene& s) {
+    return kHasMedia ? std::span<const Medium>(s.media) : std::span<const Medium>();
+}
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 

@@ -17,10 +17,10 @@ constexpr unsigned kinds(Kinds... kind) {
 
 // The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
 constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
-constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
+constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
-constexpr unsigned kAll = ~0u;
+constexpr unsigned kAll = flat::kBuiltKinds;
 
 template <class Query>
 void search(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first_number, Query& query) {
