@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "bench/random.h"
 #include "limn/core/error.h"
 #include "limn/core/warp.h"
-#include "limn/io/obj.h"
 
 namespace limn::bench {
 
@@ -200,15 +198,6 @@ Geometry make_scene(const std::string& name, double scale) {
     if (name == "cornell") return cornell_box();
     if (name == "forest") return forest(scale);
     throw ArgumentError("'" + name + "' is not the name of a scene");
-}
-
-Geometry load_scene(const std::string& path) {
-    const Model model = load_obj(path, {.textures = false});
-    return {.name = std::filesystem::path(path).filename().string(),
-            .mesh = model.meshes.front(),  // an OBJ gives one
-            .places = {},
-            .balls = {},
-            .quads = {}};
 }
 
 }  // namespace limn::bench
