@@ -54,6 +54,7 @@ class Contender {
 public:
     virtual ~Contender() = default;
     virtual std::string name() const = 0;
+    virtual std::string version() const = 0;
     // \param geometry stays as long as the scene
     virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry) const = 0;
 };

@@ -129,6 +129,7 @@ class EmbreeContender final : public Contender {
 public:
     explicit EmbreeContender(bool robust) : robust_(robust) {}
     std::string name() const override { return robust_ ? "Embree robust" : "Embree"; }
+    std::string version() const override { return RTC_VERSION_STRING; }
     std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override {
         return std::make_unique<EmbreeScene>(geometry, robust_, name());
     }

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "bench/contender.h"
+#include "limn/render/render.h"
 
 namespace limn::bench {
 
@@ -27,6 +28,7 @@ private:
 class LimnContender final : public Contender {
 public:
     std::string name() const override { return "limn"; }
+    std::string version() const override { return limn::version(); }
     std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override;
 };
 

@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "bench/limn_contender.h"
+
 namespace limn::bench {
 
 namespace {
@@ -98,8 +100,12 @@ std::string results_table(const std::vector<SceneResult>& results) {
     return text;
 }
 
-Json results_json(const Plan& plan, const std::vector<SceneResult>& results, bool complete) {
+Json results_json(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
+                  const std::vector<SceneResult>& results, bool complete) {
+    Json versions = {{"limn", LimnContender().version()}};
+    for (const auto& peer : peers) versions[peer->name()] = peer->version();
     Json json = {{"complete", complete},
+                 {"versions", versions},
                  {"rounds", plan.rounds},
                  {"cores", std::thread::hardware_concurrency()},
                  {"scenes", Json::array()}};

@@ -110,7 +110,7 @@ int bench_command(int argc, const char* const* argv) {
     };
     const auto results = from_files([&] { return bench::run_session(plan, peers, watch); });
     bar.clear();
-    json.write(bench::results_table(results), bench::results_json(plan, results, caught_signal() == 0));
+    json.write(bench::results_table(results), bench::results_json(plan, peers, results, caught_signal() == 0));
     if (caught_signal() != 0) return 128 + caught_signal();
     for (const bench::SceneResult& scene : results)
         for (const bench::RayRow& row : scene.rows)

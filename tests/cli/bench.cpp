@@ -37,6 +37,7 @@ TEST_CASE("limn bench: every scene and kind of rays has its rows, measured once 
     CHECK(outcome.err.empty());
     const Json json = Json::parse(outcome.out);
     CHECK(json["rounds"] == 1);
+    CHECK_FALSE(json["versions"]["limn"].get<std::string>().empty());
     std::vector<std::string> names;
     for (const Json& scene : json["scenes"]) {
         INFO(scene["name"]);
