@@ -33,7 +33,7 @@ public:
     std::size_t chunk() const { return chunk_; }  // how many rays it likes to be given at a time
 
     virtual void prepare(const RaySet& set) = 0;  // `set` stays until the next
-    // Several threads may do so for parts that do not overlap; `first` is a multiple of chunk().
+    // Several threads may do so for parts that do not overlap; `first` is a multiple of 64.
     virtual void trace(std::size_t first, std::size_t count) = 0;
     virtual Answer answer(std::size_t i) const = 0;
 

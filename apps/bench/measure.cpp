@@ -26,8 +26,15 @@ constexpr double kLeastSeconds = 0.004;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+// As many as the subject likes, but so few that every thread of several gets some. All packets fit in 64.
+std::size_t chunk_for(const Subject& subject, std::size_t rays, const tbb::task_arena* arena) {
+    if (arena == nullptr) return subject.chunk();
+    const std::size_t share = rays / (8 * static_cast<std::size_t>(arena->max_concurrency())) / 64 * 64;
+    return std::clamp<std::size_t>(share, 64, subject.chunk());
+}
+
 void trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
-    const std::size_t chunk = subject.chunk();
+    const std::size_t chunk = chunk_for(subject, rays, arena);
     const std::size_t chunks = (rays + chunk - 1) / chunk;
     const auto part = [&](std::size_t i) { subject.trace(i * chunk, std::min(chunk, rays - i * chunk)); };
     if (arena == nullptr)

@@ -1,7 +1,11 @@
 #include "bench/rays.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "bench/random.h"
 #include "limn/core/frame.h"
@@ -43,12 +47,9 @@ public:
     std::vector<RaySet> make() {
         for (int pass = 0; pass < kMostPasses && !is_full(); ++pass) {
             std::vector<Ray> rays = primary(pass);
-            std::vector<Path> paths;
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                const std::uint64_t number = static_cast<std::uint64_t>(pass) * rays.size() + i;
-                if (const auto hit = scene_.closest_hit(rays[i]))
-                    paths.push_back({scene_.surface_at(rays[i], *hit), number});
-            }
+            std::vector<std::uint64_t> numbers(rays.size());
+            std::iota(numbers.begin(), numbers.end(), static_cast<std::uint64_t>(pass) * rays.size());
+            std::vector<Path> paths = follow(rays, numbers);
             add(primary_, rays);
             if (paths.empty()) break;
             gather(paths);
@@ -114,12 +115,22 @@ private:
                 rays.push_back(
                     leave(path.at, cosine_direction(path, kScatter + 2 * static_cast<std::uint64_t>(depth))));
             add(diffuse_[depth], rays);
-            std::vector<Path> longer;
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                if (const auto hit = scene_.closest_hit(rays[i]))
-                    longer.push_back({scene_.surface_at(rays[i], *hit), paths[i].number});
-            paths = std::move(longer);
+            std::vector<std::uint64_t> numbers;
+            for (const Path& path : paths) numbers.push_back(path.number);
+            paths = follow(rays, numbers);
         }
+    }
+
+    // The paths that go on: `numbers` are those of the rays.
+    std::vector<Path> follow(const std::vector<Ray>& rays, const std::vector<std::uint64_t>& numbers) const {
+        std::vector<std::optional<Surface>> ends(rays.size());
+        tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+            if (const auto hit = scene_.closest_hit(rays[i])) ends[i] = scene_.surface_at(rays[i], *hit);
+        });
+        std::vector<Path> paths;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (ends[i]) paths.push_back({*ends[i], numbers[i]});
+        return paths;
     }
 
     Vec3 cosine_direction(const Path& path, std::uint64_t dimension) const {

@@ -79,11 +79,11 @@ Geometry displaced_sphere(double scale) {
     return {.name = "displaced sphere", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
 }
 
-// Triangles of any direction, scattered over the unit cube. Their size keeps the mean free path the same, whatever
-// their number.
+// Triangles of any direction, scattered over the unit cube. Their size goes with their distance from one another, so
+// that as many overlap whatever their number.
 Geometry soup(double scale) {
     const std::size_t count = scaled(1e6, scale);
-    const double size = 0.03 / std::sqrt(scale);
+    const double size = 0.03 / std::cbrt(scale);
     MeshData data;
     for (std::size_t i = 0; i < count; ++i) {
         const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };

@@ -152,7 +152,8 @@ void GroupTree::scale_boxes(double scale) {
 void GroupTree::finish(flat::Group& group) {
     int exponent = 0;
     std::frexp(extent_, &exponent);
-    exponent = std::max(exponent, -1000);  // so that the scale is finite
+    // Where float serves, boxes stay as they are.
+    exponent = exponent > -20 && exponent < 40 ? 0 : std::max(exponent, -1000);  // so that the scale is finite
     group.bounds = bounds_;
     group.extent = extent_;
     group.scale = std::ldexp(1.0, -exponent);

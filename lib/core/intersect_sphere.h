@@ -21,7 +21,7 @@ struct SphereRay {
         : origin(f.ray.origin),
           direction(f.ray.direction),
           squared(dot(direction, direction)),
-          inverse_length(1 / max_abs(direction)),
+          inverse_length(1 / largest_magnitude(direction.x, direction.y, direction.z)),
           relative((10 * kRoundoff + 8 * f.direction_error * inverse_length) * (1 + 0x1p-30)),
           absolute(2 * f.origin_error * (1 + 0x1p-30)),
           frame(&f) {}

@@ -44,7 +44,7 @@ struct ShearedRay {
         if (!(direction_error < 0.5)) direction_error = kInfinity;
         relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
         absolute = 2 * f.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // |S| <= 1 + s
-        const double reach = 2 * extent + max_abs(origin);                      // of edges too
+        const double reach = 2 * extent + largest_magnitude(origin.x, origin.y, origin.z);                      // of edges too
         coarse = determinant_error(reach, 2 * reach);
     }
 

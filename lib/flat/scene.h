@@ -62,7 +62,7 @@ struct Group {
     std::uint32_t range_count = 0;
     Box bounds;
     double extent = 0;  // the largest finite coordinate in the tree
-    double scale = 1;   // of the nodes' boxes: a power of two that takes `extent` below 1
+    double scale = 1;   // of the nodes' boxes: a power of two, which keeps them in the range of float
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.

@@ -17,7 +17,7 @@ using Child = std::uint32_t;
 inline constexpr Child kLeaf = 0x80000000u;  // bit: the rest is where the leaf starts, in pairs of words
 inline constexpr Child kNothing = 0xffffffffu;
 
-// Boxes are scaled by Group::scale, so that no coordinate exceeds 1, and rounded outward to float.
+// Boxes are scaled by Group::scale and rounded outward to float.
 struct alignas(64) Node {
     float lower[3][kWidth], upper[3][kWidth];  // of the children; of an absent one +infinity and -infinity
     Child child[kWidth];

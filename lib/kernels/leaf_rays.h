@@ -8,74 +8,69 @@
 
 namespace limn::kernels {
 
-// The ray's origin in two floats: v - high - low has two roundings of about v - origin, not of v.
-struct SplitOrigin {
-    float high[3], low[3];
-
-    explicit SplitOrigin(const Point3& origin) {
-        for (std::size_t a = 0; a < 3; ++a) {
-            high[a] = static_cast<float>(origin[a]);
-            low[a] = static_cast<float>(origin[a] - static_cast<double>(high[a]));
-        }
-    }
-};
-
-// Where the float forms of the intersections can be trusted: beyond, products may overflow or underflow.
-inline bool is_in_float_range(const BoxRay& ray) {
-    const double reach = 1 / ray.scale;  // at most twice the extent of the group
-    return reach > 0x1p-30 && reach < 0x1p50 && ray.origin_error < 0x1p50;
+// What the origin and packed coordinates, which are off by coordinate_error, may add to the error of a difference,
+// twice: for 2^-46 of the origin is what two floats leave out. Infinite, so that the float forms decide nothing, where
+// products may overflow or underflow.
+HWY_INLINE float absolute_error(const BoxRay& ray, float coordinate_error) {
+    const bool is_in_range = ray.extent > 0x1p-30f && ray.extent < 0x1p50f && ray.origin_error < 0x1p50f;
+    const float error = 4 * (ray.origin_error + coordinate_error) + 0x1p-44f * ray.reach + 0x1p-45f;
+    return is_in_range ? error : std::numeric_limits<float>::infinity();
 }
 
 // For triangles and quads: ShearedRay in float. With u = 2^-24 and M the largest coordinate of a vertex seen from the
-// origin, such a coordinate is off by 2 u M, and by 2^-46 of the origin's own coordinates for what two floats leave
-// out; the shear by u; a sheared coordinate, by the reasoning there, by (2 + 2 + 1 + 3) u M and twice what the origin
-// and the vertices are off by; products of two add 2 u P^2, P <= 2 M: E = relative M + absolute, determinants by 4 (P +
-// E) E.
+// origin, such a coordinate is off by 2 u M and by what absolute_error says; the shear by 4 u; a sheared coordinate, by
+// the reasoning there, by (2 + 2 + 4 + 3) u M and twice that; products of two add 2 u P^2, P <= 2 M: E = relative M +
+// absolute, determinants by 4 (P + E) E.
 struct PlanarRay {
-    std::size_t x, y, z;  // the axes, permuted
-    SplitOrigin origin;
+    unsigned x, y, z;  // the axes, permuted
+    float high[3], low[3];
     float shear_x, shear_y;
     float relative, absolute;
     float direction_error;  // of z, relative
     float t_from_z;
+    bool starts_at_origin;       // t_min is not negative: nothing behind the origin counts
+    float coarse_slope, coarse;  // the error of determinants with E for the farthest vertex: 4 E P + 4 E^2
 
     // `vertex_error`: how far packed coordinates are from those that they stand for.
-    PlanarRay(const BoxRay& ray, double vertex_error) : origin(ray.origin) {
-        const Vec3& direction = ray.direction;
-        const Vec3 d = abs(direction);
-        z = d.x > d.y ? (d.x > d.z ? 0 : 2) : (d.y > d.z ? 1 : 2);
-        x = z == 2 ? 0 : z + 1;
-        y = x == 2 ? 0 : x + 1;
-        const double inverse = 1 / direction[z];
-        shear_x = static_cast<float>(direction[x] * inverse);
-        shear_y = static_cast<float>(direction[y] * inverse);
-        t_from_z = static_cast<float>(smaller(ray.scale, 0x1p100) * inverse);
-        const double s = 4 * ray.direction_error;
-        direction_error = static_cast<float>(s);
-        relative = static_cast<float>(14 * 0x1p-24 + 1.01 * s);
-        absolute = static_cast<float>(4 * (ray.origin_error + vertex_error) + 0x1p-44 * max_abs(ray.origin) + 0x1p-45);
-        if (!is_in_float_range(ray)) absolute = std::numeric_limits<float>::infinity();
+    HWY_INLINE PlanarRay(const BoxRay& ray, float vertex_error) : absolute(absolute_error(ray, vertex_error)) {
+        // Without branches: which axis it is cannot be predicted.
+        const float dx = std::abs(ray.direction[0]), dy = std::abs(ray.direction[1]), dz = std::abs(ray.direction[2]);
+        const unsigned larger_yz = dz > dy ? 2 : 1;
+        z = (dz > dy ? dz : dy) > dx ? larger_yz : 0;
+        x = 9u >> (2 * z) & 3;   // 1 2 0
+        y = 18u >> (2 * z) & 3;  // 2 0 1
+        const float inverse = ray.inverse[z];
+        shear_x = ray.direction[x] * inverse;
+        shear_y = ray.direction[y] * inverse;
+        high[0] = ray.high[x], high[1] = ray.high[y], high[2] = ray.high[z];
+        low[0] = ray.low[x], low[1] = ray.low[y], low[2] = ray.low[z];
+        t_from_z = ray.scale * inverse;
+        starts_at_origin = ray.t_min >= 0 && ray.t_start == 0;
+        direction_error = 4 * ray.direction_error;
+        relative = 16 * 0x1p-24f + 1.01f * direction_error;
+        const float farthest = relative * 2 * ray.reach + absolute;
+        coarse_slope = 4.001f * farthest;
+        coarse = coarse_slope * farthest;
     }
 };
 
 // For spheres: SphereRay in float. The foot point is off by (2 + 10 + 8 * 2) u L + e, see filter_sphere.
 struct RoundRay {
-    SplitOrigin origin;
-    float direction[3];
-    float inverse_squared;  // of the direction's length
-    float inverse_length;   // at least 1 / length
+    const float *high, *low, *direction;  // BoxRay's
+    float inverse_squared;                // of the direction's length
+    float inverse_length;                 // at least 1 / length
     float relative, absolute;
     float t_scale;
 
-    RoundRay(const BoxRay& ray, double center_error) : origin(ray.origin) {
-        for (std::size_t a = 0; a < 3; ++a) direction[a] = static_cast<float>(ray.direction[a]);
-        const double squared = dot(ray.direction, ray.direction);
-        inverse_squared = static_cast<float>(1 / squared);
-        inverse_length = static_cast<float>(1 / max_abs(ray.direction));
-        relative = static_cast<float>(32 * 0x1p-24 + 16 * ray.direction_error);
-        absolute = static_cast<float>(4 * (ray.origin_error + center_error) + 0x1p-44 * max_abs(ray.origin) + 0x1p-45);
-        t_scale = static_cast<float>(smaller(ray.scale, 0x1p100));
-        if (!is_in_float_range(ray)) absolute = std::numeric_limits<float>::infinity();
+    HWY_INLINE RoundRay(const BoxRay& ray, float center_error)
+        : high(ray.high), low(ray.low), direction(ray.direction), absolute(absolute_error(ray, center_error)) {
+        const float* d = direction;
+        inverse_squared = 1 / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        const float x = std::abs(ray.inverse[0]), y = std::abs(ray.inverse[1]), z = std::abs(ray.inverse[2]);
+        const float xy = x < y ? x : y;
+        inverse_length = (xy < z ? xy : z) * (1 + 0x1p-20f);  // along the longest
+        relative = 48 * 0x1p-24f + 16 * ray.direction_error;
+        t_scale = ray.scale;
     }
 };
 

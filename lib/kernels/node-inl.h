@@ -15,6 +15,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
+// For each mask of eight lanes those that are set, in order.
+struct SetLanes {
+    alignas(8) std::uint8_t of[256][8] = {};
+
+    constexpr SetLanes() {
+        for (unsigned mask = 0; mask < 256; ++mask)
+            for (unsigned lane = 0, next = 0; lane < 8; ++lane)
+                if ((mask >> lane & 1) != 0) of[mask][next++] = static_cast<std::uint8_t>(lane);
+    }
+};
+inline constexpr SetLanes kSetLanes;
+
 // Children yet to be visited, and where the ray enters their boxes. A visit pushes at most 7 of 8, a whole vector is
 // written.
 struct Stack {
@@ -22,6 +34,28 @@ struct Stack {
     std::size_t size = 0;
     flat::Child child[kSize];
     float near[kSize];
+
+    HWY_INLINE void push(flat::Child c, float t) {
+        child[size] = c;
+        near[size++] = t;
+    }
+
+    // Those of eight lanes whose mask is set, in their order.
+    HWY_INLINE void push_some(V children, V t, M mask) {
+        const Lanes d;
+        const hn::RebindToUnsigned<Lanes> du;
+        const std::uint32_t set = bits(mask);
+#if HWY_TARGET <= HWY_AVX3
+        const auto packed_children = hn::Compress(children, mask), packed_t = hn::Compress(t, mask);
+#else
+        const auto lanes = hn::PromoteTo(hn::RebindToSigned<Lanes>(), hn::Load(hn::Rebind<std::uint8_t, Lanes>(), kSetLanes.of[set]));
+        const auto packed = hn::IndicesFromVec(d, lanes);
+        const auto packed_children = hn::TableLookupLanes(children, packed), packed_t = hn::TableLookupLanes(t, packed);
+#endif
+        hn::StoreU(hn::BitCast(du, packed_children), du, child + size);
+        hn::StoreU(packed_t, d, near + size);
+        size += static_cast<std::size_t>(std::popcount(set));
+    }
 };
 
 // BoxRay in vectors.
@@ -62,21 +96,30 @@ struct NodeTest {
         const float* planes = node.lower[0];
         const std::uint32_t order = node.order[octant];
         if constexpr (hn::MaxLanes(Lanes()) == flat::kWidth) {
-            const hn::RebindToUnsigned<Lanes> du;
             const auto near = enter(planes), far = leave(planes, hn::Set(d, t_max));
-            const auto slots = hn::And(hn::Shr(hn::Set(du, order), hn::ShiftLeft<2>(hn::Iota(du, 0))), hn::Set(du, 7));
-            const auto sorted = hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<Lanes>(), slots));
-            const auto near_sorted = hn::TableLookupLanes(near, sorted);
-            const auto met = hn::Le(near_sorted, hn::TableLookupLanes(far, sorted));
+            const auto met = hn::Le(near, far);
             const std::uint32_t mask = bits(met);
             if (mask == 0) return flat::kNothing;
-            const int nearest = 31 - std::countl_zero(mask);
-            const flat::Child next = node.child[order >> (4 * nearest) & 7];
-            const auto others = hn::TableLookupLanes(hn::BitCast(d, hn::LoadU(du, node.child)), sorted);
-            hn::StoreU(hn::BitCast(du, hn::Compress(others, met)), du, stack.child + stack.size);
-            hn::StoreU(hn::Compress(near_sorted, met), d, stack.near + stack.size);
-            stack.size += static_cast<std::size_t>(std::popcount(mask)) - 1;
-            return next;
+            const auto first = static_cast<std::size_t>(std::countr_zero(mask));
+            const std::uint32_t others = mask & (mask - 1);
+            if (others == 0) return node.child[first];
+            if ((others & (others - 1)) == 0) {
+                // The most common case but one. A branch can be predicted, and then nothing waits for the comparison.
+                HWY_ALIGN float t[flat::kWidth];
+                hn::StoreU(near, d, t);
+                const auto second = static_cast<std::size_t>(std::countr_zero(others));
+                const bool is_first = t[first] <= t[second];
+                stack.push(node.child[is_first ? second : first], t[is_first ? second : first]);
+                return node.child[is_first ? first : second];
+            }
+            const hn::RebindToUnsigned<Lanes> du;
+            const auto slots = hn::And(hn::Shr(hn::Set(du, order), hn::ShiftLeft<2>(hn::Iota(du, 0))), hn::Set(du, 7));
+            const auto sorted = hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<Lanes>(), slots));
+            const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+            const auto near_sorted = hn::TableLookupLanes(hn::IfThenElse(met, near, infinity), sorted);
+            const auto children = hn::TableLookupLanes(hn::BitCast(d, hn::LoadU(du, node.child)), sorted);
+            stack.push_some(children, near_sorted, hn::Lt(near_sorted, infinity));
+            return stack.child[--stack.size];
         } else {
             HWY_ALIGN float near[flat::kWidth];
             std::uint32_t mask = 0;

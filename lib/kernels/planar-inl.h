@@ -24,9 +24,9 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
                                   float t_max) {
     const Lanes d;
     const auto* rows = reinterpret_cast<const float*>(block.rows(count));
-    const auto high_x = hn::Set(d, ray.origin.high[ray.x]), low_x = hn::Set(d, ray.origin.low[ray.x]);
-    const auto high_y = hn::Set(d, ray.origin.high[ray.y]), low_y = hn::Set(d, ray.origin.low[ray.y]);
-    const auto high_z = hn::Set(d, ray.origin.high[ray.z]), low_z = hn::Set(d, ray.origin.low[ray.z]);
+    const auto high_x = hn::Set(d, ray.high[0]), low_x = hn::Set(d, ray.low[0]);
+    const auto high_y = hn::Set(d, ray.high[1]), low_y = hn::Set(d, ray.low[1]);
+    const auto high_z = hn::Set(d, ray.high[2]), low_z = hn::Set(d, ray.low[2]);
     const auto shear_x = hn::Set(d, ray.shear_x), shear_y = hn::Set(d, ray.shear_y);
     const float* x = rows + ray.x * count;
     const float* y = rows + ray.y * count;
@@ -58,13 +58,16 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
             least = hn::Min(least, wa), most = hn::Max(most, wa);
         }
         const auto across = hn::Max(max_abs(ax, bx, cx), max_abs(ay, by, cy));
-        const auto coordinate_error =
-            hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)), hn::Set(d, ray.absolute));
-        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
-        const auto missed = hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e));
-        const auto open = hn::AndNot(missed, hn::FirstN(d, count - i));
+        // The bound for vertices as far away as there are any tells most misses, sooner.
+        const auto coarse = hn::MulAdd(hn::Set(d, ray.coarse_slope), across, hn::Set(d, ray.coarse));
+        const auto missed = hn::And(hn::Lt(least, hn::Neg(coarse)), hn::Gt(most, coarse));
+        auto open = hn::AndNot(missed, hn::FirstN(d, count - i));
         if (HWY_LIKELY(hn::AllFalse(d, open))) continue;
 
+        const auto coordinate_error = hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)),
+                                                 hn::Set(d, ray.absolute));
+        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
+        open = hn::AndNot(hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e)), open);
         const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
         const auto det = hn::Add(wa, hn::Add(wb, wc));
         const auto inverse = hn::Div(hn::Set(d, 1.0f), det);
@@ -83,7 +86,30 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
         const auto near = hn::Min(t1, t2), far = hn::Max(t1, t2);
         // Where nothing is known there is a NaN, and no comparison drops it.
         const auto dropped = hn::Or(hn::Gt(near, hn::Set(d, t_max)), hn::Lt(far, hn::Set(d, t_min)));
-        found.add(hn::AndNot(dropped, open), certain, near, far, i);
+        open = hn::AndNot(dropped, open);
+        if (ray.starts_at_origin && !hn::AllFalse(d, hn::And(open, hn::Lt(near, hn::Zero(d))))) {
+            const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
+            const auto ux = hn::Sub(load(x + vertex), load(x)), vx = hn::Sub(load(x + 2 * vertex), load(x)),
+                       uy = hn::Sub(load(y + vertex), load(y)), vy = hn::Sub(load(y + 2 * vertex), load(y)),
+                       uz = hn::Sub(bz, az), vz = hn::Sub(cz, az);
+            const auto qx = seen(x, high_x, low_x), qy = seen(y, high_y, low_y);
+            const auto product = hn::MulAdd(
+                hn::MulSub(uy, vz, hn::Mul(uz, vy)), qx,
+                hn::MulAdd(hn::MulSub(uz, vx, hn::Mul(ux, vz)), qy, hn::Mul(hn::MulSub(ux, vy, hn::Mul(uy, vx)), az)));
+            const auto edge = hn::Max(max_abs(ux, uy, uz), max_abs(vx, vy, vz)), q = max_abs(qx, qy, az);
+            const auto absolute = hn::Set(d, ray.absolute);
+            const auto error = hn::MulAdd(
+                hn::Mul(hn::Mul(edge, edge), q), hn::Set(d, 64 * 0x1p-24f),
+                hn::MulAdd(hn::Mul(edge, absolute),
+                           hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)), hn::Set(d, 0x1p-120f)));
+            // The normal is against the ray where det and the direction's z have the same sign; then what is behind has
+            // a positive product.
+            const auto sign = hn::Xor(product, hn::Xor(det, slope));
+            const auto is_positive = hn::Gt(hn::CopySign(hn::Set(d, 1.0f), sign), hn::Zero(d));
+            const auto behind = hn::And(hn::Gt(hn::Abs(product), error), is_positive);
+            open = hn::AndNot(hn::And(certain, behind), open);
+        }
+        found.add(open, certain, near, far, i);
     }
     return found;
 }

@@ -25,7 +25,7 @@ HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t cou
         const auto seen = [&](std::size_t a) {
             auto center = row(a);
             if constexpr (kMoving) center = hn::MulAdd(hn::Set(d, time), hn::Sub(row(3 + a), center), center);
-            return hn::Sub(hn::Sub(center, hn::Set(d, ray.origin.high[a])), hn::Set(d, ray.origin.low[a]));
+            return hn::Sub(hn::Sub(center, hn::Set(d, ray.high[a])), hn::Set(d, ray.low[a]));
         };
         const auto radius = row(kMoving ? 6 : 3);
         const auto px = seen(0), py = seen(1), pz = seen(2);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/sphere_uv.h"
+#include "kernels/box_ray-inl.h"
 #include "kernels/exact_tests.h"
 #include "kernels/node-inl.h"
 #include "kernels/planar-inl.h"
@@ -26,19 +27,20 @@ namespace limn::kernels::HWY_NAMESPACE {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    // `frame` and `query` are kept by reference.
-    Traversal(const flat::Scene& scene, const flat::Group& group, const RayFrame& frame, std::uint64_t first_number,
-              Query& query)
+    // `frame` and `query` are kept by reference; `ray`: see box_ray.
+    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
+                         std::uint64_t first_number, Query& query)
         : scene_(scene),
           group_(group),
           frame_(frame),
-          box_ray_(frame, group),
+          box_ray_(box_ray(ray, frame, group)),
           first_number_(first_number),
           query_(query),
           exact_(frame, group.extent),
           bound_(box_ray_.upper(query.limit())),
-          certain_after_(box_ray_.lower(frame.ray.t_min) + 4 * box_ray_.slack),
-          certain_before_(bound_ - 4 * box_ray_.slack) {
+          possible_after_(below(box_ray_.t_min)),
+          certain_after_(above(box_ray_.t_min + 2 * box_ray_.t_error)),
+          certain_before_(below(bound_ - 2 * box_ray_.t_error)) {
         if constexpr (has_planar()) planar_.emplace(box_ray_, packed_error());
         if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
     }
@@ -67,7 +69,7 @@ private:
     }
     static constexpr bool has_spheres() { return has(PrimitiveKind::sphere) || has(PrimitiveKind::moving_sphere); }
     // Vertices of meshes are packed as they are; other coordinates are rounded, moving centres then interpolated.
-    double packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22 * group_.extent; }
+    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22f * box_ray_.extent; }
 
     // A hit for sure, not asked exactly yet.
     struct Pending {
@@ -77,7 +79,7 @@ private:
     };
     static constexpr std::size_t kMaxPending = 8;
 
-    bool leaf(flat::Child child) {
+    HWY_INLINE bool leaf(flat::Child child) {
         flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
         for (;;) {
             const flat::Block header = block.header();
@@ -89,29 +91,32 @@ private:
 
     HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header) {
         if constexpr (kKinds == flat::bit(PrimitiveKind::mesh)) {
-            return take(test_planar<false>(block, header.count, *planar_, box_ray_.t_min, bound_), block, header);
+            return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)), block,
+                        header);
         } else {
             switch (header.kind) {
                 case PrimitiveKind::mesh:
                 case PrimitiveKind::triangle:
                     if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
-                        return take(test_planar<false>(block, header.count, *planar_, box_ray_.t_min, bound_), block,
-                                    header);
+                        return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)),
+                                    block, header);
                     break;
                 case PrimitiveKind::quad:
                     if constexpr (has(PrimitiveKind::quad))
-                        return take(test_planar<true>(block, header.count, *planar_, box_ray_.t_min, bound_), block,
-                                    header);
+                        return take(test_planar<true>(block, header.count, *planar_, possible_after_, above(bound_)),
+                                    block, header);
                     break;
                 case PrimitiveKind::sphere:
                     if constexpr (has(PrimitiveKind::sphere))
-                        return take(test_spheres<false>(block, header.count, *round_, 0, box_ray_.t_min, bound_), block,
-                                    header);
+                        return take(
+                            test_spheres<false>(block, header.count, *round_, 0, possible_after_, above(bound_)), block,
+                            header);
                     break;
                 case PrimitiveKind::moving_sphere:
                     if constexpr (has(PrimitiveKind::moving_sphere))
-                        return take(test_spheres<true>(block, header.count, *round_, time(), box_ray_.t_min, bound_),
-                                    block, header);
+                        return take(
+                            test_spheres<true>(block, header.count, *round_, time(), possible_after_, above(bound_)),
+                            block, header);
                     break;
                 case PrimitiveKind::instance:
                 case PrimitiveKind::foreign:
@@ -134,8 +139,8 @@ private:
                                  found.far[lane] < certain_before_;
             if (certain && Query::kFirstHit) return query_.report({}, 0, false);
             if (certain && !Query::kEveryHit) {
-                if (found.near[lane] > bound_) continue;  // another lane's hit is nearer
-                bound_ = smaller(bound_, found.far[lane] + box_ray_.slack);
+                if (found.near[lane] > above(bound_)) continue;  // another lane's hit is nearer
+                bound_ = smaller(bound_, above(found.far[lane] + box_ray_.t_error));
                 postpone({block, lane, found.near[lane]});
             } else if (ask(block, header, lane)) {
                 return true;
@@ -144,6 +149,9 @@ private:
         return false;
     }
 
+    // Beyond what rounding to float and the t that is reported may be off by.
+    static float above(float t) { return t + 0x1p-22f * std::abs(t); }
+    static float below(float t) { return t - 0x1p-22f * std::abs(t); }
     static float smaller(float a, float b) { return a < b ? a : b; }
 
     HWY_INLINE void postpone(const Pending& hit) {
@@ -154,7 +162,7 @@ private:
     bool ask_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
             const Pending& hit = pending_[i];
-            if (hit.near <= bound_ && ask(hit.block, hit.block.header(), hit.lane)) return true;
+            if (hit.near <= above(bound_) && ask(hit.block, hit.block.header(), hit.lane)) return true;
         }
         pending_count_ = 0;
         return false;
@@ -220,7 +228,7 @@ private:
                     if (ask_pending()) return true;  // so that the limit says all there is to say
                     return inside(instance, frame_, [&](const RayFrame& frame) {
                         return is_usable(frame.ray) &&
-                               Traversal(scene_, flat::group_at(scene_, instance.group), frame, number, query_).run();
+                               Traversal(scene_, flat::group_at(scene_, instance.group), frame.ray, frame, number, query_).run();
                     });
                 }
                 break;
@@ -282,8 +290,8 @@ private:
     Query& query_;
     ExactTests exact_;
     float bound_;  // in BoxRay's t: no hit of interest is beyond
-    const float certain_after_,
-        certain_before_;  // hits of which the whole interval lies between count, by t_min and t_max
+    // By t_min and t_max: hits before the first do not count, those that lie between the others do.
+    const float possible_after_, certain_after_, certain_before_;
     std::size_t pending_count_ = 0;
     Pending pending_[kMaxPending];
 };

@@ -23,10 +23,11 @@ constexpr unsigned kStill =
 constexpr unsigned kAll = flat::kBuiltKinds;
 
 template <class Query>
-void search(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first_number, Query& query) {
+void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
+            Query& query) {
     const flat::Group& group = flat::group_at(scene, id);
     const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
-                         HWY_ATTR { Traversal<kKinds, Query>(scene, group, frame, first_number, query).run(); };
+                         HWY_ATTR { Traversal<kKinds, Query>(scene, group, ray, frame, first_number, query).run(); };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
     if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
@@ -34,18 +35,21 @@ void search(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::ui
     run(std::integral_constant<unsigned, kAll>{});
 }
 
-void search_closest(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first, Closest& query) {
-    search(scene, id, frame, first, query);
+void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                    std::uint64_t first, Closest& query) {
+    search(scene, id, ray, frame, first, query);
 }
-void search_any(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first, Any<false>& query) {
-    search(scene, id, frame, first, query);
+void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                    std::uint64_t first, Any<false>& query) {
+    search(scene, id, ray, frame, first, query);
 }
-void search_occluder(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first,
-                     Any<true>& query) {
-    search(scene, id, frame, first, query);
+void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                    std::uint64_t first, Any<true>& query) {
+    search(scene, id, ray, frame, first, query);
 }
-void search_every(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first, Every& query) {
-    search(scene, id, frame, first, query);
+void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                    std::uint64_t first, Every& query) {
+    search(scene, id, ray, frame, first, query);
 }
 
 }  // namespace limn::kernels::HWY_NAMESPACE
@@ -62,9 +66,9 @@ HWY_EXPORT(search_any);
 HWY_EXPORT(search_occluder);
 HWY_EXPORT(search_every);
 
-Hit nearest(const flat::Scene& scene, GroupId id, const RayFrame& frame, std::uint64_t first_number) {
+Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
     Closest query{{frame.ray.t_max, flat::RawHit::kMiss}};
-    HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, frame, first_number, query);
+    HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
     return query.best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{query.best, query.u, query.v};
 }
 
@@ -92,17 +96,17 @@ bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
 
 }  // namespace
 
-Hit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, RayFrame(ray), 0); }
+Hit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, ray, RayFrame(ray), 0); }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any<false> query{ray.t_max};
-    HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, RayFrame(ray), 0, query);
+    HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     return query.found;
 }
 
 bool is_occluded(const flat::Scene& scene, const Ray& ray) {
     Any<true> query{ray.t_max};
-    HWY_DYNAMIC_DISPATCH(search_occluder)(scene, GroupId::root, RayFrame(ray), 0, query);
+    HWY_DYNAMIC_DISPATCH(search_occluder)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     return query.found;
 }
 
@@ -110,7 +114,7 @@ Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const
     Hit hit;
     if (!meets_bounds(medium, ray)) return hit;
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-        hit = nearest(scene, boundary_of(scene, medium), frame, medium.first_number);
+        hit = nearest(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number);
     });
     return hit;
 }
@@ -120,7 +124,7 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
     if (!meets_bounds(medium, ray)) return;
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
-        HWY_DYNAMIC_DISPATCH(search_every)(scene, boundary_of(scene, medium), frame, medium.first_number, query);
+        HWY_DYNAMIC_DISPATCH(search_every)(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
 }
 

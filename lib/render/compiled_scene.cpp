@@ -12,34 +12,50 @@ namespace limn {
 
 namespace {
 
+struct AnyHit : kernels::Hit {
+    bool on_boundary = false;  // of a medium
+};
+
 // Among surfaces and the boundaries of media.
-kernels::Hit closest_of_all(const flat::Scene& scene, const Ray& ray) {
-    kernels::Hit best = kernels::closest_hit(scene, ray);
+AnyHit closest_of_all(const flat::Scene& scene, const Ray& ray) {
+    AnyHit best{kernels::closest_hit(scene, ray)};
     for (const flat::Medium& medium : flat::media_of(scene)) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
         const kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
-        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
+        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = {hit, true};
     }
     return best;
 }
 
-RayHit complete(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw) {
-    const tracing::SurfaceHit at = tracing::surface_at(scene, ray, raw);
-    const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), raw.primitive);
-    const auto object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
-    return {.t = raw.t,
-            .object = static_cast<std::uint32_t>(object),
-            .element = raw.primitive - scene.first_of_object[object],
-            .u = at.u,
-            .v = at.v,
-            .index_matched = at.index_matched,
-            .primitive = raw.primitive};
+RayHit complete(const flat::Scene& scene, const Ray& ray, const AnyHit& hit) {
+    std::size_t object = 0;
+    if (scene.first_of_object.size() > 1) {
+        const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
+        object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
+    }
+    RayHit all{.t = hit.t,
+               .object = static_cast<std::uint32_t>(object),
+               .element = hit.primitive - scene.first_of_object[object],
+               .u = hit.u,
+               .v = hit.v,
+               .index_matched = hit.on_boundary,
+               .primitive = hit.primitive};
+    // A foreign shape says by itself whether it is index-matched, and may have been reached through others.
+    if (scene.features.foreign_shapes) all.index_matched = tracing::surface_at(scene, ray, hit).index_matched;
+    return all;
+}
+
+// is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
+bool is_fit(const Ray& r) {
+    const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
+    const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
+    return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
 // \pre is_usable(ray), as below
 std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
-    const kernels::Hit hit = closest_of_all(scene, ray);
+    const AnyHit hit = closest_of_all(scene, ray);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
     return complete(scene, ray, hit);
 }
@@ -56,7 +72,7 @@ std::size_t answer_all(std::span<const Ray> rays, const Answer& answer) {
     const FloatEnvironment environment;
     std::size_t unusable = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (is_usable(rays[i]))
+        if (is_fit(rays[i]))
             answer(i);
         else
             ++unusable;
@@ -83,12 +99,12 @@ CompiledScene::~CompiledScene() = default;
 
 std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
     const FloatEnvironment environment;
-    return is_usable(ray) ? find_closest(*scene_, ray) : std::nullopt;
+    return is_fit(ray) ? find_closest(*scene_, ray) : std::nullopt;
 }
 
 bool CompiledScene::any_hit(const Ray& ray) const {
     const FloatEnvironment environment;
-    return is_usable(ray) && find_any(*scene_, ray);
+    return is_fit(ray) && find_any(*scene_, ray);
 }
 
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {

@@ -1,0 +1,52 @@
+// BoxRay in vectors. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_BOX_RAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_BOX_RAY_INL_H
+#undef LIMN_KERNELS_BOX_RAY_INL_H
+#else
+#define LIMN_KERNELS_BOX_RAY_INL_H
+#endif
+
+#include "kernels/box_ray.h"
+#include "kernels/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+// `ray` is what frame.ray holds: where it has just been copied to it cannot be loaded from at once.
+HWY_INLINE BoxRay box_ray(const Ray& ray, const RayFrame& frame, const flat::Group& group) {
+    BoxRay out(group);
+#if HWY_MAX_BYTES >= 32
+    const hn::FixedTag<double, 4> wide;
+    const hn::FixedTag<float, 4> d;
+    const auto origin = hn::LoadU(wide, &ray.origin.x);
+    const auto high = hn::DemoteTo(d, origin);
+    const auto direction = hn::DemoteTo(d, hn::LoadU(wide, &ray.direction.x));
+    hn::Store(high, d, out.high);
+    hn::Store(direction, d, out.direction);
+    hn::Store(hn::DemoteTo(d, hn::Sub(origin, hn::PromoteTo(wide, high))), d, out.low);
+    if (HWY_UNLIKELY(!out.is_ordinary(frame, group))) {
+        out.adapt(frame, group);
+        return out;
+    }
+    const auto least = hn::Set(d, BoxRay::kLeast);
+    const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), least), direction));
+    const auto shift = hn::Neg(hn::Mul(high, inverse));
+    const auto widening = hn::Mul(hn::Set(d, BoxRay::kWider * out.reach), hn::Abs(inverse));
+    hn::Store(inverse, d, out.inverse);
+    hn::Store(hn::Sub(shift, widening), d, out.near_shift);
+    hn::Store(hn::Add(shift, widening), d, out.far_shift);
+    std::uint8_t signs = 0;
+    hn::StoreMaskBits(d, hn::MaskFromVec(hn::And(direction, hn::SignBit(d))), &signs);
+    out.octant = signs & 7u;
+    out.t_min = out.lower(ray.t_min);
+#else
+    static_cast<void>(ray);
+    out.adapt(frame, group);
+#endif
+    return out;
+}
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
