@@ -158,7 +158,7 @@ void GroupTree::finish(flat::Group& group) {
     group.extent = extent_;
     group.scale = std::ldexp(1.0, -exponent);
     scale_boxes(group.scale);
-    accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock});
+    accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
     group.root = pack_tree(bvh, references_, scene_);
 }
 

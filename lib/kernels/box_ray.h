@@ -21,20 +21,20 @@ namespace limn::kernels {
 // Conservative: let R = |origin| + extent, and u = 2^-24. Origin and direction are off by u each, the reciprocal by 2 u
 // more, products and sums by u each: t by at most 8 u R / |d_a| along axis a, half of what `wider` = 16 u R moves near
 // planes back and far planes on. The rest of it covers that the t of hits may be off by 2^-32 of itself, and the
-// rounding of t_min and t_max, 4 u R for what lies within reach. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013, has the
-// idea.
+// rounding of t_min and t_max, 4 u R for what lies within reach. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013, has
+// the idea.
 //
 // A direction that hardly moves along an axis, by less than kLeast, is made that long: inside or near the slab, `wider`
-// makes both planes lie beyond all boxes, in front and behind; else the box is missed sooner or later than it should be,
-// in any case.
+// makes both planes lie beyond all boxes, in front and behind; else the box is missed sooner or later than it should
+// be, in any case.
 struct BoxRay {
     // By axis; the fourth is there so that four can be worked out at once.
     alignas(16) float inverse[4], near_shift[4], far_shift[4];
     // For the leaves, in space as it is: the direction, and the origin in two floats, so that v - high - low has two
     // roundings of about v - origin, not of v.
     alignas(16) float direction[4], high[4], low[4];
-    float reach;      // R, in space as it is
-    float extent;     // Group::extent
+    float reach;   // R, in space as it is
+    float extent;  // Group::extent
     float t_min;
     float t_error = 0;  // of what is reported as t, beyond 2^-23 of it: of a ray that starts anew
     float scale = 1;    // of the boxes: Group::scale

@@ -17,6 +17,13 @@ HWY_INLINE float absolute_error(const BoxRay& ray, float coordinate_error) {
     return is_in_range ? error : std::numeric_limits<float>::infinity();
 }
 
+// Without branches, which could not be predicted: magnitudes compare as their bits do.
+HWY_INLINE unsigned longest_axis(const float* v) {
+    const auto bits = [&](std::size_t a) { return std::bit_cast<std::uint32_t>(v[a]) << 1; };
+    const unsigned is_y = bits(1) > bits(0), is_z = (bits(2) > bits(0)) & (bits(2) > bits(1));
+    return is_z * 2 + (is_y & ~is_z);
+}
+
 // For triangles and quads: ShearedRay in float. With u = 2^-24 and M the largest coordinate of a vertex seen from the
 // origin, such a coordinate is off by 2 u M and by what absolute_error says; the shear by 4 u; a sheared coordinate, by
 // the reasoning there, by (2 + 2 + 4 + 3) u M and twice that; products of two add 2 u P^2, P <= 2 M: E = relative M +
@@ -33,10 +40,7 @@ struct PlanarRay {
 
     // `vertex_error`: how far packed coordinates are from those that they stand for.
     HWY_INLINE PlanarRay(const BoxRay& ray, float vertex_error) : absolute(absolute_error(ray, vertex_error)) {
-        // Without branches: which axis it is cannot be predicted.
-        const float dx = std::abs(ray.direction[0]), dy = std::abs(ray.direction[1]), dz = std::abs(ray.direction[2]);
-        const unsigned larger_yz = dz > dy ? 2 : 1;
-        z = (dz > dy ? dz : dy) > dx ? larger_yz : 0;
+        z = longest_axis(ray.direction);
         x = 9u >> (2 * z) & 3;   // 1 2 0
         y = 18u >> (2 * z) & 3;  // 2 0 1
         const float inverse = ray.inverse[z];

@@ -6,9 +6,12 @@
 #define LIMN_KERNELS_NODE_INL_H
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 
 #include "accel/wide_bvh.h"
+#include "flat/scene.h"
 #include "kernels/box_ray.h"
 #include "kernels/lanes-inl.h"
 
@@ -40,6 +43,7 @@ struct Stack {
         near[size++] = t;
     }
 
+#if HWY_MAX_BYTES >= 32
     // Those of eight lanes whose mask is set, in their order.
     HWY_INLINE void push_some(V children, V t, M mask) {
         const Lanes d;
@@ -48,7 +52,8 @@ struct Stack {
 #if HWY_TARGET <= HWY_AVX3
         const auto packed_children = hn::Compress(children, mask), packed_t = hn::Compress(t, mask);
 #else
-        const auto lanes = hn::PromoteTo(hn::RebindToSigned<Lanes>(), hn::Load(hn::Rebind<std::uint8_t, Lanes>(), kSetLanes.of[set]));
+        const auto lanes =
+            hn::PromoteTo(hn::RebindToSigned<Lanes>(), hn::Load(hn::Rebind<std::uint8_t, Lanes>(), kSetLanes.of[set]));
         const auto packed = hn::IndicesFromVec(d, lanes);
         const auto packed_children = hn::TableLookupLanes(children, packed), packed_t = hn::TableLookupLanes(t, packed);
 #endif
@@ -56,7 +61,62 @@ struct Stack {
         hn::StoreU(packed_t, d, near + size);
         size += static_cast<std::size_t>(std::popcount(set));
     }
+#endif
 };
+
+// Where a ray enters the boxes of eight children, and which it meets: as many vectors as that takes.
+inline constexpr std::size_t kVectors = flat::kWidth / hn::MaxLanes(Lanes());
+struct Eight {
+    V near[kVectors];
+    M met[kVectors];
+};
+
+HWY_INLINE void prefetch(const flat::Scene& scene, flat::Child child) {
+    const char* leaf = reinterpret_cast<const char*>(scene.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf));
+    const char* node = reinterpret_cast<const char*>(scene.nodes.data() + child);
+    const char* first = (child & flat::kLeaf) != 0 ? leaf : node;
+    for (std::size_t line = 0; line < 4; ++line) hwy::Prefetch(first + 64 * line);
+}
+
+// The nearest child that is met, or kNothing; the others go onto the stack, the farthest first.
+HWY_INLINE flat::Child choose(const flat::Scene& scene, const flat::Node& node, unsigned octant, const Eight& eight,
+                              Stack& stack) {
+    const Lanes d;
+    std::uint32_t mask = 0;
+    for (std::size_t i = 0; i < kVectors; ++i) mask |= bits(eight.met[i]) << (i * hn::Lanes(d));
+    if (mask == 0) return flat::kNothing;
+    const auto first = static_cast<std::size_t>(std::countr_zero(mask));
+    const std::uint32_t others = mask & (mask - 1);
+    if (others == 0) return node.child[first];
+    HWY_ALIGN float near[flat::kWidth];
+    if ((others & (others - 1)) == 0) {
+        // The most common case but one. A branch can be predicted, and then nothing waits for the comparison.
+        for (std::size_t i = 0; i < kVectors; ++i) hn::Store(eight.near[i], d, near + i * hn::Lanes(d));
+        const auto second = static_cast<std::size_t>(std::countr_zero(others));
+        const bool is_first = near[first] <= near[second];
+        const flat::Child later = node.child[is_first ? second : first];
+        prefetch(scene, later);
+        stack.push(later, near[is_first ? second : first]);
+        return node.child[is_first ? first : second];
+    }
+    const std::uint32_t order = node.order[octant];
+#if HWY_MAX_BYTES >= 32
+    const hn::RebindToUnsigned<Lanes> du;
+    const auto slots = hn::And(hn::Shr(hn::Set(du, order), hn::ShiftLeft<2>(hn::Iota(du, 0))), hn::Set(du, 7));
+    const auto sorted = hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<Lanes>(), slots));
+    const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    const auto near_sorted = hn::TableLookupLanes(hn::IfThenElse(eight.met[0], eight.near[0], infinity), sorted);
+    const auto children = hn::TableLookupLanes(hn::BitCast(d, hn::LoadU(du, node.child)), sorted);
+    stack.push_some(children, near_sorted, hn::Lt(near_sorted, infinity));
+#else
+    for (std::size_t i = 0; i < kVectors; ++i) hn::Store(eight.near[i], d, near + i * hn::Lanes(d));
+    for (std::uint32_t slots = order, k = 0; k < flat::kWidth; ++k, slots >>= 4) {
+        const std::uint32_t i = slots & 7;
+        if ((mask >> i & 1) != 0) stack.push(node.child[i], near[i]);
+    }
+#endif
+    return stack.child[--stack.size];
+}
 
 // BoxRay in vectors.
 struct NodeTest {
@@ -91,52 +151,15 @@ struct NodeTest {
     }
 
     // The nearest child that the ray meets before t_max, or kNothing; the others go onto the stack, the farthest first.
-    HWY_INLINE flat::Child visit(const flat::Node& node, float t_max, Stack& stack) const {
+    HWY_INLINE flat::Child visit(const flat::Scene& scene, flat::Child at, float t_max, Stack& stack) const {
         const Lanes d;
-        const float* planes = node.lower[0];
-        const std::uint32_t order = node.order[octant];
-        if constexpr (hn::MaxLanes(Lanes()) == flat::kWidth) {
-            const auto near = enter(planes), far = leave(planes, hn::Set(d, t_max));
-            const auto met = hn::Le(near, far);
-            const std::uint32_t mask = bits(met);
-            if (mask == 0) return flat::kNothing;
-            const auto first = static_cast<std::size_t>(std::countr_zero(mask));
-            const std::uint32_t others = mask & (mask - 1);
-            if (others == 0) return node.child[first];
-            if ((others & (others - 1)) == 0) {
-                // The most common case but one. A branch can be predicted, and then nothing waits for the comparison.
-                HWY_ALIGN float t[flat::kWidth];
-                hn::StoreU(near, d, t);
-                const auto second = static_cast<std::size_t>(std::countr_zero(others));
-                const bool is_first = t[first] <= t[second];
-                stack.push(node.child[is_first ? second : first], t[is_first ? second : first]);
-                return node.child[is_first ? first : second];
-            }
-            const hn::RebindToUnsigned<Lanes> du;
-            const auto slots = hn::And(hn::Shr(hn::Set(du, order), hn::ShiftLeft<2>(hn::Iota(du, 0))), hn::Set(du, 7));
-            const auto sorted = hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<Lanes>(), slots));
-            const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-            const auto near_sorted = hn::TableLookupLanes(hn::IfThenElse(met, near, infinity), sorted);
-            const auto children = hn::TableLookupLanes(hn::BitCast(d, hn::LoadU(du, node.child)), sorted);
-            stack.push_some(children, near_sorted, hn::Lt(near_sorted, infinity));
-            return stack.child[--stack.size];
-        } else {
-            HWY_ALIGN float near[flat::kWidth];
-            std::uint32_t mask = 0;
-            for (std::size_t i = 0; i < flat::kWidth; i += hn::Lanes(d)) {
-                const auto t = enter(planes + i);
-                hn::StoreU(t, d, near + i);
-                mask |= bits(hn::Le(t, leave(planes + i, hn::Set(d, t_max)))) << i;
-            }
-            if (mask == 0) return flat::kNothing;
-            for (std::uint32_t slots = order, k = 0; k < flat::kWidth; ++k, slots >>= 4) {
-                const std::uint32_t i = slots & 7;
-                if ((mask >> i & 1) == 0) continue;
-                stack.child[stack.size] = node.child[i];
-                stack.near[stack.size++] = near[i];
-            }
-            return stack.child[--stack.size];
+        const flat::Node& node = scene.nodes[at];
+        Eight eight;
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            eight.near[i] = enter(node.lower[0] + i * hn::Lanes(d));
+            eight.met[i] = hn::Le(eight.near[i], leave(node.lower[0] + i * hn::Lanes(d), hn::Set(d, t_max)));
         }
+        return choose(scene, node, octant, eight, stack);
     }
 };
 

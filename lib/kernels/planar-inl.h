@@ -64,8 +64,8 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
         auto open = hn::AndNot(missed, hn::FirstN(d, count - i));
         if (HWY_LIKELY(hn::AllFalse(d, open))) continue;
 
-        const auto coordinate_error = hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)),
-                                                 hn::Set(d, ray.absolute));
+        const auto coordinate_error =
+            hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)), hn::Set(d, ray.absolute));
         const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
         open = hn::AndNot(hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e)), open);
         const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
@@ -100,8 +100,8 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
             const auto absolute = hn::Set(d, ray.absolute);
             const auto error = hn::MulAdd(
                 hn::Mul(hn::Mul(edge, edge), q), hn::Set(d, 64 * 0x1p-24f),
-                hn::MulAdd(hn::Mul(edge, absolute),
-                           hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)), hn::Set(d, 0x1p-120f)));
+                hn::MulAdd(hn::Mul(edge, absolute), hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)),
+                           hn::Set(d, 0x1p-120f)));
             // The normal is against the ray where det and the direction's z have the same sign; then what is behind has
             // a positive product.
             const auto sign = hn::Xor(product, hn::Xor(det, slope));

@@ -27,13 +27,13 @@ namespace limn::kernels::HWY_NAMESPACE {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    // `frame` and `query` are kept by reference; `ray`: see box_ray.
-    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
+    // `ray`, which is the frame's, `frame` and `query` are kept by reference.
+    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const BoxRay& ray, const RayFrame& frame,
                          std::uint64_t first_number, Query& query)
         : scene_(scene),
           group_(group),
           frame_(frame),
-          box_ray_(box_ray(ray, frame, group)),
+          box_ray_(ray),
           first_number_(first_number),
           query_(query),
           exact_(frame, group.extent),
@@ -52,7 +52,7 @@ public:
         Stack stack;
         flat::Child next = group_.root;
         for (;;) {
-            while (!(next & flat::kLeaf)) next = test.visit(scene_.nodes[next], bound_, stack);
+            while (!(next & flat::kLeaf)) next = test.visit(scene_, next, bound_, stack);
             if (next != flat::kNothing && leaf(next)) return true;
             do {
                 if (stack.size == 0) return ask_pending();
@@ -228,7 +228,7 @@ private:
                     if (ask_pending()) return true;  // so that the limit says all there is to say
                     return inside(instance, frame_, [&](const RayFrame& frame) {
                         return is_usable(frame.ray) &&
-                               Traversal(scene_, flat::group_at(scene_, instance.group), frame.ray, frame, number, query_).run();
+                               run_inside(flat::group_at(scene_, instance.group), frame, number);
                     });
                 }
                 break;
@@ -242,6 +242,11 @@ private:
             case PrimitiveKind::medium: break;  // never in a tree
         }
         return false;
+    }
+
+    bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
+        const BoxRay ray = box_ray(frame.ray, frame, group);
+        return Traversal(scene_, group, ray, frame, number, query_).run();
     }
 
     bool inward(const Vec3& outward) const { return Query::kEveryHit && dot(outward, frame_.ray.direction) < 0; }
@@ -283,7 +288,7 @@ private:
     const flat::Scene& scene_;
     const flat::Group& group_;
     const RayFrame& frame_;
-    const BoxRay box_ray_;
+    const BoxRay& box_ray_;
     std::optional<PlanarRay> planar_;
     std::optional<RoundRay> round_;
     const std::uint64_t first_number_;

@@ -26,8 +26,10 @@ template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
     const flat::Group& group = flat::group_at(scene, id);
-    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
-                         HWY_ATTR { Traversal<kKinds, Query>(scene, group, ray, frame, first_number, query).run(); };
+    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+        const BoxRay box = box_ray(ray, frame, group);
+        Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
+    };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
     if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
@@ -35,20 +37,20 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     run(std::integral_constant<unsigned, kAll>{});
 }
 
-void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                    std::uint64_t first, Closest& query) {
+void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                    Closest& query) {
     search(scene, id, ray, frame, first, query);
 }
-void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                    std::uint64_t first, Any<false>& query) {
+void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                Any<false>& query) {
     search(scene, id, ray, frame, first, query);
 }
-void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                    std::uint64_t first, Any<true>& query) {
+void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                     Any<true>& query) {
     search(scene, id, ray, frame, first, query);
 }
-void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                    std::uint64_t first, Every& query) {
+void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                  Every& query) {
     search(scene, id, ray, frame, first, query);
 }
 
@@ -96,7 +98,9 @@ bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
 
 }  // namespace
 
-Hit closest_hit(const flat::Scene& scene, const Ray& ray) { return nearest(scene, GroupId::root, ray, RayFrame(ray), 0); }
+Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
+    return nearest(scene, GroupId::root, ray, RayFrame(ray), 0);
+}
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any<false> query{ray.t_max};
@@ -124,7 +128,8 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
     if (!meets_bounds(medium, ray)) return;
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
-        HWY_DYNAMIC_DISPATCH(search_every)(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+        HWY_DYNAMIC_DISPATCH(search_every)
+        (scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
 }
 
