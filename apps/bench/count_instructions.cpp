@@ -71,7 +71,7 @@ extern "C" {
 
 namespace {
 
-// Rays that do not meet the box, whose lower corner is beyond all of them in x: those that stay below it, or go back.
+// The rays that do not meet the box.
 std::vector<Ray> that_miss(const std::vector<Ray>& rays, const Box& box) {
     std::vector<Ray> kept;
     for (const Ray& ray : rays) {

@@ -216,7 +216,7 @@ def truth_section(raw):
 
 def report(raw):
     head, short = raw["head"], missed(raw)
-    cells = sum(len(s["rows"]) * len(RATIOS) for s in raw["table"]["scenes"])
+    cells = sum(row[key] is not None for s in raw["table"]["scenes"] for row in s["rows"] for key, _ in RATIOS)
     of_rays = sum(1 for line in short if line.rsplit(": ", 1)[-1] in dict(RATIOS))
     lines = [f"Written by `{head['command']}`: {head['date']}, commit {head['commit']}, {head['processor']}, "
              f"{head['cores']} cores, Embree {raw['table']['versions'].get('Embree', 'is not installed')}, "
