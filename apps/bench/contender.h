@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/rays.h"
+#include "bench/stopwatch.h"
 
 namespace limn::bench {
 
@@ -45,7 +46,7 @@ private:
 class BuiltScene {
 public:
     virtual ~BuiltScene() = default;
-    virtual double seconds() const = 0;     // that building took
+    virtual double seconds() const = 0;     // that building took, by the clock that build() was given
     virtual std::size_t bytes() const = 0;  // that it holds, the arrays that it shares with the geometry included
     virtual std::vector<std::unique_ptr<Subject>> subjects() const = 0;  // valid as long as this
 };
@@ -56,7 +57,7 @@ public:
     virtual std::string name() const = 0;
     virtual std::string version() const = 0;
     // \param geometry stays as long as the scene
-    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry) const = 0;
+    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const = 0;
 };
 
 }  // namespace limn::bench

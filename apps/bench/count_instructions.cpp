@@ -6,7 +6,6 @@
 //   --rounds N   calls of each function: their times are then printed, round by round
 //   --foreign    adds a sphere of a class of its own beside the mesh, which no ray that is traced meets the box of
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -14,6 +13,7 @@
 
 #include "bench/rays.h"
 #include "bench/scenes.h"
+#include "bench/stopwatch.h"
 #include "limn/material/lambertian.h"
 #include "limn/render/render.h"
 #include "limn/shape/sphere.h"
@@ -116,10 +116,9 @@ using Times = std::map<std::string, std::vector<double>>;
 
 template <class Measure>
 void time(Times& times, const char* name, std::size_t rays, const Measure& measure) {
-    const auto begin = std::chrono::steady_clock::now();
+    const bench::Stopwatch watch(bench::Clock::thread);  // all that is measured runs in this one
     measure();
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-    times[name].push_back(taken.count() / static_cast<double>(rays));
+    times[name].push_back(1e9 * watch.seconds() / static_cast<double>(rays));
 }
 
 std::size_t number_after(int argc, char** argv, const char* option, std::size_t otherwise) {

@@ -65,10 +65,8 @@ public:
 
 }  // namespace
 
-LimnScene::LimnScene(const Scene& scene)
-    : begin_(std::chrono::steady_clock::now()),
-      scene_(compile(scene)),
-      seconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count()) {}
+LimnScene::LimnScene(const Scene& scene, Clock clock)
+    : watch_(clock), scene_(compile(scene)), seconds_(watch_.seconds()) {}
 
 std::vector<std::unique_ptr<Subject>> LimnScene::subjects() const {
     std::vector<std::unique_ptr<Subject>> subjects;
@@ -78,8 +76,8 @@ std::vector<std::unique_ptr<Subject>> LimnScene::subjects() const {
     return subjects;
 }
 
-std::unique_ptr<BuiltScene> LimnContender::build(const Geometry& geometry) const {
-    return std::make_unique<LimnScene>(describe(geometry));
+std::unique_ptr<BuiltScene> LimnContender::build(const Geometry& geometry, Clock clock) const {
+    return std::make_unique<LimnScene>(describe(geometry), clock);
 }
 
 }  // namespace limn::bench

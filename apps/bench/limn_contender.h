@@ -1,8 +1,6 @@
 /// \file
 #pragma once
 
-#include <chrono>
-
 #include "bench/contender.h"
 #include "limn/render/render.h"
 
@@ -11,7 +9,7 @@ namespace limn::bench {
 class LimnScene final : public BuiltScene {
 public:
     // Describing is not timed: it is the copying of what a program has into what limn asks for.
-    explicit LimnScene(const Scene& scene);
+    explicit LimnScene(const Scene& scene, Clock clock = Clock::wall);
 
     double seconds() const override { return seconds_; }
     std::size_t bytes() const override { return scene_.stats().memory_bytes; }
@@ -20,7 +18,7 @@ public:
     const CompiledScene& compiled() const { return scene_; }
 
 private:
-    std::chrono::steady_clock::time_point begin_;
+    Stopwatch watch_;
     CompiledScene scene_;
     double seconds_;
 };
@@ -29,7 +27,7 @@ class LimnContender final : public Contender {
 public:
     std::string name() const override { return "limn"; }
     std::string version() const override { return limn::version(); }
-    std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override;
+    std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const override;
 };
 
 }  // namespace limn::bench

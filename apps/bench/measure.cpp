@@ -4,8 +4,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "bench/stopwatch.h"
 
 namespace limn::bench {
 
@@ -22,9 +23,6 @@ double quantile(const std::vector<double>& sorted, double q) {
 
 // A measurement lasts at least this long, so that starting threads and reading clocks do not count.
 constexpr double kLeastSeconds = 0.004;
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 // As many as the subject likes, but so few that every thread of several gets some. All packets fit in 64.
 std::size_t chunk_for(const Subject& subject, std::size_t rays, const tbb::task_arena* arena) {
@@ -45,10 +43,10 @@ void trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
 
 // Of one pass over the rays.
 double time_of(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch watch(arena == nullptr ? Clock::thread : Clock::wall);
     for (int passes = 1;; ++passes) {
         trace_all(subject, rays, arena);
-        if (const double seconds = seconds_since(begin); seconds >= kLeastSeconds) return seconds / passes;
+        if (const double seconds = watch.seconds(); seconds >= kLeastSeconds) return seconds / passes;
     }
 }
 

@@ -78,11 +78,12 @@ private:
                 if (!is_robust(peer->name())) builders.push_back(peer.get());  // which builds as its plain scene does
             for (const Contender* builder : builders)
                 row.timings.push_back({.subject = builder->name(), .seconds = {}, .mismatches = 0});
+            const Clock clock = threads == 1 ? Clock::process : Clock::wall;
             double spent = 0;
             for (int round = 0; round < plan_.build_rounds || spent < kLeastBuilding; ++round) {
                 if (plan_.build_rounds == 0 || round == kMostBuilds) break;
                 for (std::size_t i = 0; i < builders.size() && goes_on(); ++i) {
-                    const double seconds = builders[i]->build(geometry)->seconds();
+                    const double seconds = builders[i]->build(geometry, clock)->seconds();
                     spent += seconds;
                     row.timings[i].seconds.push_back(seconds);
                 }
@@ -97,7 +98,7 @@ private:
         std::vector<std::unique_ptr<Subject>> subjects = limn.subjects();
         result.bytes.emplace_back("limn", limn.bytes());
         for (const auto& peer : peers_) {
-            built.push_back(peer->build(geometry));
+            built.push_back(peer->build(geometry, Clock::wall));
             result.bytes.emplace_back(peer->name(), built.back()->bytes());
             auto more = built.back()->subjects();
             // Of the robust scene single rays are enough.

@@ -27,9 +27,10 @@ using bench::Plan;
 
 constexpr const char* kMeaning =
     R"(Rates are in million rays a second, medians over the rounds; limn/Embree, limn/robust and batch/best are the
-medians of the ratios of each round, with their quartiles. Every round lets each take its turn. Embree appears
-where its module was built; best is its fastest way of asking: packets of 4, 8 or 16, streams of single rays (1M) or
-of packets (16M). differ/M: rays in a million that Embree answers otherwise than limn.)";
+medians of the ratios of each round, with their quartiles. Every round lets each take its turn; what one thread
+does is measured by processor time, what several do by the clock. Embree appears where its module was built; best is
+its fastest way of asking: packets of 4, 8 or 16, streams of single rays (1M) or of packets (16M). differ/M: rays in a
+million that Embree answers otherwise than limn.)";
 
 template <class Integer>
 auto integer_option(const char* option, Integer lowest, Integer highest, Integer& value) {

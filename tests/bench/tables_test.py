@@ -28,14 +28,14 @@ def scene(rows=None, build=1.0, size=64):
             "rows": rows or [row()]}
 
 
-def raw(scenes=None, more=1.0):
+def raw(scenes=None, more=1.0, aside=1.0):
     counts = {"primary_single": 100.0}
     times = {"primary_single": [1.0]}
     return {"table": {"versions": {}, "scenes": scenes or [scene()]}, "growth": {"soup": [scene()]}, "faults": [],
             "truth": [{"scene": "soup", "rays": "primary", "judged": 40, "hits": 9, "wrong": 0, "first": ""}],
             "instructions": {"whole": {"primary_single": 100.0 * more},
                              "without": {"media": {"counts": counts, "times": times}},
-                             "foreign": {"counts": counts, "times": times}},
+                             "foreign": {"counts": {"primary_single": 100.0 * more * aside}, "times": times}},
             "head": {"command": "x", "date": "today", "commit": "c", "processor": "p", "cores": 2, "minutes": 1}}
 
 
@@ -51,6 +51,7 @@ class Goals(unittest.TestCase):
         self.assertEqual(tables.missed(raw([scene(build=0.9)])), ["soup, built by 1 threads"])
         self.assertEqual(tables.missed(raw([scene(size=65)])), ["soup: bytes"])
         self.assertEqual(tables.missed(raw(more=1.02)), ["instructions, media: primary_single"])
+        self.assertEqual(tables.missed(raw(aside=1.02)), ["instructions, a foreign sphere aside: primary_single"])
 
     def test_two_threads_are_nearly_twice_as_fast_as_one(self):
         self.assertEqual(tables.missed(raw([scene([row(), row(threads=2)])])), [])
