@@ -1,22 +1,40 @@
 #include "accel/binning.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace limn::accel {
 
 namespace {
 
-struct Bins {
-    Bounds bounds[3][BinMapping::kMaxBins];
-    Int4 count[BinMapping::kMaxBins] = {};  // by axis
+constexpr int kMaxBins = 32;
 
-    void add(const Reference& reference, const BinMapping& mapping) {
-        const Bounds box = bounds_of(reference);
-        const Int4 place = mapping(center_of(box));
+struct Bins {
+    Bounds bounds[3][kMaxBins];
+    Int4 count[kMaxBins];  // by axis
+    int bins;
+    Vec4 origin, scale, last;
+
+    explicit Bins(const Range& range)
+        : bins(std::clamp(static_cast<int>(range.size() / 4) + 8, 8, kMaxBins)),
+          origin(range.centers.lower),
+          scale{},
+          last(splat(static_cast<float>(bins - 1))) {
+        for (int b = 0; b < bins; ++b) {
+            for (int axis = 0; axis < 3; ++axis) bounds[axis][b] = kEmpty;
+            count[b] = Int4{};
+        }
+        const Vec4 extent = range.centers.upper - origin;
+        // An axis along which all centres are one, or the reciprocal could overflow, has one bin.
+        for (int axis = 0; axis < 3; ++axis)
+            if (extent[axis] > 0x1p-120f) scale[axis] = static_cast<float>(bins) / extent[axis];
+    }
+
+    void add(const Reference& r) {
+        const Int4 place = __builtin_convertvector(min((r.center() - origin) * scale, last), Int4);
+        const auto weight = static_cast<std::int32_t>(r.weight());
         for (int axis = 0; axis < 3; ++axis) {
-            bounds[axis][place[axis]].extend(box);
-            ++count[place[axis]][axis];
+            bounds[axis][place[axis]].extend(r.bounds());
+            count[place[axis]][axis] += weight;
         }
     }
 };
@@ -34,43 +52,32 @@ Vec4 areas(const Bounds (&boxes)[3], Vec4 scale) {
 
 }  // namespace
 
-BinMapping::BinMapping(const Range& range)
-    : bins_(kMaxBins), origin_(range.centers.lower), scale_{}, last_(splat(kMaxBins - 1)) {
-    const Vec4 extent = range.centers.upper - range.centers.lower;
-    // An axis along which all centres are one, or the reciprocal would overflow, has one bin.
-    for (int a = 0; a < 3; ++a)
-        if (extent[a] > 0x1p-120f) scale_[a] = static_cast<float>(bins_) / extent[a];
-}
-
-Split best_split(std::span<const Reference> references, const Range& range, const BinMapping& mapping,
-                 std::uint32_t leaf_width) {
-    Bins bins;
-    for (std::uint32_t i = range.begin; i < range.end; ++i) bins.add(references[i], mapping);
+Split best_split(const Reference* references, const Range& range, std::uint32_t leaf_width) {
+    Bins bins(range);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) bins.add(references[i]);
 
     const Vec4 sides = range.bounds.upper - range.bounds.lower;
     const Vec4 scale = splat(1 / std::max({sides[0], sides[1], sides[2], 0x1p-120f}));
-    const Bounds whole[3] = {range.bounds, range.bounds, range.bounds};
-    const Vec4 per_area = 1 / areas(whole, scale);
     const Vec4 up = splat(static_cast<float>(leaf_width - 1)), per_test = splat(1 / static_cast<float>(leaf_width));
     const auto cost = [&](const Bounds(&side)[3], Int4 count) {
         const Int4 tests = __builtin_convertvector((__builtin_convertvector(count, Vec4) + up) * per_test, Int4);
-        return areas(side, scale) * __builtin_convertvector(tests, Vec4) * per_area;
+        return areas(side, scale) * __builtin_convertvector(tests, Vec4);
     };
 
-    Vec4 lower_cost[BinMapping::kMaxBins];
-    Bounds side[3];
+    Vec4 lower_cost[kMaxBins];
+    Bounds side[3] = {kEmpty, kEmpty, kEmpty};
     Int4 count{};
-    for (int b = 0; b + 1 < mapping.bins(); ++b) {
+    for (int b = 0; b + 1 < bins.bins; ++b) {
         for (int axis = 0; axis < 3; ++axis) side[axis].extend(bins.bounds[axis][b]);
         count += bins.count[b];
         lower_cost[b + 1] = cost(side, count);
     }
-    for (Bounds& s : side) s = Bounds();
+    for (Bounds& s : side) s = kEmpty;
     count = Int4{};
     // An empty side costs infinity times nothing, which is not less than anything.
-    Vec4 least = splat(std::numeric_limits<float>::infinity());
+    Vec4 least = kEndless;
     Int4 where{};
-    for (int b = mapping.bins() - 1; b > 0; --b) {
+    for (int b = bins.bins - 1; b > 0; --b) {
         for (int axis = 0; axis < 3; ++axis) side[axis].extend(bins.bounds[axis][b]);
         count += bins.count[b];
         const Vec4 both = lower_cost[b] + cost(side, count);
@@ -78,34 +85,26 @@ Split best_split(std::span<const Reference> references, const Range& range, cons
         least = better ? both : least;
         where = better ? Int4{b, b, b, b} : where;
     }
+    const Bounds whole[3] = {range.bounds, range.bounds, range.bounds};
+    const float area = areas(whole, scale)[0];
     Split best;
     for (int axis = 0; axis < 3; ++axis)
-        if (least[axis] < best.cost) best = {least[axis], axis, where[axis]};
+        if (least[axis] / area < best.cost)
+            best = {least[axis] / area, axis, bins.origin[axis], bins.scale[axis], static_cast<float>(where[axis])};
     return best;
 }
 
-void partition(std::span<Reference> references, const Range& range, const BinMapping& mapping, const Split& split,
-               Range& lower, Range& upper) {
-    lower = upper = Range();
+std::uint32_t partition(const Reference* from, Reference* to, const Range& range, const Split& split) {
+    // Each goes to both ends of what is still free, and one end moves: that takes no branch that could be mispredicted.
     std::uint32_t begin = range.begin, end = range.end;
-    while (begin < end) {
-        const Bounds box = bounds_of(references[begin]);
-        if (mapping(center_of(box))[split.axis] < split.bin) {
-            lower.add(box);
-            ++begin;
-        } else {
-            upper.add(box);
-            std::swap(references[begin], references[--end]);
-        }
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const Reference r = from[i];
+        to[begin] = to[end - 1] = r;
+        const bool lower = split.is_lower(r);
+        begin += lower ? 1 : 0;
+        end -= lower ? 0 : 1;
     }
-    lower.begin = range.begin, lower.end = upper.begin = begin, upper.end = range.end;
-}
-
-void halve(std::span<const Reference> references, const Range& range, Range& lower, Range& upper) {
-    lower = upper = Range();
-    const std::uint32_t middle = range.begin + range.count() / 2;
-    lower.begin = range.begin, lower.end = upper.begin = middle, upper.end = range.end;
-    for (std::uint32_t i = range.begin; i < range.end; ++i) (i < middle ? lower : upper).add(bounds_of(references[i]));
+    return begin;
 }
 
 }  // namespace limn::accel

@@ -1,47 +1,64 @@
 #include "accel/collapse.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace limn::accel {
 
-double half_area(const float* lower, const float* upper) {
-    const double x = static_cast<double>(upper[0]) - lower[0], y = static_cast<double>(upper[1]) - lower[1],
-                 z = static_cast<double>(upper[2]) - lower[2];
-    // A little more, so that boxes without any area are told apart by their length.
-    return x * y + y * z + z * x + 0x1p-20 * (x * x + y * y + z * z);
+double half_area(const FloatBox& box) {
+    double side[3];
+    for (std::size_t a = 0; a < 3; ++a) side[a] = static_cast<double>(box.upper[a]) - box.lower[a];
+    // A little more, so that boxes without any area are told apart by their length, and no root has none.
+    const double square = side[0] * side[0] + side[1] * side[1] + side[2] * side[2];
+    return side[0] * side[1] + side[1] * side[2] + side[2] * side[0] + 0x1p-20 * square + 0x1p-400;
 }
 
-ForestCosts leaf_costs(double area, std::uint32_t count, const BuildSettings& settings) {
+double leaf_cost(std::uint32_t size, const BuildSettings& settings) {
+    return (size + settings.leaf_width - 1) / settings.leaf_width * settings.leaf_cost;
+}
+
+ForestCosts closed_costs(double cost) {
     ForestCosts costs;
-    costs.fill(area * ((count + settings.leaf_width - 1) / settings.leaf_width) * settings.leaf_cost);
+    costs.fill(cost);
     return costs;
 }
 
-ForestCosts plan_node(double area, std::uint32_t count, const ForestCosts& left, const ForestCosts& right,
-                      const BuildSettings& settings, Plan& plan) {
-    std::array<double, kWidth + 1> spread;  // over i slots, two or more
+ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
+                      const BuildSettings& settings) {
+    double open[kWidth + 1];  // over so many slots
     for (std::size_t slots = 2; slots <= kWidth; ++slots) {
-        spread[slots] = left[0] + right[slots - 2];
-        plan.left_slots[slots - 2] = 1;
-        for (std::size_t k = 2; k < slots; ++k) {
+        open[slots] = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 1; k < slots; ++k) {
             const double cost = left[k - 1] + right[slots - k - 1];
-            if (cost < spread[slots]) spread[slots] = cost, plan.left_slots[slots - 2] = static_cast<std::uint8_t>(k);
+            if (cost < open[slots]) open[slots] = cost, node.left_slots[slots] = static_cast<std::uint8_t>(k);
         }
     }
-    ForestCosts costs;
-    costs[0] = spread[kWidth] + area * settings.node_cost;
-    if (count <= settings.max_leaf) {
-        const double leaf = leaf_costs(area, count, settings)[0];
-        plan.is_leaf = leaf <= costs[0];
-        costs[0] = std::min(costs[0], leaf);
+    const double area = half_area(node.box);
+    double closed = open[kWidth] + area * settings.node_cost;
+    node.is_leaf = false;
+    if (node.size() <= settings.max_leaf) {
+        const double leaf = area * leaf_cost(node.size(), settings);
+        node.is_leaf = leaf <= closed;
+        closed = std::min(leaf, closed);
     }
-    plan.open_from = kWidth;
+    // More slots never cost more.
+    ForestCosts costs;
+    costs[0] = closed;
+    node.open_from = node.is_leaf ? kWidth + 1 : kWidth;
     for (std::size_t slots = kWidth - 1; slots >= 2; --slots) {
-        const bool open = spread[slots] < costs[0] || (spread[slots] == costs[0] && !plan.is_leaf);
-        if (open) plan.open_from = static_cast<std::uint8_t>(slots);
-        costs[slots - 1] = open ? spread[slots] : costs[0];
+        if (open[slots] < closed) node.open_from = static_cast<std::uint8_t>(slots);
+        costs[slots - 1] = std::min(open[slots], closed);
     }
     return costs;
+}
+
+void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled) {
+    if (slots < node.open_from) {
+        filled.push_back(&node);
+        return;
+    }
+    fill_slots(*node.left, node.left_slots[slots], filled);
+    fill_slots(*node.right, slots - node.left_slots[slots], filled);
 }
 
 }  // namespace limn::accel

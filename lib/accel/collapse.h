@@ -3,28 +3,39 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "accel/wide_bvh.h"
 
 namespace limn::accel {
 
-// The least cost of what stands under a binary node, times the root's area, if it may fill up to i + 1 slots.
-using ForestCosts = std::array<double, kWidth - 1>;
+struct SplitNode {
+    FloatBox box;
+    std::uint32_t begin = 0, end = 0;  // of the references under it
+    SplitNode *left = nullptr, *right = nullptr;
+    // The plan: if all that is under the node may fill so many slots, two or more, how many of them its left child
+    // gets; and with fewer than `open_from` the node fills one, by itself, as a node or a leaf.
+    std::uint8_t left_slots[kWidth + 1] = {};
+    std::uint8_t open_from = kWidth + 1;
+    bool is_leaf = true;
 
-// How to get there.
-struct Plan {
-    std::uint8_t left_slots[kWidth - 1] = {};  // of i + 2 slots, how many go to the left child
-    std::uint8_t open_from = kWidth;           // with fewer slots the node fills one, by itself
-    bool is_leaf = false;                      // what it is then
+    std::uint32_t size() const { return end - begin; }
 };
 
-double half_area(const float* lower, const float* upper);
+// The least cost of what is under a binary node, times the root's area, if it may fill up to i + 1 slots.
+using ForestCosts = std::array<double, kWidth - 1>;
 
-// For a binary leaf, or what may become one: nothing below it is of use.
-ForestCosts leaf_costs(double area, std::uint32_t count, const BuildSettings& settings);
+double half_area(const FloatBox& box);
+double leaf_cost(std::uint32_t size, const BuildSettings& settings);
 
-// For a node of `count` boxes, or of more than max_leaf, with two children.
-ForestCosts plan_node(double area, std::uint32_t count, const ForestCosts& left, const ForestCosts& right,
-                      const BuildSettings& settings, Plan& plan);
+// Of what fills one slot, whatever it is offered.
+ForestCosts closed_costs(double cost);
+
+// Makes the plan of a node with two children.
+ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
+                      const BuildSettings& settings);
+
+// Adds the nodes that make the most of so many slots for all that is under `node`.
+void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled);
 
 }  // namespace limn::accel

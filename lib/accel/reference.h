@@ -1,4 +1,4 @@
-// What the builder moves about: a box with its number, in two vectors of four floats.
+// What the builder moves about: boxes with their numbers, in two vectors of four floats.
 #pragma once
 
 #include <bit>
@@ -17,17 +17,9 @@ inline Vec4 splat(float x) { return Vec4{x, x, x, x}; }
 inline Vec4 min(Vec4 a, Vec4 b) { return a < b ? a : b; }
 inline Vec4 max(Vec4 a, Vec4 b) { return a > b ? a : b; }
 
-struct alignas(32) Reference {
-    Vec4 lower, upper;  // the fourth lane of `lower` holds the number
-
-    std::uint32_t id() const { return std::bit_cast<std::uint32_t>(lower[3]); }
-};
-static_assert(sizeof(Reference) == 32);
-
-// The fourth lane holds nothing of meaning.
+// The fourth lane has no meaning.
 struct Bounds {
-    Vec4 lower = splat(std::numeric_limits<float>::infinity());
-    Vec4 upper = splat(-std::numeric_limits<float>::infinity());
+    Vec4 lower, upper;
 
     void extend(const Bounds& b) {
         lower = min(lower, b.lower);
@@ -35,9 +27,59 @@ struct Bounds {
     }
 };
 
-inline Bounds bounds_of(const Reference& r) { return {r.lower, r.upper}; }
+inline constexpr Vec4 kEndless{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+                               std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+inline constexpr Bounds kEmpty{kEndless, -kEndless};
 
-// Twice the centre. Bounded boxes are small enough for the sum.
-inline Vec4 center_of(const Bounds& b) { return b.lower + b.upper; }
+// A box, or a cell that many boxes have their centres in. The fourth lane of `lower` holds its number, that of `upper`
+// how many boxes it stands for; the bits of the first make up no subnormal float, for arithmetic is done on all lanes
+// and is slow on those.
+struct Reference {
+    static constexpr std::uint32_t kNormal = 0x40000000u;
+
+    Vec4 lower, upper;
+
+    Reference() = default;
+    Reference(const Bounds& b, std::uint32_t id, std::uint32_t weight = 1) : lower(b.lower), upper(b.upper) {
+        lower[3] = std::bit_cast<float>(id ^ kNormal);
+        upper[3] = std::bit_cast<float>(weight);
+    }
+
+    std::uint32_t id() const { return std::bit_cast<std::uint32_t>(lower[3]) ^ kNormal; }
+    std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(upper[3]); }
+    Bounds bounds() const { return {lower, upper}; }
+    Vec4 center() const { return lower + upper; }  // twice the centre; bounded boxes are small enough for the sum
+};
+static_assert(sizeof(Reference) == 32);
+
+// References that stand together, and what surrounds them and their centres.
+struct Range {
+    std::uint32_t begin = 0, end = 0;
+    Bounds bounds = kEmpty, centers = kEmpty;
+
+    std::uint32_t size() const { return end - begin; }
+    void extend(const Reference& r) {
+        bounds.extend(r.bounds());
+        centers.extend({r.center(), r.center()});
+    }
+    void extend(const Range& r) {
+        bounds.extend(r.bounds);
+        centers.extend(r.centers);
+    }
+};
+
+inline Bounds to_bounds(const FloatBox& b) {
+    return {Vec4{b.lower[0], b.lower[1], b.lower[2]}, Vec4{b.upper[0], b.upper[1], b.upper[2]}};
+}
+
+inline FloatBox to_box(const Bounds& b) {
+    return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}};
+}
+
+inline Range range_over(const Reference* references, std::uint32_t begin, std::uint32_t end) {
+    Range range{begin, end};
+    for (std::uint32_t i = begin; i < end; ++i) range.extend(references[i]);
+    return range;
+}
 
 }  // namespace limn::accel

@@ -1,189 +1,109 @@
 #include "accel/wide_bvh.h"
 
-#include <algorithm>
-#include <cmath>
+#include <oneapi/tbb/parallel_for.h>
 
-#include "accel/order.h"
-#include "accel/split_tree.h"
+#include <deque>
+
+#include "accel/assemble.h"
+#include "accel/gather.h"
+#include "accel/grid.h"
+#include "accel/subtree.h"
 
 namespace limn::accel {
 
 namespace {
 
-constexpr float kEndless = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t kSubtree = 4096;  // references that one thread sorts, in its second-level cache
 
-// Beyond it a box counts as unbounded: sums and differences of two such coordinates could overflow.
-constexpr float kBounded = 0x1p125f;
-
-WideNode empty_node() {
-    WideNode node{};
-    for (std::size_t a = 0; a < 3; ++a) {
-        std::fill_n(node.lower[a], kWidth, kEndless);
-        std::fill_n(node.upper[a], kWidth, -kEndless);
-    }
-    std::fill_n(node.child, kWidth, WideNode::kAbsent);
-    return node;
-}
-
-void set_box(WideNode& node, std::size_t slot, const float* lower, const float* upper) {
-    for (std::size_t a = 0; a < 3; ++a) node.lower[a][slot] = lower[a], node.upper[a][slot] = upper[a];
-}
-
-void extend(FloatBox& box, const float* lower, const float* upper) {
-    for (std::size_t a = 0; a < 3; ++a) {
-        box.lower[a] = std::min(box.lower[a], lower[a]);
-        box.upper[a] = std::max(box.upper[a], upper[a]);
-    }
-}
-
-class Builder {
+// The binary tree over all bounded boxes.
+class TreeBuilder {
 public:
-    Builder(std::span<const FloatBox> boxes, const BuildSettings& settings) : boxes_(boxes), settings_(settings) {
-        bvh_.bounds = {{kEndless, kEndless, kEndless}, {-kEndless, -kEndless, -kEndless}};
-        references_.reserve(boxes.size());
-        for (std::uint32_t id = 0; id < boxes.size(); ++id) {
-            const FloatBox& box = boxes[id];
-            bool empty = false, bounded = true;
-            for (std::size_t a = 0; a < 3; ++a) {
-                empty = empty || !(box.lower[a] <= box.upper[a]);
-                bounded = bounded && box.lower[a] >= -kBounded && box.upper[a] <= kBounded;
-            }
-            if (empty) continue;
-            extend(bvh_.bounds, box.lower, box.upper);
-            for (std::size_t a = 0; a < 3; ++a)
-                for (const float x : {box.lower[a], box.upper[a]})
-                    if (std::isfinite(x)) bvh_.extent = std::max(bvh_.extent, std::abs(static_cast<double>(x)));
-            if (!bounded) {
-                unbounded_.push_back(id);
-                continue;
-            }
-            const Reference r{{box.lower[0], box.lower[1], box.lower[2], std::bit_cast<float>(id)},
-                              {box.upper[0], box.upper[1], box.upper[2], 0}};
-            references_.push_back(r);
-            range_.add(bounds_of(r));
+    TreeBuilder(std::uint32_t size, const BuildSettings& settings) : settings_(settings), spare_(size), ids_(size) {}
+
+    ForestCosts build(Reference* references, const Range& range) {
+        split(references, spare_.data(), {&root_, 1, 0, range.size()}, range);
+        if (jobs_.size() == 1) {
+            run(jobs_[0]);
+        } else {
+            tbb::parallel_for(std::size_t{0}, jobs_.size(), [this](std::size_t i) { run(jobs_[i]); });
         }
-        range_.end = static_cast<std::uint32_t>(references_.size());
+        std::size_t next_job = 0;
+        return plan(root_, next_job);
     }
 
-    WideBvh build() && {
-        if (references_.empty() && unbounded_.empty()) return std::move(bvh_);
-        std::vector<Child> children;
-        if (!references_.empty()) {
-            build_split_tree(references_, range_, 1, settings_, nodes_);
-            root_area_ = half_area(nodes_[0].lower, nodes_[0].upper);
-            // Unbounded boxes stand beside the best of all others, for no split can part them by area.
-            const std::size_t slots = unbounded_.empty() ? kWidth : kWidth - 1;
-            if (nodes_[0].plan.is_leaf) {
-                children.push_back({0, true});
-            } else {
-                spread(0, slots, children);
-            }
-        }
-        bvh_.nodes.push_back(empty_node());
-        fill(0, children);
-        if (!unbounded_.empty()) place_unbounded(0, children.size(), unbounded_);
-        set_order(bvh_.nodes[0]);
-        return std::move(bvh_);
-    }
+    const SplitNode& root() const { return root_; }
+    std::span<const std::uint32_t> ids() const { return ids_; }
 
 private:
-    struct Child {
-        std::uint32_t row;
-        bool is_leaf;
+    struct Job {
+        Reference *references, *spare;
+        OpenRange range;
+        SubtreeBuilder builder;
+        ForestCosts costs;
     };
 
-    // The children that make the most of so many slots under a node.
-    void spread(std::uint32_t row, std::size_t slots, std::vector<Child>& children) const {
-        const auto place = [&](std::uint32_t side, std::size_t its_slots) {
-            const Plan& plan = nodes_[side].plan;
-            if (its_slots < plan.open_from) {
-                children.push_back({side, plan.is_leaf});
-            } else {
-                spread(side, its_slots, children);
-            }
-        };
-        const std::size_t left = nodes_[row].plan.left_slots[slots - 2];
-        place(row + 1, left);
-        place(nodes_[row].right, slots - left);
-    }
-
-    double share(std::uint32_t row) const {
-        return root_area_ > 0 ? half_area(nodes_[row].lower, nodes_[row].upper) / root_area_ : 1;
-    }
-
-    void fill(std::uint32_t row, const std::vector<Child>& children) {
-        for (std::size_t slot = 0; slot < children.size(); ++slot) {
-            const SplitNode& child = nodes_[children[slot].row];
-            set_box(bvh_.nodes[row], slot, child.lower, child.upper);
-            if (!children[slot].is_leaf) continue;
-            bvh_.nodes[row].child[slot] = add_leaf(child);
-            bvh_.cost += share(children[slot].row) * leaf_cost(child.end - child.begin);
-        }
-        std::vector<Child> inner;
-        for (std::size_t slot = 0; slot < children.size(); ++slot) {
-            if (children[slot].is_leaf) continue;
-            const auto next = static_cast<std::uint32_t>(bvh_.nodes.size());
-            bvh_.nodes[row].child[slot] = next;
-            bvh_.nodes.push_back(empty_node());
-            inner.clear();
-            spread(children[slot].row, kWidth, inner);
-            fill(next, inner);
-            set_order(bvh_.nodes[next]);
-            bvh_.cost += share(children[slot].row) * settings_.node_cost;
+    void split(Reference* references, Reference* spare, const OpenRange& open, const Range& range) {
+        if (open.size() <= kSubtree) {
+            jobs_.push_back({references, spare, open, {settings_, ids_.data()}, {}});
+        } else if (has_extent(range) && may_split(open.size(), open.depth)) {
+            for (const OpenRange& part :
+                 split_by_grid(references, spare, range, *open.node, open.depth, kSubtree, settings_, nodes_))
+                split_further(spare, references, part);
+        } else {
+            SplitNode& node = *open.node;
+            node.box = to_box(range.bounds);
+            node.begin = open.begin, node.end = open.end;
+            const std::uint32_t middle = open.begin + open.size() / 2;
+            node.left = &nodes_.emplace_back();
+            split_further(references, spare, {node.left, open.depth + 1, open.begin, middle});
+            node.right = &nodes_.emplace_back();
+            split_further(references, spare, {node.right, open.depth + 1, middle, open.end});
         }
     }
 
-    double leaf_cost(std::uint32_t count) const {
-        return (count + settings_.leaf_width - 1) / settings_.leaf_width * settings_.leaf_cost;
+    void split_further(Reference* references, Reference* spare, const OpenRange& open) {
+        split(references, spare, open,
+              open.size() > kSubtree ? range_over_many(references, open.begin, open.end) : Range());
     }
 
-    std::uint32_t add_leaf(const SplitNode& node) {
-        std::vector<std::uint32_t> ids;
-        for (std::uint32_t i = node.begin; i < node.end; ++i) ids.push_back(references_[i].id());
-        return add_leaf(ids);
+    void run(Job& job) {
+        const Range range = range_over(job.references, job.range.begin, job.range.end);
+        job.costs = job.builder.build(job.references, job.spare, range, job.range.depth, *job.range.node);
     }
 
-    std::uint32_t add_leaf(std::span<const std::uint32_t> ids) {
-        bvh_.leaves.push_back({static_cast<std::uint32_t>(bvh_.ids.size()), static_cast<std::uint32_t>(ids.size())});
-        bvh_.ids.insert(bvh_.ids.end(), ids.begin(), ids.end());
-        std::sort(bvh_.ids.end() - static_cast<std::ptrdiff_t>(ids.size()), bvh_.ids.end());
-        return WideNode::kLeaf | static_cast<std::uint32_t>(bvh_.leaves.size() - 1);
+    // Jobs stand in the order of their nodes, depth first.
+    ForestCosts plan(SplitNode& node, std::size_t& next_job) {
+        if (next_job < jobs_.size() && jobs_[next_job].range.node == &node) return jobs_[next_job++].costs;
+        const ForestCosts left = plan(*node.left, next_job), right = plan(*node.right, next_job);
+        return plan_node(node, left, right, settings_);
     }
 
-    void place_unbounded(std::uint32_t row, std::size_t slot, std::span<const std::uint32_t> ids) {
-        FloatBox box{{kEndless, kEndless, kEndless}, {-kEndless, -kEndless, -kEndless}};
-        for (const std::uint32_t id : ids) extend(box, boxes_[id].lower, boxes_[id].upper);
-        set_box(bvh_.nodes[row], slot, box.lower, box.upper);
-        if (ids.size() <= settings_.max_leaf) {
-            bvh_.nodes[row].child[slot] = add_leaf(ids);
-            bvh_.cost += leaf_cost(static_cast<std::uint32_t>(ids.size()));
-            return;
-        }
-        const auto next = static_cast<std::uint32_t>(bvh_.nodes.size());
-        bvh_.nodes[row].child[slot] = next;
-        bvh_.nodes.push_back(empty_node());
-        bvh_.cost += settings_.node_cost;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t half = ids.size() / 2;
-            place_unbounded(next, k, k == 0 ? ids.first(half) : ids.subspan(half));
-        }
-        set_order(bvh_.nodes[next]);
-    }
-
-    std::span<const FloatBox> boxes_;
     const BuildSettings& settings_;
-    std::vector<Reference> references_;
-    Range range_;
-    std::vector<std::uint32_t> unbounded_;
-    std::vector<SplitNode> nodes_;
-    double root_area_ = 0;
-    WideBvh bvh_;
+    ReferenceArray spare_;
+    HugeVector<std::uint32_t> ids_;
+    SplitNode root_;
+    std::deque<SplitNode> nodes_;  // at the top
+    std::deque<Job> jobs_;
 };
 
 }  // namespace
 
 WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings, const Clip*) {
-    return Builder(boxes, settings).build();
+    Gathered gathered = gather(boxes);
+    Bounds bounds = gathered.range.bounds;
+    Aside aside = set_aside(boxes, gathered.unbounded, settings);
+    if (!gathered.unbounded.empty()) bounds.extend(to_bounds(aside.box));
+    WideBvh bvh;
+    if (gathered.range.size() > 0) {
+        TreeBuilder tree(gathered.range.size(), settings);
+        const ForestCosts costs = tree.build(gathered.references.data(), gathered.range);
+        bvh = assemble(&tree.root(), costs, tree.ids(), std::move(aside), settings);
+    } else {
+        bvh = assemble(nullptr, {}, {}, std::move(aside), settings);
+    }
+    bvh.bounds = to_box(bounds);
+    bvh.extent = gathered.extent;
+    return bvh;
 }
 
 }  // namespace limn::accel

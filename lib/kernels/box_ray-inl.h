@@ -12,9 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-// `ray` is what frame.ray holds: where it has just been copied to it cannot be loaded from at once.
-HWY_INLINE BoxRay box_ray(const Ray& ray, const RayFrame& frame, const flat::Group& group) {
-    BoxRay out(group);
+// `ray` is what frame.ray holds: where it has just been copied to it cannot be loaded from at once; nor can `out`,
+// whose parts are stored one by one, be copied.
+HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group& group, BoxRay& out) {
 #if HWY_MAX_BYTES >= 32
     const hn::FixedTag<double, 4> wide;
     const hn::FixedTag<float, 4> d;
@@ -24,10 +24,7 @@ HWY_INLINE BoxRay box_ray(const Ray& ray, const RayFrame& frame, const flat::Gro
     hn::Store(high, d, out.high);
     hn::Store(direction, d, out.direction);
     hn::Store(hn::DemoteTo(d, hn::Sub(origin, hn::PromoteTo(wide, high))), d, out.low);
-    if (HWY_UNLIKELY(!out.is_ordinary(frame, group))) {
-        out.adapt(frame, group);
-        return out;
-    }
+    if (HWY_UNLIKELY(!out.is_ordinary(frame, group))) return out.adapt(frame, group);
     const auto least = hn::Set(d, BoxRay::kLeast);
     const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), least), direction));
     const auto shift = hn::Neg(hn::Mul(high, inverse));
@@ -43,7 +40,6 @@ HWY_INLINE BoxRay box_ray(const Ray& ray, const RayFrame& frame, const flat::Gro
     static_cast<void>(ray);
     out.adapt(frame, group);
 #endif
-    return out;
 }
 
 }  // namespace limn::kernels::HWY_NAMESPACE

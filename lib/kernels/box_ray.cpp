@@ -18,6 +18,10 @@ void BoxRay::set_planes(float wider, const float* from) {
 
 void BoxRay::adapt(const RayFrame& frame, const flat::Group& group) {
     const Ray& ray = frame.ray;
+    is_taken_as_it_is = false;
+    t_error = origin_error = direction_error = 0;
+    scale = 1;
+    extent = static_cast<float>(group.extent);
     const auto size = [](const Vec3& v) { return largest_magnitude(v.x, v.y, v.z); };
     const double unit = std::ldexp(1.0, std::min(-std::ilogb(size(ray.direction)), 1000));
     const Vec3 along = unit * ray.direction;  // its largest coordinate in [1, 2)

@@ -36,20 +36,23 @@ struct BoxRay {
     float reach;   // R, in space as it is
     float extent;  // Group::extent
     float t_min;
-    float t_error = 0;  // of what is reported as t, beyond 2^-23 of it: of a ray that starts anew
-    float scale = 1;    // of the boxes: Group::scale
-    float origin_error = 0, direction_error = 0;  // as in RayFrame, the direction's when the longest coordinate is 1
-    unsigned octant;                              // bit a: direction[a] is negative
-    double t_scale = 1, t_start = 0;              // the t of here is t * t_scale - t_start
-
-    explicit BoxRay(const flat::Group& group) : extent(static_cast<float>(group.extent)) {}
+    float t_error;                        // of what is reported as t, beyond 2^-23 of it: of a ray that starts anew
+    float scale;                          // of the boxes: Group::scale
+    float origin_error, direction_error;  // as in RayFrame, the direction's when the longest coordinate is 1
+    bool is_taken_as_it_is;
+    unsigned octant;          // bit a: direction[a] is negative
+    double t_scale, t_start;  // the t of here is t * t_scale - t_start
 
     // Whether the ray is taken as it is. \pre direction, high and low are set
     HWY_INLINE bool is_ordinary(const RayFrame& frame, const flat::Group& group) {
         const float length = largest(direction);
+        extent = static_cast<float>(group.extent);
         reach = largest(high) + extent;
-        return group.scale == 1 && frame.outer == nullptr && length > 0x1p-10f && length < 0x1p10f &&
-               reach < kFar * extent;
+        t_error = origin_error = direction_error = 0;
+        scale = 1;
+        t_scale = 1, t_start = 0;
+        return is_taken_as_it_is = group.scale == 1 && frame.outer == nullptr && length > 0x1p-10f &&
+                                   length < 0x1p10f && reach < kFar * extent;
     }
 
     void adapt(const RayFrame& frame, const flat::Group& group);

@@ -30,6 +30,10 @@ HWY_INLINE std::uint32_t bits(M mask) {
 
 HWY_INLINE V max_abs(V a, V b, V c) { return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))); }
 
+// t, beyond what rounding to float and what is reported may be off by.
+HWY_INLINE float above(float t) { return t * (t > 0 ? 1 + 0x1p-22f : 1 - 0x1p-22f); }
+HWY_INLINE float below(float t) { return t * (t > 0 ? 1 - 0x1p-22f : 1 + 0x1p-22f); }
+
 // Primitives of a block that the ray may hit, or hits for sure, by bit, and bounds on the t of each.
 struct Candidates {
     std::uint32_t open = 0, certain = 0;

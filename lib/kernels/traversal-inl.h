@@ -149,9 +149,6 @@ private:
         return false;
     }
 
-    // Beyond what rounding to float and the t that is reported may be off by.
-    static float above(float t) { return t + 0x1p-22f * std::abs(t); }
-    static float below(float t) { return t - 0x1p-22f * std::abs(t); }
     static float smaller(float a, float b) { return a < b ? a : b; }
 
     HWY_INLINE void postpone(const Pending& hit) {
@@ -245,7 +242,8 @@ private:
     }
 
     bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
-        const BoxRay ray = box_ray(frame.ray, frame, group);
+        BoxRay ray;
+        set_up(frame.ray, frame, group, ray);
         return Traversal(scene_, group, ray, frame, number, query_).run();
     }
 

@@ -4,7 +4,11 @@
 #define HWY_TARGET_INCLUDE "kernels/traverse.cpp"
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
+#include <array>
+
 #include "accel/slab.h"
+#include "kernels/packet-inl.h"
 #include "kernels/traversal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,7 +31,8 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
             Query& query) {
     const flat::Group& group = flat::group_at(scene, id);
     const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-        const BoxRay box = box_ray(ray, frame, group);
+        BoxRay box;
+        set_up(ray, frame, group, box);
         Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
     };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
@@ -35,6 +40,56 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
     if (covers(kStill)) return run(std::integral_constant<unsigned, kStill>{});
     run(std::integral_constant<unsigned, kAll>{});
+}
+
+// Whether the rays go much the same way, so that they meet much the same boxes.
+bool are_alike(const BoxRay* rays, std::size_t count) {
+    constexpr float kSpread = 1 / 16.0f;  // of the direction's longest coordinate, and of the extent
+    const BoxRay& first = rays[0];
+    const unsigned axis = longest_axis(first.direction);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoxRay& ray = rays[i];
+        if (!ray.is_taken_as_it_is || ray.octant != first.octant || longest_axis(ray.direction) != axis) return false;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const float turn = ray.direction[a] * ray.inverse[axis] - first.direction[a] * first.inverse[axis];
+            if (!(std::abs(turn) < kSpread && std::abs(ray.high[a] - first.high[a]) < kSpread * first.extent))
+                return false;
+        }
+    }
+    return true;
+}
+
+template <class Query>
+void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    if (scene.kinds != kMeshes) {
+        for (std::size_t i = 0; i < count; ++i) search(scene, GroupId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+        return;
+    }
+    std::array<BoxRay, kPacket> boxes;
+    std::vector<RayFrame> frames;
+    frames.reserve(kPacket);
+    for (std::size_t first = 0; first < count; first += kPacket) {
+        const std::size_t some = std::min(kPacket, count - first);
+        frames.clear();
+        for (std::size_t i = 0; i < some; ++i) {
+            frames.emplace_back(rays[first + i]);
+            set_up(rays[first + i], frames[i], root, boxes[i]);
+        }
+        if (some > 1 && are_alike(boxes.data(), some)) {
+            PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), some, queries + first).run();
+        } else {
+            for (std::size_t i = 0; i < some; ++i)
+                Traversal<kMeshes, Query>(scene, root, boxes[i], frames[i], 0, queries[first + i]).run();
+        }
+    }
+}
+
+void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {
+    search_many(scene, rays, count, queries);
+}
+void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any<false>* queries) {
+    search_many(scene, rays, count, queries);
 }
 
 void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
@@ -67,6 +122,10 @@ HWY_EXPORT(search_closest);
 HWY_EXPORT(search_any);
 HWY_EXPORT(search_occluder);
 HWY_EXPORT(search_every);
+HWY_EXPORT(search_closest_of_many);
+HWY_EXPORT(search_any_of_many);
+
+constexpr std::size_t kChunk = 256;  // rays, whose queries stay in the cache
 
 Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
     Closest query{{frame.ray.t_max, flat::RawHit::kMiss}};
@@ -106,6 +165,29 @@ bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any<false> query{ray.t_max};
     HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     return query.found;
+}
+
+void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
+    std::array<Closest, kChunk> queries;
+    for (std::size_t first = 0; first < rays.size(); first += kChunk) {
+        const std::size_t count = std::min(kChunk, rays.size() - first);
+        for (std::size_t i = 0; i < count; ++i) queries[i] = {{rays[first + i].t_max, flat::RawHit::kMiss}};
+        HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data() + first, count, queries.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            const Closest& query = queries[i];
+            hits[first + i] = query.best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{query.best, query.u, query.v};
+        }
+    }
+}
+
+void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
+    std::array<Any<false>, kChunk> queries;
+    for (std::size_t first = 0; first < rays.size(); first += kChunk) {
+        const std::size_t count = std::min(kChunk, rays.size() - first);
+        for (std::size_t i = 0; i < count; ++i) queries[i] = {rays[first + i].t_max};
+        HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data() + first, count, queries.data());
+        for (std::size_t i = 0; i < count; ++i) found[first + i] = queries[i].found ? 1 : 0;
+    }
 }
 
 bool is_occluded(const flat::Scene& scene, const Ray& ray) {

@@ -2,6 +2,8 @@
 // that the described shapes use too, lib/core/intersect_*.h.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "flat/scene.h"
@@ -17,6 +19,10 @@ struct Hit : flat::RawHit {
 // is_usable(ray)
 Hit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
+
+// The same for each of many rays: those that follow each other and go much the same way are traced together.
+void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits);
+void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
 
 // Whether something stops light on the way: a foreign shape that says its boundary is index-matched does not.
 bool is_occluded(const flat::Scene& scene, const Ray& ray);

@@ -1,6 +1,8 @@
 #include "limn/render/compiled_scene.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
@@ -66,19 +68,23 @@ bool find_any(const flat::Scene& scene, const Ray& ray) {
            });
 }
 
-// answer(i) for every ray that can be used; the number of the others, whose answers stay a miss.
+// answer(first, count) for every run of rays that can be used, at most kRun long; the number of the others, whose
+// answers stay a miss.
+constexpr std::size_t kRun = 256;
 template <class Answer>
-std::size_t answer_all(std::span<const Ray> rays, const Answer& answer) {
+std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer) {
     const FloatEnvironment environment;
     std::size_t unusable = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (is_fit(rays[i]))
-            answer(i);
-        else
-            ++unusable;
+    for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
+        while (end < rays.size() && end - first < kRun && is_fit(rays[end])) ++end;
+        if (end > first) answer(first, end - first);
+        if (end < rays.size() && !is_fit(rays[end])) ++end, ++unusable;
     }
     return unusable;
 }
+
+// Whether surfaces that the kernels know are all there is.
+bool is_plain(const flat::Scene& scene) { return scene.media.empty() && !scene.features.foreign_shapes; }
 
 SceneStats stats_of(const flat::Scene& s) {
     return {.memory_bytes = s.memory_bytes,
@@ -110,13 +116,27 @@ bool CompiledScene::any_hit(const Ray& ray) const {
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
     std::fill(hits.begin(), hits.end(), RayHit{});
-    return answer_all(rays, [&](std::size_t i) { hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{}); });
+    if (!is_plain(*scene_))
+        return answer_runs(rays, [&](std::size_t first, std::size_t count) {
+            for (std::size_t i = first; i < first + count; ++i)
+                hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
+        });
+    std::array<kernels::Hit, kRun> found;
+    return answer_runs(rays, [&](std::size_t first, std::size_t count) {
+        kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
+        for (std::size_t i = 0; i < count; ++i)
+            if (found[i].primitive != flat::RawHit::kMiss)
+                hits[first + i] = complete(*scene_, rays[first + i], {found[i]});
+    });
 }
 
 std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
     std::fill(occluded.begin(), occluded.end(), std::uint8_t{0});
-    return answer_all(rays, [&](std::size_t i) { occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0; });
+    return answer_runs(rays, [&](std::size_t first, std::size_t count) {
+        if (is_plain(*scene_)) return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
+        for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
+    });
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {

@@ -1,6 +1,7 @@
 #include "limn/shape/bvh.h"
 
-#include "accel/binary_bvh.h"
+#include "accel/float_box.h"
+#include "accel/walk.h"
 #include "core/float_environment.h"
 #include "core/ray_frame.h"
 #include "limn/shape/hittable_list.h"
@@ -8,35 +9,52 @@
 
 namespace limn {
 
+namespace {
+
+// A node has eight boxes to test, an object is asked by a virtual call: worth about half as much.
+constexpr accel::BuildSettings kSettings{.leaf_width = 1, .node_cost = 2};
+
+}  // namespace
+
 struct Bvh::Tree {
-    accel::BinaryBvh bvh;
+    Box bounds;
+    double extent = 0;  // the largest finite coordinate
+    double scale = 1;   // of the tree's coordinates
+    accel::WideBvh bvh;
 };
 
 Bvh::Bvh(std::vector<std::shared_ptr<const Hittable>> objects) : objects_(std::move(objects)) {
     const FloatEnvironment environment;
+    Tree tree;
     std::vector<Box> boxes;
     std::uint64_t elements = 0;
     for (const auto& object : objects_) {
         require_not_null(object, "Bvh", "an object");
-        boxes.push_back(object->bounds());
+        const Box& box = boxes.emplace_back(object->bounds());
+        if (!box.is_empty()) tree.bounds.extend(box);
+        tree.extent = std::max(tree.extent, box.is_empty() ? 0 : accel::finite_extent(box));
         first_element_.push_back(elements);
         elements += count_elements(*object);
     }
-    tree_ = std::make_unique<const Tree>(Tree{accel::build_binary_bvh(boxes)});
+    tree.scale = accel::scale_to_one(tree.extent);
+    std::vector<accel::FloatBox> scaled;
+    for (const Box& box : boxes) scaled.push_back(accel::to_float_box(box, tree.scale));
+    tree.bvh = accel::build_wide_bvh(scaled, kSettings);
+    tree_ = std::make_unique<const Tree>(std::move(tree));
 }
 
 Bvh::~Bvh() = default;
 
-Box Bvh::bounds() const { return tree_->bvh.bounds(); }
+Box Bvh::bounds() const { return tree_->bounds; }
 
 std::optional<Hit> Bvh::hit(const Ray& ray) const {
     const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const RayFrame frame = frame_of(ray);
-    const accel::SlabRay slab(ray, tree_->bvh.extent, frame.origin_error, frame.direction_error);
+    const accel::SlabRay slab(ray, tree_->extent, frame.origin_error, frame.direction_error);
     std::optional<Hit> nearest;
     Ray rest = ray;
-    accel::for_each_met(tree_->bvh, slab, ray.t_max, [&](std::uint32_t i) {
+    accel::for_each_met(tree_->bvh, tree_->scale, slab, ray.t_max, [&](std::uint32_t i) {
         std::optional<Hit> hit = objects_[i]->hit(rest);
         if (hit) {
             hit->element += first_element_[i];

@@ -1,24 +1,27 @@
-// What the builder chooses: the split of least cost, by the surface-area heuristic with a node as dear as a box.
+// What the builder chooses: the splits of least cost by the surface-area heuristic, and the wide nodes of least cost.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
-#include "accel/binary_bvh.h"
+#include "accel/binning.h"
 #include "catch.h"
 #include "property.h"
 #include "support/grid.h"
+#include "wide_tree.h"
 
 using namespace limn;
-using accel::BinaryBvh;
-using accel::BinaryNode;
-using accel::build_binary_bvh;
+using accel::build_wide_bvh;
+using accel::FloatBox;
 using test::draw_int;
+using test::half_area;
+using test::merged;
 
 namespace {
 
-// Boxes whose centres stand on 0, 1, ..., n - 1 along each axis, in an order of its own: sixteen bins, spread over
-// n <= 16 such places, hold one each, so that no split is overlooked.
-std::vector<Box> draw_boxes(int count) {
-    std::vector<Box> boxes(static_cast<std::size_t>(count));
+// Boxes whose centres stand on 0, 1, ..., n - 1 along each axis, in an order of its own: bins, spread over n <= 10 such
+// places, hold one each, so that no split is overlooked.
+std::vector<FloatBox> draw_boxes(int count) {
+    std::vector<FloatBox> boxes(static_cast<std::size_t>(count));
     for (std::size_t axis = 0; axis < 3; ++axis) {
         std::vector<int> places(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -27,166 +30,118 @@ std::vector<Box> draw_boxes(int count) {
             places[j] = static_cast<int>(i);
         }
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const double half = draw_int(0, 512) / 64.0;
-            boxes[i].lower[axis] = places[i] - half, boxes[i].upper[axis] = places[i] + half;
+            const float half = static_cast<float>(draw_int(0, 512)) / 64, place = static_cast<float>(places[i]);
+            boxes[i].lower[axis] = place - half, boxes[i].upper[axis] = place + half;
         }
     }
     return boxes;
 }
 
-double cost(const std::vector<Box>& boxes, const std::vector<std::uint32_t>& left,
-            const std::vector<std::uint32_t>& right) {
-    Box l, r;
-    for (const std::uint32_t i : left) l.extend(boxes[i]);
-    for (const std::uint32_t i : right) r.extend(boxes[i]);
-    return 1 +
-           (surface_area(l) * static_cast<double>(left.size()) + surface_area(r) * static_cast<double>(right.size())) /
-               surface_area(merge(l, r));
-}
+struct Cut {
+    double cost;
+    FloatBox lower, upper;
+};
 
-// Of all splits by the order of centres along an axis.
-double least_cost(const std::vector<Box>& boxes, std::vector<std::uint32_t> ids) {
-    double least = kInfinity;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::sort(ids.begin(), ids.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return boxes[a].center()[axis] < boxes[b].center()[axis]; });
-        for (auto cut = ids.begin() + 1; cut != ids.end(); ++cut)
-            least = std::min(least, cost(boxes, {ids.begin(), cut}, {cut, ids.end()}));
-    }
-    return least;
-}
-
-std::vector<std::uint32_t> ids_under(const BinaryBvh& bvh, std::uint32_t row) {
-    const BinaryNode& node = bvh.nodes[row];
-    if (node.count > 0) return {bvh.ids.begin() + node.first, bvh.ids.begin() + node.first + node.count};
-    std::vector<std::uint32_t> ids = ids_under(bvh, node.first), right = ids_under(bvh, node.first + 1);
-    ids.insert(ids.end(), right.begin(), right.end());
-    return ids;
-}
-
-// What a random ray through the root is expected to cost.
-double expected_cost(const BinaryBvh& bvh, std::uint32_t row = 0) {
-    const BinaryNode& node = bvh.nodes[row];
-    if (node.count > 0) return node.count;
-    const double left = surface_area(bvh.nodes[node.first].bounds),
-                 right = surface_area(bvh.nodes[node.first + 1].bounds);
-    return 1 + (left * expected_cost(bvh, node.first) + right * expected_cost(bvh, node.first + 1)) /
-                   surface_area(node.bounds);
+// The cost of cutting after the first `middle` in the order of centres along an axis, times the area of all.
+Cut cut_at(std::vector<FloatBox> boxes, std::size_t axis, std::size_t middle, std::uint32_t leaf_width) {
+    std::sort(boxes.begin(), boxes.end(), [&](const FloatBox& a, const FloatBox& b) {
+        return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis];
+    });
+    const FloatBox lower = merged({boxes.begin(), boxes.begin() + static_cast<std::ptrdiff_t>(middle)}),
+                   upper = merged({boxes.begin() + static_cast<std::ptrdiff_t>(middle), boxes.end()});
+    const auto tests = [&](std::size_t n) { return std::ceil(static_cast<double>(n) / leaf_width); };
+    return {half_area(lower) * tests(middle) + half_area(upper) * tests(boxes.size() - middle), lower, upper};
 }
 
 }  // namespace
 
-TEST_CASE("BinaryBvh: the root is the split of least cost, or a leaf where none is cheaper than testing all",
+TEST_CASE("best_split: of all splits along all axes it takes the one of least cost, counted in leaf tests",
           "[accel][sah]") {
-    int leaves = 0;
     test::holds(
-        [&] {
-            const int count = draw_int(2, 16);
-            const std::vector<Box> boxes = draw_boxes(count);
-            const BinaryBvh bvh = build_binary_bvh(boxes);
-            std::vector<std::uint32_t> all(boxes.size());
-            for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-            const double least = least_cost(boxes, all);
-            const BinaryNode& root = bvh.nodes[0];
-            if (root.count > 0) {
-                ++leaves;
-                RC_ASSERT((count <= 8 && least >= count));  // more than eight are parted whatever it costs
-                return;
+        [] {
+            const int count = draw_int(2, 10);
+            const auto leaf_width = static_cast<std::uint32_t>(draw_int(1, 4));
+            const std::vector<FloatBox> boxes = draw_boxes(count);
+            std::vector<accel::Reference> references;
+            for (const FloatBox& b : boxes) references.emplace_back(accel::to_bounds(b), 7 + references.size());
+            const accel::Range range = accel::range_over(references.data(), 0, static_cast<std::uint32_t>(count));
+            const accel::Split split = accel::best_split(references.data(), range, leaf_width);
+            double least = INFINITY;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (std::size_t middle = 1; middle < boxes.size(); ++middle)
+                    least = std::min(least, cut_at(boxes, axis, middle, leaf_width).cost);
+            RC_ASSERT(split.exists());
+            std::vector<accel::Reference> sorted(references.size());
+            const std::uint32_t middle = accel::partition(references.data(), sorted.data(), range, split);
+            const Cut chosen = cut_at(boxes, static_cast<std::size_t>(split.axis), middle, leaf_width);
+            // All that is said of sides, the builder says of sides longer by 2^-12 of the longest; its rounding is
+            // less.
+            double longest = 0;
+            for (std::size_t a = 0; a < 3; ++a)
+                longest = std::max(longest, double{range.bounds.upper[a]} - range.bounds.lower[a]);
+            const double slack = std::ceil(double(count) / leaf_width + 1) * 7 * 0x1p-12 * longest * longest;
+            RC_ASSERT(chosen.cost <= least + slack);
+            RC_ASSERT(std::abs(split.cost * half_area(accel::to_box(range.bounds)) - least) <=
+                      2 * slack + 1e-3 * least);
+            std::uint32_t numbers = 0;
+            for (std::uint32_t i = 0; i < sorted.size(); ++i) {
+                const FloatBox box = accel::to_box(sorted[i].bounds());
+                RC_ASSERT(test::contains(i < middle ? chosen.lower : chosen.upper, box));
+                numbers |= 1u << (sorted[i].id() - 7);
             }
-            RC_ASSERT((count > 8 || least < count));
-            const double chosen = cost(boxes, ids_under(bvh, root.first), ids_under(bvh, root.first + 1));
-            RC_ASSERT(std::abs(chosen - least) <= 1e-12 * least);
+            RC_ASSERT(numbers == (1u << count) - 1);
         },
         1000);
-    CHECK(leaves > 10);
 }
 
-TEST_CASE("BinaryBvh: boxes in a leaf stand in the order of their numbers", "[accel][sah]") {
-    test::holds([] {
-        const BinaryBvh bvh = build_binary_bvh(draw_boxes(draw_int(1, 16)));
-        for (const BinaryNode& node : bvh.nodes)
-            if (node.count > 0)
-                RC_ASSERT(std::is_sorted(bvh.ids.begin() + node.first, bvh.ids.begin() + node.first + node.count));
-    });
-}
-
-TEST_CASE("BinaryBvh: nothing parts boxes of one centre but their number, down to eight a leaf", "[accel][sah]") {
-    for (const std::uint32_t count : {8u, 9u, 16u, 17u, 100u}) {
-        const BinaryBvh bvh = build_binary_bvh(std::vector<Box>(count, Box{{1, 2, 3}, {4, 5, 6}}));
-        std::uint32_t seen = 0, largest = 0;
-        for (const BinaryNode& node : bvh.nodes) seen += node.count, largest = std::max(largest, node.count);
-        CHECK(seen == count);
-        CHECK(largest <= 8);
-        CHECK((bvh.nodes.size() == 1) == (count == 8));
+TEST_CASE("WideBvh: boxes in a row cost a ray the logarithm of their number, not the number", "[accel][sah]") {
+    for (int levels = 3; levels <= 15; levels += 3) {
+        std::vector<FloatBox> row;
+        for (int i = 0; i < 1 << levels; ++i) {
+            const auto x = static_cast<float>(2 * i);
+            row.push_back({{x, 0, 0}, {x + 1, 1, 1}});
+        }
+        // n boxes in a row have an area of 4 n - 1 or so. Cut in eight down to single ones, a level costs no more than
+        // one node, and the boxes less than one test; another level for what bins cut beside the middle.
+        CHECK(build_wide_bvh(row, {.max_leaf = 1, .leaf_width = 1}).cost <= levels / 3 + 2);
     }
 }
 
-TEST_CASE("BinaryBvh: boxes in a row cost a ray the logarithm of their number, not the number", "[accel][sah]") {
-    for (int levels = 4; levels <= 12; levels += 4) {
-        const int count = 1 << levels;
-        std::vector<Box> row;
-        for (int i = 0; i < count; ++i) row.emplace_back(Point3{2.0 * i, 0, 0}, Point3{2.0 * i + 1, 1, 1});
-        // n boxes in a row have an area of 8 n - 2. Halved down to single ones, a level costs less than one node and
-        // the boxes less than one test; another level for what bins cut beside the middle.
-        CHECK(expected_cost(build_binary_bvh(row)) <= levels + 2);
-    }
+TEST_CASE("WideBvh: its cost is the sum over its nodes and leaves, weighted as the settings say", "[accel][sah]") {
+    for (const std::size_t count : {5u, 300u, 20'000u})
+        for (const accel::BuildSettings& settings :
+             {accel::BuildSettings{},
+              accel::BuildSettings{.max_leaf = 5, .leaf_width = 2, .node_cost = 3, .leaf_cost = 2}}) {
+            const accel::WideBvh bvh = build_wide_bvh(test::random_boxes(count, 1), settings);
+            const double sum = test::expected_cost(bvh, settings);
+            CHECK(std::abs(bvh.cost - sum) <= 1e-5 * sum);  // the builder's areas are larger by up to 3 * 2^-20
+        }
 }
 
-TEST_CASE("BinaryBvh: unbounded boxes stand apart, in a leaf beside the tree of all others", "[accel][sah]") {
-    const Box endless{{-kInfinity, 0, 0}, {kInfinity, 1, 1}}, a{{0, 0, 0}, {1, 1, 1}}, b{{9, 9, 9}, {10, 10, 10}};
-    for (const bool low : {true, false}) {
-        Box ray = endless;  // unbounded on one side only
-        (low ? ray.upper.x : ray.lower.x) = 5;
-        const BinaryBvh bvh = build_binary_bvh(std::vector<Box>{a, ray, b, endless});
-        REQUIRE(bvh.nodes.size() >= 3);
-        CHECK(bvh.nodes[0].count == 0);
-        CHECK(ids_under(bvh, 2) == std::vector<std::uint32_t>{1, 3});
-        CHECK(bvh.nodes[1].bounds == merge(a, b));
-        CHECK(bvh.bounds() == merge(merge(a, b), endless));
-        CHECK(bvh.extent == 10);
-    }
-    const BinaryBvh only = build_binary_bvh(std::vector<Box>{endless, Box{}, endless});
-    REQUIRE(only.nodes.size() == 1);
-    CHECK(ids_under(only, 0) == std::vector<std::uint32_t>{0, 2});
-    CHECK(only.bounds() == endless);
-    CHECK(only.extent == 1);
+TEST_CASE("WideBvh: dear nodes make larger leaves, dear leaves smaller ones", "[accel][sah]") {
+    const std::vector<FloatBox> boxes = test::random_boxes(5000, 1);
+    const auto leaves = [&](double node_cost, double leaf_cost) {
+        return build_wide_bvh(boxes, {.leaf_width = 1, .node_cost = node_cost, .leaf_cost = leaf_cost}).leaves.size();
+    };
+    CHECK(leaves(10, 1) < leaves(1, 1));
+    CHECK(leaves(1, 1) < leaves(1, 10));
 }
 
-TEST_CASE("BinaryBvh: its extent is the largest finite coordinate, of either sign, on any side and axis",
+TEST_CASE("WideBvh: it costs no more than what a full sweep with greedy collapse gives, but for a twentieth",
           "[accel][sah]") {
-    CHECK(build_binary_bvh(std::vector<Box>{}).extent == 0);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const double far : {-7.0, 7.0}) {
-            Box box{{0, 0, 0}, {1, 1, 1}};
-            (far < 0 ? box.lower : box.upper)[axis] = far;
-            CHECK(build_binary_bvh(std::vector<Box>{Box{}, box, Box{{0, 0, 0}, {2, 2, 2}}}).extent == 7);
+    std::vector<FloatBox> wavy;
+    for (int i = 0; i < 100; ++i)
+        for (int j = 0; j < 100; ++j) {
+            const auto at = [](int p, int q) {
+                return static_cast<float>(10 * std::sin(0.1 * p) * std::cos(0.07 * q));
+            };
+            const float heights[3] = {at(i, j), at(i + 1, j), at(i, j + 1)};
+            const auto x = static_cast<float>(i), y = static_cast<float>(j);
+            wavy.push_back({{x, y, *std::min_element(heights, heights + 3)},
+                            {x + 1, y + 1, *std::max_element(heights, heights + 3)}});
         }
-}
-
-TEST_CASE("for_each_met: nearer boxes are visited first, and none beyond what visit returns", "[accel][sah]") {
-    std::vector<Box> row;
-    for (int i = 0; i < 64; ++i) row.emplace_back(Point3{2.0 * i, 0, 0}, Point3{2.0 * i + 1, 1, 1});
-    const BinaryBvh bvh = build_binary_bvh(row);
-    for (const double way : {1.0, -1.0}) {
-        for (const int from : {0, 20, 63}) {
-            const Ray ray{.origin = {2.0 * from + 0.5 - way, 0.5, 0.5}, .direction = {way, 0, 0}};
-            const int last = way > 0 ? 63 : 0;
-            std::vector<std::uint32_t> visited;
-            accel::for_each_met(bvh, accel::SlabRay(ray, bvh.extent), ray.t_max, [&](std::uint32_t id) {
-                visited.push_back(id);
-                return kInfinity;
-            });
-            std::vector<std::uint32_t> expected;
-            for (int i = from; i != last + (way > 0 ? 1 : -1); i += way > 0 ? 1 : -1)
-                expected.push_back(static_cast<std::uint32_t>(i));
-            CHECK(visited == expected);
-            std::size_t visits = 0;
-            accel::for_each_met(bvh, accel::SlabRay(ray, bvh.extent), ray.t_max,
-                                [&](std::uint32_t) {  // the first box is hit at t = 0.5
-                                    ++visits;
-                                    return 0.5;
-                                });
-            CHECK(visits == 1);
-        }
+    for (const std::vector<FloatBox>& boxes : {wavy, test::random_boxes(10'000, 7)}) {
+        const double cost = build_wide_bvh(boxes).cost;
+        CHECK(cost <= 1.05 * test::reference_cost(boxes));
     }
 }

@@ -1,0 +1,160 @@
+#include "accel/grid.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "accel/binning.h"
+#include "accel/subtree.h"
+
+namespace limn::accel {
+
+namespace {
+
+constexpr int kMaxBits = 15;               // of a cell's number: the table of cells stays in the second-level cache
+constexpr std::uint32_t kGroup = 1 << 18;  // references that share a table of cells; the tree does not depend on it
+constexpr std::uint32_t kMaxGroups = 64;
+constexpr float kMinExtent = 0x1p-110f;  // its reciprocal, times a number of cells, is finite
+constexpr std::uint32_t kMinCells = 8;   // with fewer a range gets a grid of its own
+
+class Grid {
+public:
+    // Cells are as close to cubes as powers of two allow.
+    Grid(const Range& range, int bits) : origin_(range.centers.lower), scale_{} {
+        const Vec4 extent = range.centers.upper - origin_;
+        float side[3] = {extent[0], extent[1], extent[2]};
+        for (; bits > 0; --bits) {
+            const auto longest = std::max_element(side, side + 3) - side;
+            ++bits_[longest];
+            side[longest] /= 2;
+        }
+        for (int a = 0; a < 3; ++a) {
+            const auto cells = static_cast<float>(1 << bits_[a]);
+            scale_[a] = extent[a] > kMinExtent ? cells / extent[a] : 0;
+            last_[a] = cells - 1;
+        }
+    }
+
+    std::uint32_t cell_of(const Reference& r) const {
+        const Int4 place = __builtin_convertvector(min((r.center() - origin_) * scale_, last_), Int4);
+        return static_cast<std::uint32_t>(place[0] | place[1] << bits_[0] | place[2] << (bits_[0] + bits_[1]));
+    }
+
+private:
+    int bits_[3] = {};
+    Vec4 origin_, scale_, last_{};
+};
+
+struct Group {
+    std::uint32_t begin, end;
+    std::vector<Bounds> bounds;        // by cell
+    std::vector<std::uint32_t> count;  // by cell, then by range: where its next reference goes
+};
+
+// Splits cells until their references are few enough.
+class CellTree {
+public:
+    CellTree(std::uint32_t enough, const BuildSettings& settings, std::deque<SplitNode>& nodes,
+             std::vector<std::uint32_t>& range_of_cell)
+        : enough_(enough), settings_(settings), nodes_(nodes), range_of_cell_(range_of_cell) {}
+
+    std::vector<OpenRange> build(std::vector<Reference> cells, std::uint32_t begin, SplitNode& root, int depth) {
+        next_ = begin;
+        std::vector<Reference> spare(cells.size());
+        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), 2, root, depth);
+        return std::move(ranges_);
+    }
+
+private:
+    void split(Reference* cells, Reference* spare, std::uint32_t begin, std::uint32_t end, std::uint32_t min_cells,
+               SplitNode& node, int depth) {
+        const Range range = range_over(cells, begin, end);
+        std::uint32_t size = 0;
+        for (std::uint32_t i = begin; i < end; ++i) size += cells[i].weight();
+        node.box = to_box(range.bounds);
+        node.begin = next_, node.end = next_ + size;
+        Split best;
+        if (size > enough_ && range.size() >= min_cells && may_split(size, depth))
+            best = best_split(cells, range, settings_.leaf_width);
+        if (!best.exists()) {
+            for (std::uint32_t i = begin; i < end; ++i)
+                range_of_cell_[cells[i].id()] = static_cast<std::uint32_t>(ranges_.size());
+            ranges_.push_back({&node, depth, next_, next_ + size});
+            next_ += size;
+            return;
+        }
+        const std::uint32_t middle = partition(cells, spare, range, best);
+        node.left = &nodes_.emplace_back();
+        split(spare, cells, begin, middle, kMinCells, *node.left, depth + 1);
+        node.right = &nodes_.emplace_back();
+        split(spare, cells, middle, end, kMinCells, *node.right, depth + 1);
+    }
+
+    std::uint32_t enough_, next_ = 0;
+    const BuildSettings& settings_;
+    std::deque<SplitNode>& nodes_;
+    std::vector<std::uint32_t>& range_of_cell_;
+    std::vector<OpenRange> ranges_;
+};
+
+}  // namespace
+
+bool has_extent(const Range& range) {
+    const Vec4 extent = range.centers.upper - range.centers.lower;
+    return std::max({extent[0], extent[1], extent[2]}) > kMinExtent;
+}
+
+std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, SplitNode& node,
+                                     int depth, std::uint32_t enough, const BuildSettings& settings,
+                                     std::deque<SplitNode>& nodes) {
+    const int bits = std::clamp(static_cast<int>(std::bit_width(range.size())) - 2, 6, kMaxBits);
+    const std::size_t cells = std::size_t{1} << bits;
+    const Grid grid(range, bits);
+
+    std::vector<Group> groups(std::clamp(range.size() / kGroup, 1u, kMaxGroups));
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        Group& group = groups[g];
+        const auto bound = [&](std::size_t i) {
+            return static_cast<std::uint32_t>(range.begin + std::uint64_t{range.size()} * i / groups.size());
+        };
+        group.begin = bound(g), group.end = bound(g + 1);
+        group.bounds.assign(cells, kEmpty);
+        group.count.assign(cells, 0);
+        for (std::uint32_t i = group.begin; i < group.end; ++i) {
+            const std::uint32_t cell = grid.cell_of(from[i]);
+            group.bounds[cell].extend(from[i].bounds());
+            ++group.count[cell];
+        }
+    });
+
+    std::vector<Reference> filled;
+    for (std::uint32_t cell = 0; cell < cells; ++cell) {
+        Bounds bounds = kEmpty;
+        std::uint32_t count = 0;
+        for (const Group& group : groups) {
+            bounds.extend(group.bounds[cell]);
+            count += group.count[cell];
+        }
+        if (count > 0) filled.emplace_back(bounds, cell, count);
+    }
+    std::vector<std::uint32_t> range_of_cell(cells, 0);
+    std::vector<OpenRange> ranges =
+        CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), range.begin, node, depth);
+
+    // Within a range the references keep their order.
+    std::vector<std::uint32_t> next;
+    for (const OpenRange& r : ranges) next.push_back(r.begin);
+    for (Group& group : groups) {
+        std::vector<std::uint32_t> first = next;
+        for (std::size_t cell = 0; cell < cells; ++cell) next[range_of_cell[cell]] += group.count[cell];
+        group.count = std::move(first);
+    }
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        Group& group = groups[g];
+        for (std::uint32_t i = group.begin; i < group.end; ++i)
+            to[group.count[range_of_cell[grid.cell_of(from[i])]]++] = from[i];
+    });
+    return ranges;
+}
+
+}  // namespace limn::accel

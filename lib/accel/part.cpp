@@ -1,0 +1,59 @@
+#include "accel/part.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "accel/order.h"
+
+namespace limn::accel {
+
+void PartWriter::add_tree(const SplitNode& node) {
+    const std::size_t row = part_.nodes.size(), first = children_.size();
+    fill_slots(*node.left, node.left_slots[kWidth], children_);
+    fill_slots(*node.right, kWidth - node.left_slots[kWidth], children_);
+    const std::size_t count = children_.size() - first;
+    add_node(std::span(children_).subspan(first));
+    for (std::size_t slot = 0; slot < count; ++slot) {
+        const SplitNode& child = *children_[first + slot];
+        if (child.is_leaf) continue;
+        part_.nodes[row].child[slot] = static_cast<std::uint32_t>(part_.nodes.size());
+        add_tree(child);
+    }
+    children_.resize(first);
+}
+
+void PartWriter::add_node(std::span<const SplitNode* const> children) {
+    WideNode& wide = part_.nodes.emplace_back(empty_node());
+    for (std::size_t slot = 0; slot < children.size(); ++slot) {
+        const SplitNode& child = *children[slot];
+        set_box(wide, slot, child.box);
+        wide.child[slot] = child.is_leaf ? add_leaf(ids_.subspan(child.begin, child.size())) : 0;
+    }
+    set_order(wide);
+}
+
+std::uint32_t PartWriter::add_leaf(std::span<const std::uint32_t> ids) {
+    const auto first = static_cast<std::uint32_t>(part_.ids.size()), count = static_cast<std::uint32_t>(ids.size());
+    part_.leaves.push_back({first, count});
+    part_.ids.insert(part_.ids.end(), ids.begin(), ids.end());
+    std::sort(part_.ids.begin() + first, part_.ids.end());
+    return WideNode::kLeaf | static_cast<std::uint32_t>(part_.leaves.size() - 1);
+}
+
+WideNode empty_node() {
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
+    WideNode node;
+    for (std::size_t a = 0; a < 3; ++a) {
+        std::fill_n(node.lower[a], kWidth, kEndless);
+        std::fill_n(node.upper[a], kWidth, -kEndless);
+    }
+    std::fill_n(node.child, kWidth, WideNode::kAbsent);
+    std::fill_n(node.order, kWidth, 0x76543210u);
+    return node;
+}
+
+void set_box(WideNode& node, std::size_t slot, const FloatBox& box) {
+    for (std::size_t a = 0; a < 3; ++a) node.lower[a][slot] = box.lower[a], node.upper[a][slot] = box.upper[a];
+}
+
+}  // namespace limn::accel

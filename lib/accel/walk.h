@@ -1,0 +1,46 @@
+// A walk along one ray, for trees whose boxes hold objects known by their virtual functions only.
+#pragma once
+
+#include <utility>
+
+#include "accel/slab.h"
+#include "accel/wide_bvh.h"
+
+namespace limn::accel {
+
+// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first, up to t_max. `visit` returns the
+// t beyond which the rest does not matter. The tree's boxes are the ray's world's, times `scale`, a power of two.
+template <class Visit>
+void for_each_met(const WideBvh& bvh, double scale, const SlabRay& slab, double t_max, const Visit& visit) {
+    if (bvh.nodes.empty()) return;
+    struct Entry {
+        std::uint32_t child;
+        double near;
+    } stack[(kWidth - 1) * kMaxWideDepth + 1];
+    stack[0] = {0, slab.t_min};
+    int size = 1;
+    const double unscale = 1 / scale;
+    while (size > 0) {
+        const Entry entry = stack[--size];
+        if (slab.is_beyond(entry.near, t_max)) continue;
+        if ((entry.child & WideNode::kLeaf) != 0) {
+            const Leaf leaf = bvh.leaves[entry.child & ~WideNode::kLeaf];
+            for (std::uint32_t i = 0; i < leaf.count; ++i) t_max = visit(bvh.ids[leaf.first + i]);
+            continue;
+        }
+        const WideNode& node = bvh.nodes[entry.child];
+        const int first = size;
+        for (std::size_t slot = 0; slot < kWidth && node.child[slot] != WideNode::kAbsent; ++slot) {
+            double lower[3], upper[3], near = 0;
+            for (std::size_t a = 0; a < 3; ++a)
+                lower[a] = unscale * static_cast<double>(node.lower[a][slot]),
+                upper[a] = unscale * static_cast<double>(node.upper[a][slot]);
+            if (!slab.meets(lower, upper, t_max, near)) continue;
+            int at = size++;
+            for (; at > first && stack[at - 1].near < near; --at) stack[at] = stack[at - 1];
+            stack[at] = {node.child[slot], near};
+        }
+    }
+}
+
+}  // namespace limn::accel

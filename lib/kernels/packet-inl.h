@@ -1,0 +1,281 @@
+// Rays of much the same way through one group, a lane each. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_PACKET_INL_H
+#undef LIMN_KERNELS_PACKET_INL_H
+#else
+#define LIMN_KERNELS_PACKET_INL_H
+#endif
+
+#include <array>
+#include <optional>
+
+#include "kernels/exact_tests.h"
+#include "kernels/leaf_rays.h"
+#include "kernels/node-inl.h"
+#include "kernels/queries.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+using RayLanes = hn::CappedTag<float, 16>;
+using RV = hn::Vec<RayLanes>;
+using RM = hn::Mask<RayLanes>;
+inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
+
+// The boxes that any ray of the packet may meet, eight at once, from the ranges of origins and directions: a plane at p
+// is met within (p - origin) * inverse, in intervals. What is outside is missed by all; the rest is left to the leaves.
+class PacketBoxes {
+public:
+    // \pre the rays have the same octant, and are ordinary
+    PacketBoxes(const BoxRay* rays, std::size_t count) : octant_(rays[0].octant) {
+        const Lanes d;
+        float t_min = rays[0].t_min;
+        for (std::size_t a = 0; a < 3; ++a) {
+            float low = rays[0].high[a], high = low, slow = rays[0].inverse[a], fast = slow, reach = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                low = std::min(low, rays[i].high[a]), high = std::max(high, rays[i].high[a]);
+                slow = std::min(slow, rays[i].inverse[a]), fast = std::max(fast, rays[i].inverse[a]);
+                reach = std::max(reach, rays[i].reach);
+                t_min = std::min(t_min, rays[i].t_min);
+            }
+            const float wider = BoxRay::kWider * reach;
+            const bool is_negative = (octant_ >> a & 1) != 0;
+            near_from_[a] = hn::Set(d, is_negative ? low - wider : high + wider);
+            far_from_[a] = hn::Set(d, is_negative ? high + wider : low - wider);
+            slow_[a] = hn::Set(d, slow), fast_[a] = hn::Set(d, fast);
+        }
+        t_min_ = hn::Set(d, t_min);
+    }
+
+    // As NodeTest::visit. `t_max`: of the ray that goes farthest.
+    HWY_INLINE flat::Child visit(const flat::Scene& scene, flat::Child at, float t_max, Stack& stack) const {
+        const Lanes d;
+        const flat::Node& node = scene.nodes[at];
+        Eight eight;
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            auto near = t_min_, far = hn::Set(d, t_max);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const bool is_negative = (octant_ >> a & 1) != 0;
+                const float* lower = node.lower[a] + i * hn::Lanes(d);
+                const float* upper = node.upper[a] + i * hn::Lanes(d);
+                const auto to_near = hn::Sub(hn::Load(d, is_negative ? upper : lower), near_from_[a]);
+                const auto to_far = hn::Sub(hn::Load(d, is_negative ? lower : upper), far_from_[a]);
+                near = hn::Max(near, hn::Min(hn::Mul(to_near, slow_[a]), hn::Mul(to_near, fast_[a])));
+                far = hn::Min(far, hn::Max(hn::Mul(to_far, slow_[a]), hn::Mul(to_far, fast_[a])));
+            }
+            eight.near[i] = near;
+            eight.met[i] = hn::Le(near, far);
+        }
+        return choose(scene, node, octant_, eight, stack);
+    }
+
+private:
+    V near_from_[3], far_from_[3], slow_[3], fast_[3], t_min_;
+    unsigned octant_;
+};
+
+// Query: Closest or Any<false>, one for each ray. Mesh triangles alone: what is large and met by bundles of rays.
+template <class Query>
+class PacketTraversal {
+public:
+    // All is kept by reference. \pre the rays are ordinary, of one octant and one longest axis; 0 < count <= kPacket
+    PacketTraversal(const flat::Scene& scene, const flat::Group& group, const BoxRay* rays, const RayFrame* frames,
+                    std::size_t count, Query* queries)
+        : scene_(scene), group_(group), rays_(rays), frames_(frames), queries_(queries), count_(count) {
+        for (std::size_t i = 0; i < kPacket; ++i) {
+            const BoxRay& ray = rays[i < count ? i : 0];
+            const PlanarRay planar(ray, 0);
+            if (i == 0) axes_[0] = planar.x, axes_[1] = planar.y, axes_[2] = planar.z;
+            for (std::size_t a = 0; a < 3; ++a) high_[a][i] = planar.high[a], low_[a][i] = planar.low[a];
+            shear_x_[i] = planar.shear_x, shear_y_[i] = planar.shear_y;
+            relative_ = planar.relative;
+            absolute_[i] = planar.absolute;
+            t_from_z_[i] = planar.t_from_z;
+            coarse_slope_[i] = planar.coarse_slope, coarse_[i] = planar.coarse;
+            starts_at_origin_[i] = planar.starts_at_origin;
+            if (i >= count) {  // met by nothing
+                bound_[i] = kNever, possible_after_[i] = 0;
+                continue;
+            }
+            bound_[i] = ray.upper(queries[i].limit());
+            possible_after_[i] = below(ray.t_min);
+            certain_after_[i] = above(ray.t_min);
+            certain_before_[i] = below(bound_[i]);
+        }
+    }
+
+    void run() {
+        if (group_.root == flat::kNothing) return;
+        const PacketBoxes boxes(rays_, count_);
+        Stack stack;
+        flat::Child next = group_.root;
+        float farthest = farthest_bound();
+        for (;;) {
+            while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack);
+            if (next != flat::kNothing && leaf(next)) farthest = farthest_bound();
+            do {
+                if (stack.size == 0) return ask_pending();
+                --stack.size;
+            } while (stack.near[stack.size] > farthest);
+            next = stack.child[stack.size];
+        }
+    }
+
+private:
+    static constexpr float kNever = -std::numeric_limits<float>::max();
+
+    struct Pending {
+        flat::BlockView block;
+        std::uint32_t lane;
+        float near;
+    };
+
+    float farthest_bound() const {
+        const RayLanes d;
+        return hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, bound_)));
+    }
+
+    // Whether a bound has changed.
+    bool leaf(flat::Child child) {
+        flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
+        bool changed = false;
+        for (;;) {
+            const flat::Block header = block.header();
+            for (std::uint32_t i = 0; i < header.count; ++i) changed |= triangle(block, header, i);
+            if (header.last) return changed;
+            block.words += flat::words_of(header.kind, header.count);
+        }
+    }
+
+    // test_planar with a triangle for all lanes and a ray in each.
+    HWY_INLINE bool triangle(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) {
+        const RayLanes d;
+        const auto* rows = reinterpret_cast<const float*>(block.rows(header.count)) + i;
+        const auto corner = [&](std::size_t vertex, std::size_t a)
+                                HWY_ATTR { return hn::Set(d, rows[(3 * vertex + axes_[a]) * header.count]); };
+        const auto seen = [&](std::size_t vertex, std::size_t a) HWY_ATTR {
+            return hn::Sub(hn::Sub(corner(vertex, a), hn::Load(d, high_[a])), hn::Load(d, low_[a]));
+        };
+        const auto shear_x = hn::Load(d, shear_x_), shear_y = hn::Load(d, shear_y_);
+        const auto az = seen(0, 2), bz = seen(1, 2), cz = seen(2, 2);
+        const auto ax = hn::NegMulAdd(shear_x, az, seen(0, 0)), bx = hn::NegMulAdd(shear_x, bz, seen(1, 0)),
+                   cx = hn::NegMulAdd(shear_x, cz, seen(2, 0));
+        const auto ay = hn::NegMulAdd(shear_y, az, seen(0, 1)), by = hn::NegMulAdd(shear_y, bz, seen(1, 1)),
+                   cy = hn::NegMulAdd(shear_y, cz, seen(2, 1));
+        const auto wa = hn::MulSub(cx, by, hn::Mul(cy, bx));
+        const auto wb = hn::MulSub(ax, cy, hn::Mul(ay, cx));
+        const auto wc = hn::MulSub(bx, ay, hn::Mul(by, ax));
+        const auto least = hn::Min(wa, hn::Min(wb, wc)), most = hn::Max(wa, hn::Max(wb, wc));
+        const auto across = hn::Max(largest(ax, bx, cx), largest(ay, by, cy));
+        const auto coarse = hn::MulAdd(hn::Load(d, coarse_slope_), across, hn::Load(d, coarse_));
+        auto open = hn::Not(hn::And(hn::Lt(least, hn::Neg(coarse)), hn::Gt(most, coarse)));
+        if (HWY_LIKELY(hn::AllFalse(d, open))) return false;
+
+        const auto coordinate_error =
+            hn::MulAdd(hn::Set(d, relative_), hn::Add(across, largest(az, bz, cz)), hn::Load(d, absolute_));
+        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
+        open = hn::AndNot(hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e)), open);
+        const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
+        const auto det = hn::Add(wa, hn::Add(wb, wc));
+        const auto inverse = hn::Div(hn::Set(d, 1.0f), det);
+        const auto mean = hn::Mul(hn::MulAdd(wa, az, hn::MulAdd(wb, bz, hn::Mul(wc, cz))), inverse);
+        const auto lowest = hn::Min(az, hn::Min(bz, cz)), highest = hn::Max(az, hn::Max(bz, cz));
+        const auto weight_error = hn::Mul(hn::Mul(hn::Set(d, 10.0f), e), hn::Abs(inverse));
+        const auto e4 = hn::Mul(hn::Set(d, 4.0f), coordinate_error);
+        const auto z_error = hn::MulAdd(weight_error, hn::Sub(highest, lowest), e4);
+        const auto slope = hn::Load(d, t_from_z_);
+        const auto t1 = hn::Mul(slope, hn::IfThenElse(certain, hn::Sub(mean, z_error), hn::Sub(lowest, e4)));
+        const auto t2 = hn::Mul(slope, hn::IfThenElse(certain, hn::Add(mean, z_error), hn::Add(highest, e4)));
+        const auto near = hn::Min(t1, t2), far = hn::Max(t1, t2);
+        const auto bound = hn::Load(d, bound_);
+        const auto dropped = hn::Or(hn::Gt(near, hn::MulAdd(hn::Set(d, 0x1p-22f), hn::Abs(bound), bound)),
+                                    hn::Lt(far, hn::Load(d, possible_after_)));
+        open = hn::AndNot(dropped, open);
+        std::uint32_t lanes = bits(open);
+        if (lanes == 0) return false;
+        HWY_ALIGN float nears[kPacket], fars[kPacket];
+        hn::Store(near, d, nears);
+        hn::Store(far, d, fars);
+        return take(block, header, i, lanes, bits(certain), nears, fars);
+    }
+
+    bool take(const flat::BlockView& block, const flat::Block& header, std::uint32_t i, std::uint32_t open,
+              std::uint32_t certain, const float* near, const float* far) {
+        bool changed = false;
+        for (; open != 0; open &= open - 1) {
+            const auto r = static_cast<std::size_t>(std::countr_zero(open));
+            if (r >= count_ || near[r] > above(bound_[r])) continue;
+            const bool is_certain =
+                (certain >> r & 1) != 0 && near[r] > certain_after_[r] && far[r] < certain_before_[r];
+            changed = true;
+            if (is_certain && Query::kFirstHit) {
+                queries_[r].report({}, 0, false);
+                bound_[r] = kNever;
+            } else if (is_certain) {
+                const float bound = above(far[r]);
+                if (bound < bound_[r]) bound_[r] = bound;
+                Pending& pending = pending_[r];
+                // Two that may be the nearest: the first is asked at once.
+                if (has_pending(r) && pending.near <= above(bound_[r])) ask(r, pending.block, pending.lane);
+                pending = {block, i, near[r]};
+                pending_mask_ |= 1u << r;
+            } else {
+                ask(r, block, i);
+            }
+        }
+        static_cast<void>(header);
+        return changed;
+    }
+
+    bool has_pending(std::size_t r) const { return (pending_mask_ >> r & 1) != 0; }
+
+    void ask_pending() {
+        for (std::size_t r = 0; r < count_; ++r)
+            if (has_pending(r) && pending_[r].near <= above(bound_[r])) ask(r, pending_[r].block, pending_[r].lane);
+    }
+
+    // Exactly.
+    void ask(std::size_t r, const flat::BlockView& block, std::uint32_t i) {
+        const flat::Block header = block.header();
+        const auto vertex = [&](std::size_t row) {
+            return Point3{block.number(header.count, row, i), block.number(header.count, row + 1, i),
+                          block.number(header.count, row + 2, i)};
+        };
+        if (!exact_[r]) exact_[r].emplace(frames_[r], group_.extent);
+        Query& query = queries_[r];
+        PlanarHit hit;
+        const Search search{frames_[r].ray.t_min, query.limit()};
+        if (!exact_[r]->triangle(vertex(0), vertex(3), vertex(6), search, hit)) return;
+        const bool ended = query.report(hit, scene_.ranges[header.range].first_number + block.id(i), false);
+        const float bound = ended ? kNever : rays_[r].upper(query.limit());
+        if (bound < bound_[r]) bound_[r] = bound;
+    }
+
+    static HWY_INLINE RV largest(RV a, RV b, RV c) { return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))); }
+    static HWY_INLINE std::uint32_t bits(RM mask) {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(RayLanes(), mask, bytes);
+        return bytes[0] | std::uint32_t{bytes[1]} << 8;
+    }
+
+    const flat::Scene& scene_;
+    const flat::Group& group_;
+    const BoxRay* rays_;
+    const RayFrame* frames_;
+    Query* queries_;
+    std::size_t count_;
+    std::size_t axes_[3];
+    float relative_ = 0;
+    HWY_ALIGN float high_[3][kPacket], low_[3][kPacket], shear_x_[kPacket], shear_y_[kPacket], absolute_[kPacket],
+        t_from_z_[kPacket], coarse_slope_[kPacket], coarse_[kPacket], bound_[kPacket], possible_after_[kPacket];
+    float certain_after_[kPacket], certain_before_[kPacket];
+    bool starts_at_origin_[kPacket];
+    std::uint32_t pending_mask_ = 0;
+    Pending pending_[kPacket];
+    std::array<std::optional<ExactTests>, kPacket> exact_;
+};
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,40 @@
+#include "accel/subtree.h"
+
+#include <cmath>
+
+#include "catch.h"
+
+using namespace limn;
+using accel::Reference;
+using accel::SplitNode;
+
+namespace {
+
+int depth_of(const SplitNode& node) {
+    return node.left == nullptr ? 1 : 1 + std::max(depth_of(*node.left), depth_of(*node.right));
+}
+
+}  // namespace
+
+TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the rest just keeps the limit of depth",
+          "[accel]") {
+    for (const float side : {1.0f, -1.0f})
+        for (const int above : {1, 20}) {
+            std::vector<Reference> references;
+            for (int power = -140; power < 120; ++power) {
+                const float x = std::ldexp(side, power), low = std::min(x, 1.1f * x), high = std::max(x, 1.1f * x);
+                references.emplace_back(accel::to_bounds({{low, low, low}, {high, high, high}}),
+                                        static_cast<std::uint32_t>(references.size()));
+            }
+            const auto size = static_cast<std::uint32_t>(references.size());
+            const accel::BuildSettings settings{.max_leaf = 1, .leaf_width = 1};
+            std::vector<std::uint32_t> ids(size);
+            std::vector<Reference> spare(size);
+            SplitNode root;
+            accel::SubtreeBuilder builder(settings, ids.data());
+            builder.build(references.data(), spare.data(), accel::range_over(references.data(), 0, size), above, root);
+            const int depth = above - 1 + depth_of(root);
+            CHECK(depth <= accel::kMaxSplitDepth);
+            CHECK(depth > accel::kMaxSplitDepth - 5);
+        }
+}
