@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
 # Everything that is done with limn, on a fresh Debian 12 too: installs what is missing, builds, runs.
 set -euo pipefail
+caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 usage() {
     cat >&2 <<'TEXT'
-usage: ./build.sh COMMAND [--full]
+usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
 
   figures      render the eighteen figures to build/figures/ as EXR and PNG
   test         build and run the whole suite
   convergence  measure speed against error: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
-  bench        rays a second, scaling, instruction counts
+  bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   mutants      faults that the suite must catch
   docs         the API reference: build/docs/html/index.html
 
---full takes the longer form where there is one.
+--full takes the longer form where there is one; bench measures the models too.
 TEXT
     exit 2
 }
@@ -85,19 +86,20 @@ docs() {
     echo "build/docs/html/index.html"
 }
 
-not_yet() {
-    echo "build.sh: '$1' comes with a later issue; there is nothing to run yet" >&2
-    exit 2
-}
-
 [[ $# -ge 1 ]] || usage
 command=$1
 shift
 full=()
+models=()
 for option in "$@"; do
-    [[ $option == --full ]] || usage
-    full=(--full)
-    export LIMN_FULL=1
+    if [[ $option == --full ]]; then
+        full=(--full)
+        export LIMN_FULL=1
+    elif [[ $command == bench && $option == *.obj ]]; then
+        models+=("$(cd "$caller" && realpath -m "$option")")
+    else
+        usage
+    fi
 done
 
 case $command in
@@ -123,6 +125,10 @@ case $command in
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"
         ;;
     docs) docs ;;
-    bench) not_yet "$command" ;;
+    bench)
+        install_missing libembree-dev valgrind ccache python3 python3-matplotlib python3-numpy
+        build
+        /usr/bin/python3 apps/bench/performance.py "${full[@]}" "${models[@]}"
+        ;;
     *) usage ;;
 esac

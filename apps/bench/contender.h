@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/rays.h"
+#include "bench/stopwatch.h"
 
 namespace limn::bench {
 
@@ -24,19 +25,28 @@ struct Answer {
 // suits, to answers in memory.
 class Subject {
 public:
+    explicit Subject(std::string name, std::size_t chunk = 4096) : name_(std::move(name)), chunk_(chunk) {}
     virtual ~Subject() = default;
-    virtual std::string name() const = 0;
-    virtual std::size_t chunk() const { return 4096; }  // how many rays it likes to be given at a time
-    virtual void prepare(const RaySet& set) = 0;        // `set` stays until the next
-    // Several threads may do so for parts that do not overlap; `first` is a multiple of chunk().
+    Subject(const Subject&) = delete;
+    Subject& operator=(const Subject&) = delete;
+
+    const std::string& name() const { return name_; }
+    std::size_t chunk() const { return chunk_; }  // how many rays it likes to be given at a time
+
+    virtual void prepare(const RaySet& set) = 0;  // `set` stays until the next
+    // Several threads may do so for parts that do not overlap; `first` is a multiple of 64.
     virtual void trace(std::size_t first, std::size_t count) = 0;
     virtual Answer answer(std::size_t i) const = 0;
+
+private:
+    std::string name_;
+    std::size_t chunk_;
 };
 
 class BuiltScene {
 public:
     virtual ~BuiltScene() = default;
-    virtual double seconds() const = 0;     // that building took
+    virtual double seconds() const = 0;     // that building took, by the clock that build() was given
     virtual std::size_t bytes() const = 0;  // that it holds, the arrays that it shares with the geometry included
     virtual std::vector<std::unique_ptr<Subject>> subjects() const = 0;  // valid as long as this
 };
@@ -45,8 +55,9 @@ class Contender {
 public:
     virtual ~Contender() = default;
     virtual std::string name() const = 0;
+    virtual std::string version() const = 0;
     // \param geometry stays as long as the scene
-    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry) const = 0;
+    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const = 0;
 };
 
 }  // namespace limn::bench

@@ -2,7 +2,6 @@
 #include <embree3/rtcore.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstring>
 
 #include "bench/embree_subjects.h"
@@ -33,7 +32,7 @@ RTCDevice device() {
 
 class EmbreeScene final : public BuiltScene {
 public:
-    EmbreeScene(const Geometry& geometry, bool robust, std::string name)
+    EmbreeScene(const Geometry& geometry, bool robust, std::string name, Clock clock)
         : name_(std::move(name)), flags_(robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE), scene_(new_scene()) {
         const std::ptrdiff_t before = bytes_held;
         // Setting up is not timed, as limn's describing is not: from there on it is all Embree's work.
@@ -42,12 +41,12 @@ public:
         if (!geometry.balls.empty()) attach_balls(geometry.balls);
         if (!geometry.quads.empty()) attach_quads(geometry.quads);
         for (const Transform& place : geometry.places) attach_instance(inner, place);
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch watch(clock);
         for (RTCGeometry g : geometries_) rtcCommitGeometry(g);
         if (inner) rtcCommitScene(inner);
         for (RTCGeometry g : instances_) rtcCommitGeometry(g);
         rtcCommitScene(scene_);
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        seconds_ = watch.seconds();
         for (RTCGeometry g : geometries_) rtcReleaseGeometry(g);
         for (RTCGeometry g : instances_) rtcReleaseGeometry(g);
         if (inner) rtcReleaseScene(inner);  // the instances hold it
@@ -129,8 +128,9 @@ class EmbreeContender final : public Contender {
 public:
     explicit EmbreeContender(bool robust) : robust_(robust) {}
     std::string name() const override { return robust_ ? "Embree robust" : "Embree"; }
-    std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override {
-        return std::make_unique<EmbreeScene>(geometry, robust_, name());
+    std::string version() const override { return RTC_VERSION_STRING; }
+    std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const override {
+        return std::make_unique<EmbreeScene>(geometry, robust_, name(), clock);
     }
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kMiss = std::numeric_limits<float>::infinity();
 // Of streams, in rays: what this processor is fastest with.
-constexpr std::size_t kStream = 256;
+constexpr std::size_t kStream = 64;
 
 // Embree asks its callers to have denormal numbers flushed; limn must not be measured with that.
 class FlushDenormals {
@@ -41,8 +41,7 @@ struct Found {
 
 class EmbreeSubject : public Subject {
 public:
-    EmbreeSubject(std::string name, RTCScene scene) : name_(std::move(name)), scene_(scene) {}
-    std::string name() const override { return name_; }
+    EmbreeSubject(std::string name, RTCScene scene) : Subject(std::move(name)), scene_(scene) {}
 
 protected:
     RTCScene scene() const { return scene_; }
@@ -60,7 +59,6 @@ protected:
     }
 
 private:
-    std::string name_;
     RTCScene scene_;
     const RaySet* set_ = nullptr;
 };

@@ -32,6 +32,9 @@ struct Geometry {
     std::vector<Parallelogram> quads;
     std::optional<Camera> camera{};  // by default the one that frames all
     std::optional<Point3> light{};   // by default above, to the left in front
+    // Where rays that leave a surface begin. limn needs none; Embree's large spheres do, for their points are so far
+    // off that a ray meets at once what it leaves.
+    double t_min = 0;
 };
 
 // The description that limn compiles.

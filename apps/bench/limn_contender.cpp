@@ -7,9 +7,8 @@ namespace {
 // Answers lie as the public queries give them.
 class LimnSubject : public Subject {
 public:
-    LimnSubject(std::string name, const CompiledScene& scene) : name_(std::move(name)), scene_(scene) {}
-
-    std::string name() const override { return name_; }
+    LimnSubject(std::string name, const CompiledScene& scene, std::size_t chunk = 4096)
+        : Subject(std::move(name), chunk), scene_(scene) {}
 
     void prepare(const RaySet& set) override {
         set_ = &set;
@@ -30,7 +29,6 @@ protected:
     std::vector<std::uint8_t>& occluded() { return occluded_; }
 
 private:
-    std::string name_;
     const CompiledScene& scene_;
     const RaySet* set_ = nullptr;
     std::vector<RayHit> hits_;
@@ -54,10 +52,7 @@ public:
 
 class Batch final : public LimnSubject {
 public:
-    Batch(std::string name, const CompiledScene& scene, std::size_t chunk)
-        : LimnSubject(std::move(name), scene), chunk_(chunk) {}
-
-    std::size_t chunk() const override { return chunk_; }
+    using LimnSubject::LimnSubject;
 
     void trace(std::size_t first, std::size_t count) override {
         const std::span<const Ray> rays = std::span(set().rays).subspan(first, count);
@@ -66,17 +61,12 @@ public:
         else
             scene().closest_hit(rays, std::span(hits()).subspan(first, count));
     }
-
-private:
-    std::size_t chunk_;
 };
 
 }  // namespace
 
-LimnScene::LimnScene(const Scene& scene)
-    : begin_(std::chrono::steady_clock::now()),
-      scene_(compile(scene)),
-      seconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count()) {}
+LimnScene::LimnScene(const Scene& scene, Clock clock)
+    : watch_(clock), scene_(compile(scene)), seconds_(watch_.seconds()) {}
 
 std::vector<std::unique_ptr<Subject>> LimnScene::subjects() const {
     std::vector<std::unique_ptr<Subject>> subjects;
@@ -86,8 +76,8 @@ std::vector<std::unique_ptr<Subject>> LimnScene::subjects() const {
     return subjects;
 }
 
-std::unique_ptr<BuiltScene> LimnContender::build(const Geometry& geometry) const {
-    return std::make_unique<LimnScene>(describe(geometry));
+std::unique_ptr<BuiltScene> LimnContender::build(const Geometry& geometry, Clock clock) const {
+    return std::make_unique<LimnScene>(describe(geometry), clock);
 }
 
 }  // namespace limn::bench

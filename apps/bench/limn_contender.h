@@ -1,16 +1,15 @@
 /// \file
 #pragma once
 
-#include <chrono>
-
 #include "bench/contender.h"
+#include "limn/render/render.h"
 
 namespace limn::bench {
 
 class LimnScene final : public BuiltScene {
 public:
     // Describing is not timed: it is the copying of what a program has into what limn asks for.
-    explicit LimnScene(const Scene& scene);
+    explicit LimnScene(const Scene& scene, Clock clock = Clock::wall);
 
     double seconds() const override { return seconds_; }
     std::size_t bytes() const override { return scene_.stats().memory_bytes; }
@@ -19,7 +18,7 @@ public:
     const CompiledScene& compiled() const { return scene_; }
 
 private:
-    std::chrono::steady_clock::time_point begin_;
+    Stopwatch watch_;
     CompiledScene scene_;
     double seconds_;
 };
@@ -27,7 +26,8 @@ private:
 class LimnContender final : public Contender {
 public:
     std::string name() const override { return "limn"; }
-    std::unique_ptr<BuiltScene> build(const Geometry& geometry) const override;
+    std::string version() const override { return limn::version(); }
+    std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const override;
 };
 
 }  // namespace limn::bench

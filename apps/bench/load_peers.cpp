@@ -12,7 +12,7 @@ std::vector<std::shared_ptr<const Contender>> load_peers(std::vector<std::string
     const std::string name = "limn_bench_embree.so";
     std::string why = name + " is not there";
     // Beside the program as built, or where it is installed.
-    for (const std::filesystem::path& path : {folder / name, folder / "../lib/limn" / name}) {
+    for (const std::filesystem::path& path : {folder / name, folder / LIMN_MODULE_FOLDER / name}) {
         if (!std::filesystem::exists(path)) continue;
         void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {

@@ -4,8 +4,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "bench/stopwatch.h"
 
 namespace limn::bench {
 
@@ -20,16 +21,33 @@ double quantile(const std::vector<double>& sorted, double q) {
     return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-double trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
-    const std::size_t chunk = subject.chunk();
+// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
+constexpr double kLeastSeconds = 0.004;
+
+// As many as the subject likes, but so few that every thread of several gets some. All packets fit in 64.
+std::size_t chunk_for(const Subject& subject, std::size_t rays, const tbb::task_arena* arena) {
+    if (arena == nullptr) return subject.chunk();
+    const std::size_t share = rays / (8 * static_cast<std::size_t>(arena->max_concurrency())) / 64 * 64;
+    return std::clamp<std::size_t>(share, 64, subject.chunk());
+}
+
+void trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
+    const std::size_t chunk = chunk_for(subject, rays, arena);
     const std::size_t chunks = (rays + chunk - 1) / chunk;
     const auto part = [&](std::size_t i) { subject.trace(i * chunk, std::min(chunk, rays - i * chunk)); };
-    const auto begin = std::chrono::steady_clock::now();
     if (arena == nullptr)
         for (std::size_t i = 0; i < chunks; ++i) part(i);
     else
         arena->execute([&] { tbb::parallel_for(std::size_t{0}, chunks, part); });
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Of one pass over the rays.
+double time_of(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
+    const Stopwatch watch(arena == nullptr ? Clock::thread : Clock::wall);
+    for (int passes = 1;; ++passes) {
+        trace_all(subject, rays, arena);
+        if (const double seconds = watch.seconds(); seconds >= kLeastSeconds) return seconds / passes;
+    }
 }
 
 bool agrees(const Answer& a, const Answer& b) {
@@ -68,7 +86,7 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
     }
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t s = 0; s < subjects.size(); ++s) {
-            timings[s].seconds.push_back(trace_all(*subjects[s], rays, arena.get()));
+            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena.get()));
             if (!keep_going()) return timings;
         }
     }

@@ -1,7 +1,11 @@
 #include "bench/rays.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "bench/random.h"
 #include "limn/core/frame.h"
@@ -37,17 +41,15 @@ public:
           box_(describe(geometry).bounds()),
           side_(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)) / kTile)) * kTile),
           camera_(geometry.camera.value_or(frame_box(box_)), static_cast<int>(side_), static_cast<int>(side_)),
-          light_(to_float32(geometry.light.value_or(box_.center() + length(box_.diagonal()) * Vec3(-0.7, 1.1, 0.8)))) {}
+          light_(to_float32(geometry.light.value_or(box_.center() + length(box_.diagonal()) * Vec3(-0.7, 1.1, 0.8)))),
+          t_min_(to_float32(geometry.t_min)) {}
 
     std::vector<RaySet> make() {
         for (int pass = 0; pass < kMostPasses && !is_full(); ++pass) {
             std::vector<Ray> rays = primary(pass);
-            std::vector<Path> paths;
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                const std::uint64_t number = static_cast<std::uint64_t>(pass) * rays.size() + i;
-                if (const auto hit = scene_.closest_hit(rays[i]))
-                    paths.push_back({scene_.surface_at(rays[i], *hit), number});
-            }
+            std::vector<std::uint64_t> numbers(rays.size());
+            std::iota(numbers.begin(), numbers.end(), static_cast<std::uint64_t>(pass) * rays.size());
+            std::vector<Path> paths = follow(rays, numbers);
             add(primary_, rays);
             if (paths.empty()) break;
             gather(paths);
@@ -101,6 +103,7 @@ private:
         add(occlusion_, rays);
         rays.clear();
         for (const Path& path : paths) {
+            if (dot(Vec3(path.at.normal), light_ - path.at.position) <= 0) continue;  // its own surface is in the way
             // t is the share of the way; a float32 just below 1 keeps what holds the light from being in its way.
             rays.push_back(leave(path.at, light_ - path.at.position));
             rays.back().t_max = 1 - 0x1p-10;
@@ -112,12 +115,22 @@ private:
                 rays.push_back(
                     leave(path.at, cosine_direction(path, kScatter + 2 * static_cast<std::uint64_t>(depth))));
             add(diffuse_[depth], rays);
-            std::vector<Path> longer;
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                if (const auto hit = scene_.closest_hit(rays[i]))
-                    longer.push_back({scene_.surface_at(rays[i], *hit), paths[i].number});
-            paths = std::move(longer);
+            std::vector<std::uint64_t> numbers;
+            for (const Path& path : paths) numbers.push_back(path.number);
+            paths = follow(rays, numbers);
         }
+    }
+
+    // The paths that go on: `numbers` are those of the rays.
+    std::vector<Path> follow(const std::vector<Ray>& rays, const std::vector<std::uint64_t>& numbers) const {
+        std::vector<std::optional<Surface>> ends(rays.size());
+        tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+            if (const auto hit = scene_.closest_hit(rays[i])) ends[i] = scene_.surface_at(rays[i], *hit);
+        });
+        std::vector<Path> paths;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (ends[i]) paths.push_back({*ends[i], numbers[i]});
+        return paths;
     }
 
     Vec3 cosine_direction(const Path& path, std::uint64_t dimension) const {
@@ -126,12 +139,13 @@ private:
     }
 
     // spawn_ray leaves the surface in double; what rounding to float32 may move the origin by is added to that.
-    static Ray leave(const Surface& from, const Vec3& direction) {
+    Ray leave(const Surface& from, const Vec3& direction) const {
         Ray ray = from.spawn_ray(direction, 0);
         const Vec3 out = dot(direction, Vec3(from.normal)) < 0 ? -Vec3(from.normal) : Vec3(from.normal);
         const double largest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
         ray.origin = to_float32(ray.origin + largest * 0x1p-21 * out);
         ray.direction = to_float32(ray.direction);
+        ray.t_min = t_min_;
         return ray;
     }
 
@@ -143,14 +157,20 @@ private:
     const std::size_t side_;  // of the picture, in pixels
     const CameraRays camera_;
     const Point3 light_;
+    const double t_min_;
     RaySet primary_{.name = "primary", .any = false, .coherent = true, .rays = {}};
     RaySet diffuse_[kDepths] = {
-        {.name = "diffuse 1", .rays = {}}, {.name = "diffuse 2", .rays = {}}, {.name = "diffuse 3", .rays = {}}};
+        {.name = "diffuse1", .rays = {}}, {.name = "diffuse2", .rays = {}}, {.name = "diffuse3", .rays = {}}};
     RaySet occlusion_{.name = "occlusion", .any = true, .coherent = false, .rays = {}};
-    RaySet shadow_{.name = "shadow", .any = true, .coherent = true, .rays = {}};
+    RaySet shadow_{.name = "shadow", .any = true, .coherent = false, .rays = {}};
 };
 
 }  // namespace
+
+const std::vector<std::string>& ray_kinds() {
+    static const std::vector<std::string> kinds{"primary", "diffuse1", "diffuse2", "diffuse3", "occlusion", "shadow"};
+    return kinds;
+}
 
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count) {
     return Maker(geometry, scene, count).make();

@@ -18,8 +18,11 @@ struct RaySet {
     std::vector<Ray> rays;
 };
 
-// primary, diffuse1 to diffuse3, ambient occlusion and shadow, some `count` rays each: fewer where paths leave the
-// scene too soon, and none of a kind for which there is no ray at all. The same ones each time.
+// "primary", "diffuse1" to "diffuse3", "occlusion" and "shadow".
+const std::vector<std::string>& ray_kinds();
+
+// Of each kind `count` rays: fewer where paths leave the scene too soon, and no set of a kind that has none at all.
+// The same ones each time.
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count);
 
 }  // namespace limn::bench

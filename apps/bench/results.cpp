@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "bench/limn_contender.h"
+
 namespace limn::bench {
 
 namespace {
@@ -72,6 +74,7 @@ std::string results_table(const std::vector<SceneResult>& results) {
                                 static_cast<double>(bytes) / static_cast<double>(scene.primitives));
         text += '\n';
         for (const BuildRow& row : scene.builds) {
+            if (row.timings.back().seconds.empty()) continue;
             text += fmt::format("  built by {} thread{}:", row.threads, row.threads == 1 ? "" : "s");
             for (const Timing& t : row.timings) {
                 text += fmt::format(" {} {:.3f} s", t.subject, spread_of(t.seconds).median);
@@ -97,8 +100,15 @@ std::string results_table(const std::vector<SceneResult>& results) {
     return text;
 }
 
-Json results_json(const Plan& plan, const std::vector<SceneResult>& results) {
-    Json json = {{"rounds", plan.rounds}, {"cores", std::thread::hardware_concurrency()}, {"scenes", Json::array()}};
+Json results_json(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
+                  const std::vector<SceneResult>& results, bool complete) {
+    Json versions = {{"limn", LimnContender().version()}};
+    for (const auto& peer : peers) versions[peer->name()] = peer->version();
+    Json json = {{"complete", complete},
+                 {"versions", versions},
+                 {"rounds", plan.rounds},
+                 {"cores", std::thread::hardware_concurrency()},
+                 {"scenes", Json::array()}};
     for (const SceneResult& scene : results) {
         Json builds = Json::array(), rows = Json::array(), bytes = Json::object();
         for (const BuildRow& row : scene.builds) builds.push_back(build_json(row));

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "bench/random.h"
 #include "limn/core/error.h"
 #include "limn/core/warp.h"
-#include "limn/io/obj.h"
 
 namespace limn::bench {
 
@@ -81,11 +79,11 @@ Geometry displaced_sphere(double scale) {
     return {.name = "displaced sphere", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
 }
 
-// Triangles of any direction, scattered over the unit cube. Their size keeps the mean free path the same, whatever
-// their number.
+// Triangles of any direction, scattered over the unit cube. Their size goes with their distance from one another, so
+// that as many overlap whatever their number.
 Geometry soup(double scale) {
     const std::size_t count = scaled(1e6, scale);
-    const double size = 0.01 / std::sqrt(scale);
+    const double size = 0.03 / std::cbrt(scale);
     MeshData data;
     for (std::size_t i = 0; i < count; ++i) {
         const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };
@@ -115,6 +113,7 @@ Geometry spheres(double scale) {
     }
     g.camera = Camera{.look_from = {13, 2, 3}, .vertical_fov = 20};
     g.light = Point3{-5, 20, 10};
+    g.t_min = 0x1p-10;
     return g;
 }
 
@@ -179,6 +178,9 @@ Geometry forest(double scale) {
             for (double& entry : row) entry = to_float32(entry);
         g.places.push_back(place);
     }
+    const double width = 0.5 * side;
+    g.camera =
+        Camera{.look_from = {0.5 * width, 0.2 * width + 1, 1.4 * width}, .look_at = {0.5 * width, 0, 0.6 * width}};
     return g;
 }
 
@@ -196,15 +198,6 @@ Geometry make_scene(const std::string& name, double scale) {
     if (name == "cornell") return cornell_box();
     if (name == "forest") return forest(scale);
     throw ArgumentError("'" + name + "' is not the name of a scene");
-}
-
-Geometry load_scene(const std::string& path) {
-    const Model model = load_obj(path, {.textures = false});
-    return {.name = std::filesystem::path(path).filename().string(),
-            .mesh = model.meshes.front(),  // an OBJ gives one
-            .places = {},
-            .balls = {},
-            .quads = {}};
 }
 
 }  // namespace limn::bench

@@ -11,13 +11,18 @@ namespace limn::bench {
 
 namespace {
 
+// Small scenes are built so fast that a few rounds say little: more, until so many seconds are spent, or so many
+// rounds.
+constexpr double kLeastBuilding = 0.05;
+constexpr int kMostBuilds = 200;
+
 bool is_batch(const std::string& subject) { return subject.starts_with("limn "); }
+
+bool is_robust(const std::string& name) { return name.ends_with("robust"); }
 
 // Embree's ways of asking have a name of more than its scene's, single rays of the default scene count too: where they
 // are fastest they are its best.
-bool is_peer_mode(const std::string& subject) {
-    return subject.starts_with("Embree") && !subject.starts_with("Embree robust");
-}
+bool is_peer_mode(const std::string& subject) { return subject.starts_with("Embree") && !is_robust(subject); }
 
 const Timing* fastest(const std::vector<Timing>& timings, bool (*counts)(const std::string&)) {
     const Timing* best = nullptr;
@@ -30,31 +35,27 @@ const Timing* fastest(const std::vector<Timing>& timings, bool (*counts)(const s
 
 class Session {
 public:
-    Session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers, const Observer& observer)
-        : plan_(plan), peers_(peers), observer_(observer) {}
+    Session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers, const Watch& watch)
+        : plan_(plan), peers_(peers), watch_(watch) {}
 
     std::vector<SceneResult> run() {
         for (const std::string& name : plan_.scenes)
-            if (goes_on()) measure_scene(name, [&] { return make_scene(name, plan_.scale); });
+            if (goes_on()) measure_scene([&] { return make_scene(name, plan_.scale); });
         for (const std::string& path : plan_.models)
-            if (goes_on()) measure_scene(path, [&] { return load_scene(path); });
+            if (goes_on()) measure_scene([&] { return load_scene(path); });
         return std::move(results_);
     }
 
 private:
     bool goes_on() {
-        going_ = going_ && observer_.keep_going();
+        const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
+        going_ = going_ && watch_((static_cast<double>(scenes_done_) + part_) / scenes);
         return going_;
     }
 
-    void doing(const std::string& what, double part) const {
-        const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
-        observer_.doing(what, (static_cast<double>(scenes_done_) + part) / scenes);
-    }
-
     template <class Make>
-    void measure_scene(const std::string& name, const Make& make) {
-        doing(name, 0);
+    void measure_scene(const Make& make) {
+        part_ = 0;
         const Geometry geometry = make();
         SceneResult& result = results_.emplace_back();
         result.name = geometry.name;
@@ -72,12 +73,21 @@ private:
                                             static_cast<std::size_t>(threads));
             BuildRow& row = result.builds.emplace_back();
             row.threads = threads;
-            row.timings.push_back({.subject = limn.name(), .seconds = {}});
-            for (const auto& peer : peers_) row.timings.push_back({.subject = peer->name(), .seconds = {}});
-            for (int round = 0; round < plan_.build_rounds && goes_on(); ++round) {
-                row.timings[0].seconds.push_back(limn.build(geometry)->seconds());
-                for (std::size_t i = 0; i < peers_.size(); ++i)
-                    row.timings[i + 1].seconds.push_back(peers_[i]->build(geometry)->seconds());
+            std::vector<const Contender*> builders{&limn};
+            for (const auto& peer : peers_)
+                if (!is_robust(peer->name())) builders.push_back(peer.get());  // which builds as its plain scene does
+            for (const Contender* builder : builders)
+                row.timings.push_back({.subject = builder->name(), .seconds = {}, .mismatches = 0});
+            const Clock clock = threads == 1 ? Clock::process : Clock::wall;
+            double spent = 0;
+            for (int round = 0; round < plan_.build_rounds || spent < kLeastBuilding; ++round) {
+                if (plan_.build_rounds == 0 || round == kMostBuilds) break;
+                for (std::size_t i = 0; i < builders.size() && goes_on(); ++i) {
+                    const double seconds = builders[i]->build(geometry, clock)->seconds();
+                    spent += seconds;
+                    row.timings[i].seconds.push_back(seconds);
+                }
+                if (!going_) break;
             }
         }
     }
@@ -88,11 +98,11 @@ private:
         std::vector<std::unique_ptr<Subject>> subjects = limn.subjects();
         result.bytes.emplace_back("limn", limn.bytes());
         for (const auto& peer : peers_) {
-            built.push_back(peer->build(geometry));
+            built.push_back(peer->build(geometry, Clock::wall));
             result.bytes.emplace_back(peer->name(), built.back()->bytes());
             auto more = built.back()->subjects();
             // Of the robust scene single rays are enough.
-            if (peer->name() == "Embree robust") more.resize(1);
+            if (is_robust(peer->name())) more.resize(1);
             for (auto& subject : more) subjects.push_back(std::move(subject));
         }
         std::vector<RaySet> sets = make_rays(geometry, limn.compiled(), plan_.rays);
@@ -100,15 +110,17 @@ private:
             std::erase_if(sets, [&](const RaySet& set) {
                 return std::find(plan_.kinds.begin(), plan_.kinds.end(), set.name) == plan_.kinds.end();
             });
-        double done = 0;
+        const auto measurements =
+            static_cast<double>(sets.size() * plan_.threads.size() * subjects.size()) * (plan_.rounds + 1);
         for (const RaySet& set : sets) {
             for (const int threads : plan_.threads) {
                 if (!goes_on()) return;
-                doing(geometry.name + ", " + set.name, done / static_cast<double>(sets.size() * plan_.threads.size()));
-                ++done;
                 RayRow& row = result.rows.emplace_back();
                 row.rays = set.name, row.count = set.rays.size(), row.any = set.any, row.threads = threads;
-                row.timings = measure(subjects, set, threads, plan_.rounds, [&] { return goes_on(); });
+                row.timings = measure(subjects, set, threads, plan_.rounds, [&] {
+                    part_ += 1 / measurements;
+                    return goes_on();
+                });
                 for (std::size_t i = 1; i < row.timings.size(); ++i)
                     if (is_batch(row.timings[i].subject))
                         row.differences += differences(*subjects[0], *subjects[i], set.rays.size());
@@ -118,9 +130,10 @@ private:
 
     const Plan& plan_;
     const std::vector<std::shared_ptr<const Contender>>& peers_;
-    const Observer& observer_;
+    const Watch& watch_;
     std::vector<SceneResult> results_;
     std::size_t scenes_done_ = 0;
+    double part_ = 0;  // of the scene's measurements that is done
     bool going_ = true;
 };
 
@@ -140,8 +153,8 @@ double RayRow::million_a_second(const Timing& timing) const {
 }
 
 std::vector<SceneResult> run_session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
-                                     const Observer& observer) {
-    return Session(plan, peers, observer).run();
+                                     const Watch& watch) {
+    return Session(plan, peers, watch).run();
 }
 
 }  // namespace limn::bench

@@ -50,13 +50,11 @@ struct SceneResult {
     std::vector<RayRow> rows;
 };
 
-struct Observer {
-    std::function<bool()> keep_going;                       // asked after each measurement
-    std::function<void(const std::string&, double)> doing;  // what comes next, and the share of the plan that is done
-};
+// Told after each measurement what share of the plan is done; returns false to stop.
+using Watch = std::function<bool(double)>;
 
 // The results as far as they went.
 std::vector<SceneResult> run_session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
-                                     const Observer& observer);
+                                     const Watch& watch);
 
 }  // namespace limn::bench

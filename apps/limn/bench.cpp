@@ -27,28 +27,33 @@ using bench::Plan;
 
 constexpr const char* kMeaning =
     R"(Rates are in million rays a second, medians over the rounds; limn/Embree, limn/robust and batch/best are the
-medians of the ratios of each round, with their quartiles. Every round lets each take its turn. Embree appears
-where its module was built; best is its fastest way of asking: packets of 4, 8 or 16, streams of single rays (1M) or
-of packets (16M). differ/M: rays in a million that Embree answers otherwise than limn.)";
+medians of the ratios of each round, with their quartiles. Every round lets each take its turn; what one thread
+does is measured by processor time, what several do by the clock. Embree appears where its module was built; best is
+its fastest way of asking: packets of 4, 8 or 16, streams of single rays (1M) or of packets (16M). differ/M: rays in a
+million that Embree answers otherwise than limn.)";
 
 template <class Integer>
 auto integer_option(const char* option, Integer lowest, Integer highest, Integer& value) {
     return [=, &value](const std::string& text) { value = parse_integer(option, text, lowest, highest); };
 }
 
-void add_options(CLI::App& cli, Plan& plan, bool& quiet) {
-    cli.add_option("MODEL", plan.models, "Wavefront OBJ models to measure beside the scenes, or in place of them")
-        ->each(file_name("MODEL"));
-    cli.add_option("--scene", plan.scenes,
-                   fmt::format("A scene to measure: {}; repeatable; without it and without a model, all",
-                               fmt::join(bench::scene_names(), ", ")))
+// A repeatable option for some of `names`.
+void add_choice(CLI::App& cli, const std::string& option, const std::string& help,
+                const std::vector<std::string>& names, std::vector<std::string>& chosen) {
+    cli.add_option(option, chosen, fmt::format("{} (repeatable): {}", help, fmt::join(names, ", ")))
         ->type_name("NAME")
-        ->each([](const std::string& name) {
-            const auto& names = bench::scene_names();
+        ->allow_extra_args(false)
+        ->each([&names, option](const std::string& name) {
             if (std::find(names.begin(), names.end(), name) == names.end())
-                refuse("--scene", name, fmt::format("is none of {}", fmt::join(names, ", ")));
+                refuse(option, name, fmt::format("is none of {}", fmt::join(names, ", ")));
         });
-    cli.add_option("--kind", plan.kinds, "Only rays of this kind; repeatable")->type_name("NAME");
+}
+
+void add_options(CLI::App& cli, Plan& plan, bool& quiet) {
+    cli.add_option("MODEL", plan.models, "Wavefront OBJ models to measure; without one and without --scene, all scenes")
+        ->each(file_name("MODEL"));
+    add_choice(cli, "--scene", "A scene to measure", bench::scene_names(), plan.scenes);
+    add_choice(cli, "--kind", "Only rays of this kind", bench::ray_kinds(), plan.kinds);
     cli.add_option_function<std::string>(
            "--scale",
            [&plan](const std::string& text) {
@@ -99,17 +104,14 @@ int bench_command(int argc, const char* const* argv) {
     catch_interrupts();
     ProgressBar bar(!quiet && stderr_is_terminal());
     const auto begin = std::chrono::steady_clock::now();
-    const bench::Observer observer{
-        .keep_going = [] { return caught_signal() == 0; },
-        .doing =
-            [&](const std::string&, double fraction) {
-                const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-                bar.update({fraction, seconds.count()});
-            },
+    const auto watch = [&](double fraction) {
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        bar.update({fraction, seconds.count()});
+        return caught_signal() == 0;
     };
-    const auto results = from_files([&] { return bench::run_session(plan, peers, observer); });
+    const auto results = from_files([&] { return bench::run_session(plan, peers, watch); });
     bar.clear();
-    json.write(bench::results_table(results), bench::results_json(plan, results));
+    json.write(bench::results_table(results), bench::results_json(plan, peers, results, caught_signal() == 0));
     if (caught_signal() != 0) return 128 + caught_signal();
     for (const bench::SceneResult& scene : results)
         for (const bench::RayRow& row : scene.rows)

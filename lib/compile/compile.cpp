@@ -6,6 +6,7 @@
 
 #include "compile/groups.h"
 #include "compile/lights.h"
+#include "limn/core/error.h"
 
 namespace limn::compiler {
 
@@ -127,6 +128,19 @@ void release_arrays(flat::Scene& s) {
     if (!f.foreign_shapes && !f.foreign_materials && !f.foreign_textures) s.kept.clear();
 }
 
+// A build without a feature must not answer as if the scene had none of it.
+void require_built(const flat::Features& f) {
+    const auto require_one = [](bool is_built, bool is_used, const char* what) {
+        if (is_used && !is_built) throw ArgumentError(std::string("this build of limn is without ") + what);
+    };
+    require_one(flat::kHasMotion, f.moving_spheres || f.moving_instances, "motion");
+    require_one(flat::kHasMedia, f.media, "media");
+    require_one(flat::kHasInstances, f.instances, "instances");
+    require_one(flat::kHasForeignShapes, f.foreign_shapes, "foreign shapes");
+    require_one(flat::kHasTextures, f.textures, "textures");
+    require_one(flat::kHasSmoothNormals, f.smooth_normals, "smooth normals");
+}
+
 // Shapes that can be seen but have no material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
     std::vector<bool> seen(s.groups.size(), false);
@@ -183,6 +197,7 @@ flat::Scene flatten(const limn::Scene& scene) {
     place_media(out);
     collect_lights(out);
     gather_features(out);
+    require_built(out.features);
     release_arrays(out);
     count_unassigned(out);
     out.memory_bytes = memory_of(out);

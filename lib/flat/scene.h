@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/huge_pages.h"
 #include "core/mesh_triangle.h"
 #include "core/ray_frame.h"
+#include "flat/features.h"
 #include "flat/tree.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
@@ -139,8 +141,6 @@ struct Scene {
     double compile_seconds = 0;
 };
 
-constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
-
 // Instances may nest this deep, those of a medium's boundary included.
 inline constexpr std::uint32_t kMaxNesting = 16;
 
@@ -161,6 +161,11 @@ MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uin
 
 // Exactly as described.
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
+
+// None where they are not built.
+inline std::span<const Medium> media_of(const Scene& s) {
+    return kHasMedia ? std::span<const Medium>(s.media) : std::span<const Medium>();
+}
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 

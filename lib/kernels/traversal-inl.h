@@ -71,7 +71,9 @@ private:
     // Where t may overflow, and a hit be none.
     static constexpr double kEndless = 1e300;
     // Vertices of meshes are packed as they are; other coordinates are rounded, moving centres then interpolated.
-    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22f * box_ray_.extent; }
+    static constexpr unsigned kPacked =
+        kKinds & ~(flat::bit(PrimitiveKind::instance) | flat::bit(PrimitiveKind::foreign));
+    float packed_error() const { return kPacked == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22f * box_ray_.extent; }
 
     // A hit for sure, not asked exactly yet.
     struct Pending {

@@ -21,10 +21,12 @@ constexpr unsigned kinds(Kinds... kind) {
 
 // The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
 constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
-constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
+constexpr unsigned kMeshesAndAsked =
+    kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign) & flat::kBuiltKinds;
+constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
-constexpr unsigned kAll = ~0u;
+constexpr unsigned kAll = flat::kBuiltKinds;
 
 template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
@@ -37,6 +39,7 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
+    if (covers(kMeshesAndAsked)) return run(std::integral_constant<unsigned, kMeshesAndAsked>{});
     if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
     if (covers(kStill)) return run(std::integral_constant<unsigned, kStill>{});
     run(std::integral_constant<unsigned, kAll>{});

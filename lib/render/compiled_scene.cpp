@@ -21,7 +21,7 @@ struct AnyHit : kernels::Hit {
 // Among surfaces and the boundaries of media.
 AnyHit closest_of_all(const flat::Scene& scene, const Ray& ray) {
     AnyHit best{kernels::closest_hit(scene, ray)};
-    for (const flat::Medium& medium : scene.media) {
+    for (const flat::Medium& medium : flat::media_of(scene)) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
         const kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
@@ -63,8 +63,7 @@ std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
 }
 
 bool find_any(const flat::Scene& scene, const Ray& ray) {
-    return kernels::any_hit(scene, ray) ||
-           std::any_of(scene.media.begin(), scene.media.end(), [&](const flat::Medium& medium) {
+    return kernels::any_hit(scene, ray) || std::ranges::any_of(flat::media_of(scene), [&](const flat::Medium& medium) {
                return kernels::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
            });
 }

@@ -50,7 +50,7 @@ PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
     for (;;) {
         if (!count(ray)) return End::lost;
         const flat::RawHit hit = kernels::closest_hit(scene_, ray);
-        if (!scene_.media.empty()) {
+        if (!flat::media_of(scene_).empty()) {
             Ray flight = ray;
             flight.t_max = hit.t;
             media_.trace(scene_, flight);
@@ -128,7 +128,7 @@ Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampl
     const Ray shadow = vertex.surface.spawn_ray_to(s->point, time);
     if (!count(shadow) || kernels::is_occluded(scene_, shadow)) return {};
     double transmittance = 1;
-    if (!scene_.media.empty()) {
+    if (!flat::media_of(scene_).empty()) {
         media_.trace(scene_, shadow);
         transmittance = media_.transmittance();
     }

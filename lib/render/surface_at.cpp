@@ -62,7 +62,8 @@ LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t
     PlanarHit planar;
     LocalHit hit = on_triangle(triangle_of(scene, mesh, element), frame, planar);
     if (!mesh.places.empty()) return hit;
-    hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
+    if constexpr (flat::kHasSmoothNormals)
+        hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
     hit.uv = texture_coordinates(mesh.arrays, element, planar);
     return hit;
 }
@@ -107,7 +108,9 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
         }
         case PrimitiveKind::quad: return on_quad(scene.quads[row], frame);
         case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, frame);
-        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], frame, t);
+        case PrimitiveKind::foreign:
+            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], frame, t);
+            break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
     }
@@ -116,9 +119,10 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
 
 // From the space of an instanced group to that around it.
 void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) {
-    const Transform m = instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
-                                        : instance.world_from_object0;
-    const Transform inv = instance.moving ? inverse(m) : instance.object_from_world;
+    const bool moving = flat::kHasMotion && instance.moving;
+    const Transform m = moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
+                               : instance.world_from_object0;
+    const Transform inv = moving ? inverse(m) : instance.object_from_world;
     const auto outward = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
     hit.position = transform_point(m, hit.position);
     hit.position_error = transformed_error(m, inv, hit.position, hit.position_error);
@@ -130,7 +134,7 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
 // Below `level` of the instances around it; `front`: whether the ray meets the outward side.
 LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
                 double t, bool with_uv, bool& front) {
-    if (level == place.depth) {
+    if (!flat::kHasInstances || level == place.depth) {
         const LocalHit hit = on_primitive(scene, place, frame, t, with_uv);
         front = dot(hit.normal, frame.ray.direction) < 0;  // here, where the normal is not transformed
         return hit;

@@ -1,0 +1,158 @@
+// What performance.py counts instructions of, under callgrind: the functions measure_*, each called once. They trace
+// rays of a mesh scene, and render it. Without callgrind: their times, as JSON on stdout, nanoseconds a ray.
+//
+// limn_count_instructions [--rays N] [--rounds N] [--foreign]
+//   --rays N     of each kind
+//   --rounds N   calls of each function: their times are then printed, round by round
+//   --foreign    adds a sphere of a class of its own beside the mesh, which no ray that is traced meets the box of
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "bench/rays.h"
+#include "bench/scenes.h"
+#include "bench/stopwatch.h"
+#include "limn/material/lambertian.h"
+#include "limn/render/render.h"
+#include "limn/shape/sphere.h"
+
+namespace {
+
+using namespace limn;
+
+// Known to limn by its virtual functions alone.
+class ForeignSphere final : public Hittable {
+public:
+    ForeignSphere(const Point3& center, double radius) : sphere_(center, radius, nullptr) {}
+    Box bounds() const override { return sphere_.bounds(); }
+    std::optional<Hit> hit(const Ray& ray) const override { return sphere_.hit(ray); }
+
+private:
+    Sphere sphere_;
+};
+
+struct Work {
+    CompiledScene scene;
+    std::vector<Ray> primary, diffuse, shadow;
+    Camera camera;
+    std::vector<RayHit> hits;
+    std::vector<std::uint8_t> occluded;
+};
+
+void trace_single(Work& work, const std::vector<Ray>& rays) {
+    for (std::size_t i = 0; i < rays.size(); ++i) work.hits[i] = work.scene.closest_hit(rays[i]).value_or(RayHit{});
+}
+void trace_batch(Work& work, const std::vector<Ray>& rays) {
+    work.scene.closest_hit(rays, std::span(work.hits).first(rays.size()));
+}
+
+}  // namespace
+
+// Outside of any namespace and not inlined, so that callgrind knows them by these names.
+extern "C" {
+[[gnu::noinline]] void measure_primary_single(Work& work) { trace_single(work, work.primary); }
+[[gnu::noinline]] void measure_primary_batch(Work& work) { trace_batch(work, work.primary); }
+[[gnu::noinline]] void measure_diffuse_single(Work& work) { trace_single(work, work.diffuse); }
+[[gnu::noinline]] void measure_diffuse_batch(Work& work) { trace_batch(work, work.diffuse); }
+[[gnu::noinline]] void measure_shadow_single(Work& work) {
+    for (std::size_t i = 0; i < work.shadow.size(); ++i) work.occluded[i] = work.scene.any_hit(work.shadow[i]) ? 1 : 0;
+}
+[[gnu::noinline]] void measure_shadow_batch(Work& work) {
+    work.scene.any_hit(work.shadow, std::span(work.occluded).first(work.shadow.size()));
+}
+[[gnu::noinline]] std::uint64_t measure_render(Work& work) {
+    return render(work.scene, work.camera,
+                  {.width = 32, .height = 32, .samples_per_pixel = 4, .max_depth = 4, .threads = 1})
+        .report.rays;
+}
+}
+
+namespace {
+
+// The rays that do not meet the box.
+std::vector<Ray> that_miss(const std::vector<Ray>& rays, const Box& box) {
+    std::vector<Ray> kept;
+    for (const Ray& ray : rays) {
+        double enter = ray.t_min, leave = ray.t_max;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double a = (box.lower[axis] - ray.origin[axis]) / ray.direction[axis];
+            const double b = (box.upper[axis] - ray.origin[axis]) / ray.direction[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        if (!(enter <= leave)) kept.push_back(ray);
+    }
+    return kept;
+}
+
+Work prepare(std::size_t rays, bool with_foreign) {
+    const bench::Geometry geometry = bench::make_scene("sphere", 0.01);
+    // The mesh again, with a material to be rendered with.
+    const auto mesh = std::make_shared<Mesh>(geometry.mesh->data(), std::make_shared<Lambertian>(Color{.5, .5, .5}));
+    Scene scene;
+    scene.background = Background::constant({1, 1, 1});
+    scene.add(mesh);
+    const auto foreign = std::make_shared<ForeignSphere>(Point3{1.5, 1.5, 0}, 0.3);
+    Camera camera = frame_box(mesh->bounds());
+    Work work{compile(scene), {}, {}, {}, camera, {}, {}};
+    for (const bench::RaySet& set : bench::make_rays(geometry, work.scene, rays)) {
+        std::vector<Ray> kept = that_miss(set.rays, foreign->bounds());
+        if (set.name == "primary") work.primary = std::move(kept);
+        if (set.name == "diffuse1") work.diffuse = std::move(kept);
+        if (set.name == "shadow") work.shadow = std::move(kept);
+    }
+    if (with_foreign) {
+        scene.add(foreign);
+        work.scene = compile(scene);
+    }
+    work.hits.resize(std::max(work.primary.size(), work.diffuse.size()));
+    work.occluded.resize(work.shadow.size());
+    return work;
+}
+
+using Times = std::map<std::string, std::vector<double>>;
+
+template <class Measure>
+void time(Times& times, const char* name, std::size_t rays, const Measure& measure) {
+    const bench::Stopwatch watch(bench::Clock::thread);  // all that is measured runs in this one
+    measure();
+    times[name].push_back(1e9 * watch.seconds() / static_cast<double>(rays));
+}
+
+std::size_t number_after(int argc, char** argv, const char* option, std::size_t otherwise) {
+    for (int i = 1; i + 1 < argc; ++i)
+        if (std::strcmp(argv[i], option) == 0) return static_cast<std::size_t>(std::atoll(argv[i + 1]));
+    return otherwise;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const bool with_foreign =
+        std::any_of(argv + 1, argv + argc, [](const char* word) { return std::strcmp(word, "--foreign") == 0; });
+    Work work = prepare(number_after(argc, argv, "--rays", 2000), with_foreign);
+    const std::size_t rounds = number_after(argc, argv, "--rounds", 1);
+    Times times;
+    std::uint64_t rendered = 0;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        time(times, "primary_single", work.primary.size(), [&] { measure_primary_single(work); });
+        time(times, "primary_batch", work.primary.size(), [&] { measure_primary_batch(work); });
+        time(times, "diffuse_single", work.diffuse.size(), [&] { measure_diffuse_single(work); });
+        time(times, "diffuse_batch", work.diffuse.size(), [&] { measure_diffuse_batch(work); });
+        time(times, "shadow_single", work.shadow.size(), [&] { measure_shadow_single(work); });
+        time(times, "shadow_batch", work.shadow.size(), [&] { measure_shadow_batch(work); });
+        // The foreign sphere would be seen there.
+        if (!with_foreign) time(times, "render", 1, [&] { rendered = measure_render(work); });
+    }
+    std::printf("{\"rays\": {\"primary\": %zu, \"diffuse\": %zu, \"shadow\": %zu, \"render\": %llu}",
+                work.primary.size(), work.diffuse.size(), work.shadow.size(),
+                static_cast<unsigned long long>(rendered));
+    for (const auto& [name, list] : times) {
+        std::printf(", \"%s\": [", name.c_str());
+        for (std::size_t i = 0; i < list.size(); ++i) std::printf("%s%g", i > 0 ? ", " : "", list[i]);
+        std::printf("]");
+    }
+    std::printf("}\n");
+}
