@@ -99,7 +99,9 @@ Work prepare(std::size_t rays, bool with_foreign) {
     const auto foreign = std::make_shared<ForeignSphere>(Point3{1.5, 1.5, 0}, 0.3);
     with_sphere.add(foreign);
     // In its place one triangle of another mesh, so that both scenes have two objects.
-    MeshData corner{.vertices = {{1.2f, 1.2f, -0.3f}, {1.8f, 1.2f, 0.3f}, {1.5f, 1.8f, 0}}, .triangles = {{0, 1, 2}}};
+    MeshData corner;
+    corner.vertices = {{1.2f, 1.2f, -0.3f}, {1.8f, 1.2f, 0.3f}, {1.5f, 1.8f, 0}};
+    corner.triangles = {{0, 1, 2}};
     scene.add(std::make_shared<Mesh>(std::move(corner), std::make_shared<Lambertian>(Color{.5, .5, .5})));
     Camera camera = frame_box(mesh->bounds());
     Work work{compile(scene), {}, {}, {}, camera, {}, {}};

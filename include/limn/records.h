@@ -119,6 +119,7 @@ static_assert(sizeof(QuadRecord) == 80);
 struct MeshRecord {
     MeshView arrays;                    ///< valid as long as the owner
     std::vector<MaterialId> materials;  ///< by slot; at least one
+    std::shared_ptr<const void> owner{};  ///< of the arrays; RecordSink::mesh sets it
 };
 
 /// A group seen through a matrix; a moving one is interpolated entry by entry.

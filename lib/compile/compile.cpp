@@ -50,7 +50,7 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
     out.primitives = records.groups.front().primitives;
     out.triangles = std::move(records.triangles);
     out.quads = std::move(records.quads);
-    out.meshes = std::move(records.meshes);
+    for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
     out.foreign = std::move(records.foreign);
     out.medium_shapes = std::move(records.media);
     for (const InstanceRecord& instance : records.instances) out.instances.push_back(pack(instance));
@@ -118,6 +118,29 @@ void require_built(const flat::Features& f) {
     require_one(flat::kHasSmoothNormals, f.smooth_normals, "smooth normals");
 }
 
+// Meshes whose vertices are all that there is of them get places, to be filled with the tree.
+void reserve_places(flat::Scene& s) {
+    for (flat::Mesh& mesh : s.meshes) {
+        const MeshView& arrays = mesh.arrays;
+        if (arrays.normals.empty() && arrays.uvs.empty()) mesh.places.assign(arrays.triangles.size(), flat::kNothing);
+    }
+}
+
+// Gives up the arrays that the tree repeats, and owners of what no foreign object is there to use.
+void release_arrays(flat::Scene& s) {
+    const bool fits = s.blocks.size() / 2 * flat::kMaxBlock < flat::kNothing;
+    for (flat::Mesh& mesh : s.meshes) {
+        if (!fits) mesh.places = {};
+        if (mesh.places.empty()) continue;
+        mesh.slots.assign(mesh.arrays.material_slots.begin(), mesh.arrays.material_slots.end());
+        mesh.arrays = {};
+        mesh.arrays.material_slots = mesh.slots;
+        mesh.owner.reset();
+    }
+    const flat::Features& f = s.features;
+    if (!f.foreign_shapes && !f.foreign_materials && !f.foreign_textures) s.kept.clear();
+}
+
 // Shapes that can be seen but have no material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
     std::vector<bool> seen(s.groups.size(), false);
@@ -148,7 +171,7 @@ std::size_t memory_of(const flat::Scene& s) {
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +
-               mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials);
+               mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials) + bytes(mesh.places);
     for (const auto& image : s.images) sum += image->values().size_bytes();
     return sum + s.lattices.size() * sizeof(PerlinLattice);
 }
@@ -169,11 +192,13 @@ flat::Scene flatten(const limn::Scene& scene) {
     out.name = scene.name;
     out.background_bottom = scene.background.bottom;
     out.background_top = scene.background.top;
+    reserve_places(out);
     build_trees(out);
     place_media(out);
     collect_lights(out);
     gather_features(out);
     require_built(out.features);
+    release_arrays(out);
     count_unassigned(out);
     out.memory_bytes = memory_of(out);
     out.compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -159,7 +159,7 @@ void GroupTree::finish(flat::Group& group) {
     group.scale = std::ldexp(1.0, -exponent);
     scale_boxes(group.scale);
     accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
-    group.root = pack_tree(bvh, references_, scene_);
+    group.root = pack_tree(bvh, boxes_, references_, scene_);
 }
 
 }  // namespace limn::compiler

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <limits>
 
@@ -23,8 +24,9 @@ void put(Rows& rows, std::size_t at, const Point3& p) {
 
 class Packer {
 public:
-    Packer(accel::WideBvh& bvh, std::span<const flat::Reference> references, flat::Scene& scene)
-        : bvh_(bvh), references_(references), scene_(scene) {}
+    Packer(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes, std::span<const flat::Reference> references,
+           flat::Scene& scene)
+        : bvh_(bvh), boxes_(boxes), references_(references), scene_(scene) {}
 
     flat::Child pack() {
         if (bvh_.nodes.empty()) return flat::kNothing;
@@ -113,16 +115,28 @@ private:
                 const flat::Reference& r = references_[bvh_.ids[first + i]];
                 ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
                 if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
-                const Rows rows = rows_for(scene_.ranges[r.range], r.element);
+                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.ids[first + i]]);
                 for (std::size_t row = 0; row < row_count; ++row)
                     ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
             }
+            if (kind == PrimitiveKind::mesh) note_places(header.range, ids, count, at);
             at += flat::words_of(kind, count);
         });
     }
 
+    // A triangle that was cut by the builder stands in several leaves, with all its vertices: the first one is noted.
+    void note_places(std::uint32_t range, const std::uint32_t* ids, std::uint32_t count, std::size_t at) {
+        std::vector<std::uint32_t>& places = scene_.meshes[scene_.ranges[range].first_row].places;
+        for (std::uint32_t i = 0; i < count && !places.empty(); ++i) {
+            const auto here = static_cast<std::uint32_t>(at / 2 * flat::kMaxBlock + i);
+            const std::atomic_ref<std::uint32_t> place(places[ids[i]]);
+            std::uint32_t seen = place.load(std::memory_order_relaxed);
+            while (here < seen && !place.compare_exchange_weak(seen, here, std::memory_order_relaxed)) {}
+        }
+    }
+
     // Rounded to the nearest float, but for mesh vertices, which are floats.
-    Rows rows_for(const PrimitiveRange& range, std::uint32_t element) const {
+    Rows rows_for(const PrimitiveRange& range, std::uint32_t element, const accel::FloatBox& box) const {
         Rows rows{};
         const std::uint32_t row = range.first_row + element;
         switch (range.kind) {
@@ -153,6 +167,8 @@ private:
             }
             case PrimitiveKind::instance:
             case PrimitiveKind::foreign:
+                for (std::size_t a = 0; a < 3; ++a) rows[a] = box.lower[a], rows[3 + a] = box.upper[a];
+                break;
             case PrimitiveKind::medium: break;
         }
         return rows;
@@ -178,6 +194,7 @@ private:
     }
 
     accel::WideBvh& bvh_;
+    std::span<const accel::FloatBox> boxes_;
     std::span<const flat::Reference> references_;
     flat::Scene& scene_;
     std::vector<std::size_t> places_;             // of leaves, in words
@@ -186,8 +203,9 @@ private:
 
 }  // namespace
 
-flat::Child pack_tree(accel::WideBvh& bvh, std::span<const flat::Reference> references, flat::Scene& scene) {
-    return Packer(bvh, references, scene).pack();
+flat::Child pack_tree(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes,
+                      std::span<const flat::Reference> references, flat::Scene& scene) {
+    return Packer(bvh, boxes, references, scene).pack();
 }
 
 }  // namespace limn::compiler

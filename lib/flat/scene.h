@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/huge_pages.h"
+#include "core/mesh_triangle.h"
 #include "core/ray_frame.h"
 #include "flat/features.h"
 #include "flat/tree.h"
@@ -44,7 +45,12 @@ static_assert(sizeof(Sphere) == 40);
 using MovingSphere = SphereRecord;
 using Triangle = TriangleRecord;
 using Quad = QuadRecord;
-using Mesh = MeshRecord;
+
+// A mesh without normals and texture coordinates has no arrays but slots of its own: its vertices are those that are
+// packed in the tree, at places[triangle], a pair of words in Scene::blocks times kMaxBlock plus the lane.
+struct Mesh : MeshRecord {
+    std::vector<std::uint32_t> places, slots;
+};
 using Foreign = ForeignRecord;
 
 struct Instance {
@@ -157,6 +163,9 @@ MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uin
 inline std::span<const Medium> media_of(const Scene& s) {
     return kHasMedia ? std::span<const Medium>(s.media) : std::span<const Medium>();
 }
+
+// Exactly as described.
+TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/mesh_triangle.h"
 #include "limn/records.h"
 
 namespace limn::flat {
@@ -44,7 +45,7 @@ static_assert(sizeof(Block) == 8);
 inline constexpr std::size_t kHeaderWords = sizeof(Block) / 4, kSlackWords = 16, kMaxBlock = 8;
 
 // Rows of a kind: the three vertices of a triangle or of half a quad, x y z of each; a sphere's centre and radius, a
-// moving one's two centres and radius. Others are asked one by one.
+// moving one's two centres and radius; of others the box, as in a node.
 constexpr std::size_t rows_of(PrimitiveKind kind) {
     switch (kind) {
         case PrimitiveKind::mesh:
@@ -53,7 +54,7 @@ constexpr std::size_t rows_of(PrimitiveKind kind) {
         case PrimitiveKind::sphere: return 4;
         case PrimitiveKind::moving_sphere: return 7;
         case PrimitiveKind::instance:
-        case PrimitiveKind::foreign:
+        case PrimitiveKind::foreign: return 6;
         case PrimitiveKind::medium: break;
     }
     return 0;
@@ -75,5 +76,13 @@ struct BlockView {
         return std::bit_cast<float>(rows(count)[row * count + i]);
     }
 };
+
+// A triangle of a mesh.
+inline TriangleVertices packed_triangle(const BlockView& block, std::size_t count, std::size_t i) {
+    const auto vertex = [&](std::size_t row) {
+        return Point3{block.number(count, row, i), block.number(count, row + 1, i), block.number(count, row + 2, i)};
+    };
+    return {vertex(0), vertex(3), vertex(6)};
+}
 
 }  // namespace limn::flat

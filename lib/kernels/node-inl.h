@@ -121,7 +121,7 @@ HWY_INLINE flat::Child choose(const flat::Scene& scene, const flat::Node& node, 
 // BoxRay in vectors.
 struct NodeTest {
     V inverse[3], near_shift[3], far_shift[3], t_min;
-    std::size_t near_row[3], far_row[3];  // of Node::lower and upper, as one array of rows
+    std::size_t near_row[3], far_row[3];  // of lower and upper as one array of six rows
     unsigned octant;
 
     explicit NodeTest(const BoxRay& ray) : t_min(hn::Set(Lanes(), ray.t_min)), octant(ray.octant) {
@@ -130,24 +130,37 @@ struct NodeTest {
             near_shift[a] = hn::Set(Lanes(), ray.near_shift[a]);
             far_shift[a] = hn::Set(Lanes(), ray.far_shift[a]);
             const bool negative = (ray.octant >> a & 1) != 0;
-            near_row[a] = (a + (negative ? 3 : 0)) * flat::kWidth;
-            far_row[a] = (a + (negative ? 0 : 3)) * flat::kWidth;
+            near_row[a] = a + (negative ? 3 : 0);
+            far_row[a] = a + (negative ? 0 : 3);
         }
     }
 
-    HWY_INLINE V enter(const float* planes) const {
+    // `row`: how long the rows are.
+    HWY_INLINE V enter(const float* planes, std::size_t row) const {
         const Lanes d;
-        const auto x = hn::MulAdd(hn::LoadU(d, planes + near_row[0]), inverse[0], near_shift[0]);
-        const auto y = hn::MulAdd(hn::LoadU(d, planes + near_row[1]), inverse[1], near_shift[1]);
-        const auto z = hn::MulAdd(hn::LoadU(d, planes + near_row[2]), inverse[2], near_shift[2]);
+        const auto x = hn::MulAdd(hn::LoadU(d, planes + near_row[0] * row), inverse[0], near_shift[0]);
+        const auto y = hn::MulAdd(hn::LoadU(d, planes + near_row[1] * row), inverse[1], near_shift[1]);
+        const auto z = hn::MulAdd(hn::LoadU(d, planes + near_row[2] * row), inverse[2], near_shift[2]);
         return hn::Max(hn::Max(x, y), hn::Max(z, t_min));
     }
-    HWY_INLINE V leave(const float* planes, V t_max) const {
+    HWY_INLINE V leave(const float* planes, std::size_t row, V t_max) const {
         const Lanes d;
-        const auto x = hn::MulAdd(hn::LoadU(d, planes + far_row[0]), inverse[0], far_shift[0]);
-        const auto y = hn::MulAdd(hn::LoadU(d, planes + far_row[1]), inverse[1], far_shift[1]);
-        const auto z = hn::MulAdd(hn::LoadU(d, planes + far_row[2]), inverse[2], far_shift[2]);
+        const auto x = hn::MulAdd(hn::LoadU(d, planes + far_row[0] * row), inverse[0], far_shift[0]);
+        const auto y = hn::MulAdd(hn::LoadU(d, planes + far_row[1] * row), inverse[1], far_shift[1]);
+        const auto z = hn::MulAdd(hn::LoadU(d, planes + far_row[2] * row), inverse[2], far_shift[2]);
         return hn::Min(hn::Min(x, y), hn::Min(z, t_max));
+    }
+
+    // Which of the boxes in a block are met, and where.
+    HWY_INLINE Candidates test_boxes(const flat::BlockView& block, std::size_t count, float t_max) const {
+        const Lanes d;
+        const auto* rows = reinterpret_cast<const float*>(block.rows(count));
+        Candidates found;
+        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+            const auto near = enter(rows + i, count), far = leave(rows + i, count, hn::Set(d, t_max));
+            found.add(hn::And(hn::Le(near, far), hn::FirstN(d, count - i)), hn::FirstN(d, 0), near, far, i);
+        }
+        return found;
     }
 
     // The nearest child that the ray meets before t_max, or kNothing; the others go onto the stack, the farthest first.
@@ -156,8 +169,9 @@ struct NodeTest {
         const flat::Node& node = scene.nodes[at];
         Eight eight;
         for (std::size_t i = 0; i < kVectors; ++i) {
-            eight.near[i] = enter(node.lower[0] + i * hn::Lanes(d));
-            eight.met[i] = hn::Le(eight.near[i], leave(node.lower[0] + i * hn::Lanes(d), hn::Set(d, t_max)));
+            const float* planes = node.lower[0] + i * hn::Lanes(d);
+            eight.near[i] = enter(planes, flat::kWidth);
+            eight.met[i] = hn::Le(eight.near[i], leave(planes, flat::kWidth, hn::Set(d, t_max)));
         }
         return choose(scene, node, octant, eight, stack);
     }

@@ -237,15 +237,12 @@ private:
     // Exactly.
     void ask(std::size_t r, const flat::BlockView& block, std::uint32_t i) {
         const flat::Block header = block.header();
-        const auto vertex = [&](std::size_t row) {
-            return Point3{block.number(header.count, row, i), block.number(header.count, row + 1, i),
-                          block.number(header.count, row + 2, i)};
-        };
+        const TriangleVertices v = flat::packed_triangle(block, header.count, i);
         if (!exact_[r]) exact_[r].emplace(frames_[r], group_.extent);
         Query& query = queries_[r];
         PlanarHit hit;
         const Search search{frames_[r].ray.t_min, query.limit()};
-        if (!exact_[r]->triangle(vertex(0), vertex(3), vertex(6), search, hit)) return;
+        if (!exact_[r]->triangle(v.a, v.b, v.c, search, hit)) return;
         const bool ended = query.report(hit, scene_.ranges[header.range].first_number + block.id(i), false);
         const float bound = ended ? kNever : rays_[r].upper(query.limit());
         if (bound < bound_[r]) bound_[r] = bound;

@@ -37,10 +37,11 @@ public:
           first_number_(first_number),
           query_(query),
           exact_(frame, group.extent),
+          node_test_(ray),
           bound_(box_ray_.upper(query.limit())),
           possible_after_(below(box_ray_.t_min)),
-          certain_after_(above(box_ray_.t_min + 2 * box_ray_.t_error)),
-          certain_before_(below(bound_ - 2 * box_ray_.t_error)) {
+          certain_after_(above(box_ray_.lower(larger(frame.ray.t_min, -kEndless)) + 2 * box_ray_.t_error)),
+          certain_before_(below(box_ray_.upper(limn::smaller(query.limit(), kEndless)) - 2 * box_ray_.t_error)) {
         if constexpr (has_planar()) planar_.emplace(box_ray_, packed_error());
         if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
     }
@@ -48,11 +49,10 @@ public:
     // True if the query ended the search.
     bool run() {
         if (group_.root == flat::kNothing) return false;
-        const NodeTest test(box_ray_);
         Stack stack;
         flat::Child next = group_.root;
         for (;;) {
-            while (!(next & flat::kLeaf)) next = test.visit(scene_, next, bound_, stack);
+            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack);
             if (next != flat::kNothing && leaf(next)) return true;
             do {
                 if (stack.size == 0) return ask_pending();
@@ -68,6 +68,8 @@ private:
         return has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle) || has(PrimitiveKind::quad);
     }
     static constexpr bool has_spheres() { return has(PrimitiveKind::sphere) || has(PrimitiveKind::moving_sphere); }
+    // Where t may overflow, and a hit be none.
+    static constexpr double kEndless = 1e300;
     // Vertices of meshes are packed as they are; other coordinates are rounded, moving centres then interpolated.
     static constexpr unsigned kPacked =
         kKinds & ~(flat::bit(PrimitiveKind::instance) | flat::bit(PrimitiveKind::foreign));
@@ -122,8 +124,8 @@ private:
                     break;
                 case PrimitiveKind::instance:
                 case PrimitiveKind::foreign:
-                    for (std::uint32_t i = 0; i < header.count; ++i)
-                        if (ask(block, header, i)) return true;
+                    if constexpr (has(PrimitiveKind::instance) || has(PrimitiveKind::foreign))
+                        return ask_boxes(block, header);
                     break;
                 case PrimitiveKind::medium: break;  // never in a tree
             }
@@ -151,6 +153,22 @@ private:
         return false;
     }
 
+    // One by one, the nearest box first.
+    bool ask_boxes(const flat::BlockView& block, const flat::Block& header) {
+        const Candidates found = node_test_.test_boxes(block, header.count, bound_);
+        for (std::uint32_t open = found.open; open != 0;) {
+            auto next = static_cast<std::uint32_t>(std::countr_zero(open));
+            for (std::uint32_t rest = open & (open - 1); rest != 0; rest &= rest - 1) {
+                const auto other = static_cast<std::uint32_t>(std::countr_zero(rest));
+                if (found.near[other] < found.near[next]) next = other;
+            }
+            if (found.near[next] > bound_) return false;
+            if (ask(block, header, next)) return true;
+            open &= ~(1u << next);
+        }
+        return false;
+    }
+
     static float smaller(float a, float b) { return a < b ? a : b; }
 
     HWY_INLINE void postpone(const Pending& hit) {
@@ -173,12 +191,8 @@ private:
         bool end = false;
         if constexpr (has(PrimitiveKind::mesh)) {
             if (header.kind == PrimitiveKind::mesh) {
-                const auto vertex = [&](std::size_t row) {
-                    return Point3{block.number(header.count, row, lane), block.number(header.count, row + 1, lane),
-                                  block.number(header.count, row + 2, lane)};
-                };
-                end = triangle(vertex(0), vertex(3), vertex(6),
-                               first_number_ + scene_.ranges[header.range].first_number + id);
+                const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
+                end = triangle(v.a, v.b, v.c, first_number_ + scene_.ranges[header.range].first_number + id);
                 bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
                 return end;
             }
@@ -296,6 +310,7 @@ private:
     const std::uint64_t first_number_;
     Query& query_;
     ExactTests exact_;
+    const NodeTest node_test_;
     float bound_;  // in BoxRay's t: no hit of interest is beyond
     // By t_min and t_max: hits before the first do not count, those that lie between the others do.
     const float possible_after_, certain_after_, certain_before_;

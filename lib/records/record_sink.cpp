@@ -78,7 +78,7 @@ void RecordSink::quad(const QuadRecord& record) {
 }
 
 void RecordSink::mesh(MeshRecord record, const std::shared_ptr<const void>& owner) {
-    keep(owner);
+    record.owner = owner;
     append(PrimitiveKind::mesh, records_.meshes.size(), record.arrays.triangles.size());
     records_.meshes.push_back(std::move(record));
 }

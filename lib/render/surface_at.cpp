@@ -58,9 +58,10 @@ LocalHit on_quad(const flat::Quad& q, const RayFrame& frame) {
     return on_plane(q.corner, q.edge_u, q.edge_v, quad_normal(q.edge_u, q.edge_v), planar);
 }
 
-LocalHit on_mesh(const flat::Mesh& mesh, std::uint64_t element, const RayFrame& frame) {
+LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const RayFrame& frame) {
     PlanarHit planar;
-    LocalHit hit = on_triangle(triangle_vertices(mesh.arrays, element), frame, planar);
+    LocalHit hit = on_triangle(triangle_of(scene, mesh, element), frame, planar);
+    if (!mesh.places.empty()) return hit;
     if constexpr (flat::kHasSmoothNormals)
         hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
     hit.uv = texture_coordinates(mesh.arrays, element, planar);
@@ -106,7 +107,7 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
             return on_triangle({triangle.a, triangle.b, triangle.c}, frame, planar);
         }
         case PrimitiveKind::quad: return on_quad(scene.quads[row], frame);
-        case PrimitiveKind::mesh: return on_mesh(scene.meshes[range.first_row], place.element, frame);
+        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, frame);
         case PrimitiveKind::foreign:
             if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], frame, t);
             break;
