@@ -4,7 +4,8 @@
 // limn_count_instructions [--rays N] [--rounds N] [--foreign]
 //   --rays N     of each kind
 //   --rounds N   calls of each function: their times are then printed, round by round
-//   --foreign    adds a sphere of a class of its own beside the mesh, which no ray that is traced meets the box of
+//   --foreign    a sphere of a class of its own stands beside the mesh, in place of a triangle; no ray that is traced
+//                meets its box
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -94,7 +95,14 @@ Work prepare(std::size_t rays, bool with_foreign) {
     Scene scene;
     scene.background = Background::constant({1, 1, 1});
     scene.add(mesh);
+    Scene with_sphere = scene;
     const auto foreign = std::make_shared<ForeignSphere>(Point3{1.5, 1.5, 0}, 0.3);
+    with_sphere.add(foreign);
+    // In its place one triangle of another mesh, so that both scenes have two objects.
+    MeshData corner;
+    corner.vertices = {{1.2f, 1.2f, -0.3f}, {1.8f, 1.2f, 0.3f}, {1.5f, 1.8f, 0}};
+    corner.triangles = {{0, 1, 2}};
+    scene.add(std::make_shared<Mesh>(std::move(corner), std::make_shared<Lambertian>(Color{.5, .5, .5})));
     Camera camera = frame_box(mesh->bounds());
     Work work{compile(scene), {}, {}, {}, camera, {}, {}};
     for (const bench::RaySet& set : bench::make_rays(geometry, work.scene, rays)) {
@@ -103,10 +111,7 @@ Work prepare(std::size_t rays, bool with_foreign) {
         if (set.name == "diffuse1") work.diffuse = std::move(kept);
         if (set.name == "shadow") work.shadow = std::move(kept);
     }
-    if (with_foreign) {
-        scene.add(foreign);
-        work.scene = compile(scene);
-    }
+    if (with_foreign) work.scene = compile(with_sphere);
     work.hits.resize(std::max(work.primary.size(), work.diffuse.size()));
     work.occluded.resize(work.shadow.size());
     return work;

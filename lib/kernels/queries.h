@@ -13,13 +13,16 @@ namespace limn::kernels {
 struct Closest {
     static constexpr bool kEveryHit = false, kThroughBoundaries = false, kFirstHit = false;
     flat::RawHit best;
-    double u = 0, v = 0;  // of the best
+    double u = 0, v = 0;         // of the best
+    bool index_matched = false;  // as the best, a foreign shape, says
 
     double limit() const { return best.t; }
-    bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/) {
-        if (hit.t < best.t || number < best.primitive) best = {hit.t, number}, u = hit.u, v = hit.v;
+    bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
+        if (hit.t < best.t || number < best.primitive)
+            best = {hit.t, number}, u = hit.u, v = hit.v, index_matched = matched;
         return false;
     }
+    Hit hit() const { return best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{best, u, v, index_matched}; }
 };
 
 template <bool kThrough>
@@ -29,7 +32,7 @@ struct Any {
     bool found = false;
 
     double limit() const { return t_max; }
-    bool report(const PlanarHit&, std::uint64_t, bool) { return found = true; }
+    bool report(const PlanarHit&, std::uint64_t, bool, bool = false) { return found = true; }
 };
 
 struct Every {
@@ -38,7 +41,7 @@ struct Every {
     std::vector<Crossing>& crossings;
 
     double limit() const { return t_max; }
-    bool report(const PlanarHit& hit, std::uint64_t, bool inward) {
+    bool report(const PlanarHit& hit, std::uint64_t, bool inward, bool = false) {
         crossings.push_back({hit.t, inward});
         return false;
     }

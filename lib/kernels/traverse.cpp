@@ -133,7 +133,7 @@ constexpr std::size_t kChunk = 256;  // rays, whose queries stay in the cache
 Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
     Closest query{{frame.ray.t_max, flat::RawHit::kMiss}};
     HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
-    return query.best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{query.best, query.u, query.v};
+    return query.hit();
 }
 
 // visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
@@ -178,7 +178,7 @@ void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits
         HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data() + first, count, queries.data());
         for (std::size_t i = 0; i < count; ++i) {
             const Closest& query = queries[i];
-            hits[first + i] = query.best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{query.best, query.u, query.v};
+            hits[first + i] = query.hit();
         }
     }
 }

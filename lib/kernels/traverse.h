@@ -12,7 +12,8 @@
 namespace limn::kernels {
 
 struct Hit : flat::RawHit {
-    double u = 0, v = 0;  // of triangles and quads, and as foreign shapes say
+    double u = 0, v = 0;         // of triangles and quads, and as foreign shapes say
+    bool index_matched = false;  // as foreign shapes say
 };
 
 // The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre

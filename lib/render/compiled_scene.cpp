@@ -14,38 +14,30 @@ namespace limn {
 
 namespace {
 
-struct AnyHit : kernels::Hit {
-    bool on_boundary = false;  // of a medium
-};
-
-// Among surfaces and the boundaries of media.
-AnyHit closest_of_all(const flat::Scene& scene, const Ray& ray) {
-    AnyHit best{kernels::closest_hit(scene, ray)};
+// Puts the hit of a medium's boundary in place of `best` where it comes first.
+void nearer_boundary(const flat::Scene& scene, const Ray& ray, kernels::Hit& best) {
     for (const flat::Medium& medium : flat::media_of(scene)) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
-        const kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
-        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = {hit, true};
+        kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
+        hit.index_matched = true;
+        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
     }
-    return best;
 }
 
-RayHit complete(const flat::Scene& scene, const Ray& ray, const AnyHit& hit) {
+RayHit complete(const flat::Scene& scene, const kernels::Hit& hit) {
     std::size_t object = 0;
     if (scene.first_of_object.size() > 1) {
         const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
         object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
     }
-    RayHit all{.t = hit.t,
-               .object = static_cast<std::uint32_t>(object),
-               .element = hit.primitive - scene.first_of_object[object],
-               .u = hit.u,
-               .v = hit.v,
-               .index_matched = hit.on_boundary,
-               .primitive = hit.primitive};
-    // A foreign shape says by itself whether it is index-matched, and may have been reached through others.
-    if (scene.features.foreign_shapes) all.index_matched = tracing::surface_at(scene, ray, hit).index_matched;
-    return all;
+    return {.t = hit.t,
+            .object = static_cast<std::uint32_t>(object),
+            .element = hit.primitive - scene.first_of_object[object],
+            .u = hit.u,
+            .v = hit.v,
+            .index_matched = hit.index_matched,
+            .primitive = hit.primitive};
 }
 
 // is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
@@ -57,9 +49,10 @@ bool is_fit(const Ray& r) {
 
 // \pre is_usable(ray), as below
 std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
-    const AnyHit hit = closest_of_all(scene, ray);
+    kernels::Hit hit = kernels::closest_hit(scene, ray);
+    if (!flat::media_of(scene).empty()) nearer_boundary(scene, ray, hit);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
-    return complete(scene, ray, hit);
+    return complete(scene, hit);
 }
 
 bool find_any(const flat::Scene& scene, const Ray& ray) {
@@ -82,9 +75,6 @@ std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer) {
     }
     return unusable;
 }
-
-// Whether surfaces that the kernels know are all there is.
-bool is_plain(const flat::Scene& scene) { return scene.media.empty() && !scene.features.foreign_shapes; }
 
 SceneStats stats_of(const flat::Scene& s) {
     return {.memory_bytes = s.memory_bytes,
@@ -116,7 +106,7 @@ bool CompiledScene::any_hit(const Ray& ray) const {
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
     std::fill(hits.begin(), hits.end(), RayHit{});
-    if (!is_plain(*scene_))
+    if (!flat::media_of(*scene_).empty())
         return answer_runs(rays, [&](std::size_t first, std::size_t count) {
             for (std::size_t i = first; i < first + count; ++i)
                 hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
@@ -125,8 +115,7 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayH
     return answer_runs(rays, [&](std::size_t first, std::size_t count) {
         kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
         for (std::size_t i = 0; i < count; ++i)
-            if (found[i].primitive != flat::RawHit::kMiss)
-                hits[first + i] = complete(*scene_, rays[first + i], {found[i]});
+            if (found[i].primitive != flat::RawHit::kMiss) hits[first + i] = complete(*scene_, found[i]);
     });
 }
 
@@ -134,7 +123,8 @@ std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uin
     if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
     std::fill(occluded.begin(), occluded.end(), std::uint8_t{0});
     return answer_runs(rays, [&](std::size_t first, std::size_t count) {
-        if (is_plain(*scene_)) return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
+        if (flat::media_of(*scene_).empty())
+            return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
         for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
     });
 }
