@@ -178,7 +178,7 @@ std::size_t memory_of(const flat::Scene& s) {
 
 }  // namespace
 
-flat::Scene flatten(const limn::Scene& scene) {
+flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     const auto start = std::chrono::steady_clock::now();
     RecordSink sink;
     flat::Scene out;
@@ -193,7 +193,8 @@ flat::Scene flatten(const limn::Scene& scene) {
     out.background_bottom = scene.background.bottom;
     out.background_top = scene.background.top;
     reserve_places(out);
-    build_trees(out);
+    // A boundary that is met twice by the same triangle would be left when it is entered.
+    build_trees(out, cut_triangles && out.medium_shapes.empty());
     place_media(out);
     collect_lights(out);
     gather_features(out);

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "accel/clip_triangle.h"
 #include "accel/float_box.h"
 #include "accel/slab.h"
 #include "compile/pack.h"
@@ -22,6 +24,32 @@ namespace {
 constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 constexpr accel::FloatBox kEmpty{{kFloatInfinity, kFloatInfinity, kFloatInfinity},
                                  {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
+
+// Cuts triangles of meshes, and the boxes of everything else. \pre boxes are not scaled: vertices are as they are
+class TriangleClip final : public accel::Clip {
+public:
+    TriangleClip(const flat::Scene& scene, std::span<const flat::Reference> references)
+        : scene_(scene), references_(references) {}
+
+    Parts cut(std::uint32_t id, const accel::FloatBox& box, int axis, float position) const override {
+        const flat::Reference& reference = references_[id];
+        const PrimitiveRange& range = scene_.ranges[reference.range];
+        if (range.kind != PrimitiveKind::mesh) {
+            Parts parts{box, box};
+            parts.lower.upper[axis] = std::min(box.upper[axis], position);
+            parts.upper.lower[axis] = std::max(box.lower[axis], position);
+            return parts;
+        }
+        const MeshView& mesh = scene_.meshes[range.first_row].arrays;
+        const Index3 corner = mesh.triangles[reference.element];
+        const Float3 a = mesh.vertices[corner.a], b = mesh.vertices[corner.b], c = mesh.vertices[corner.c];
+        return accel::clip_triangle({{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}, box, axis, position);
+    }
+
+private:
+    const flat::Scene& scene_;
+    std::span<const flat::Reference> references_;
+};
 
 using Indices = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
@@ -121,6 +149,7 @@ void GroupTree::scale_boxes(double scale) {
             }
             continue;
         }
+        if (scale == 1) continue;
         oneapi::tbb::parallel_for(Indices(part.first, part.first + part.count, kGrain), [&](const Indices& indices) {
             for (std::size_t i = indices.begin(); i < indices.end(); ++i)
                 for (std::size_t a = 0; a < 3; ++a) {
@@ -132,7 +161,7 @@ void GroupTree::scale_boxes(double scale) {
     }
 }
 
-void GroupTree::finish(flat::Group& group) {
+void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     int exponent = 0;
     std::frexp(extent_, &exponent);
     // Where float serves, boxes stay as they are.
@@ -141,7 +170,11 @@ void GroupTree::finish(flat::Group& group) {
     group.extent = extent_;
     group.scale = std::ldexp(1.0, -exponent);
     scale_boxes(group.scale);
-    accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
+    // A leaf takes two to three times as long as a node (docs/performance.md).
+    const TriangleClip clip(scene_, references_);
+    const bool may_cut = cut_triangles && group.scale == 1;
+    accel::WideBvh bvh = accel::build_wide_bvh(
+        boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2, .spatial_splits = may_cut}, may_cut ? &clip : nullptr);
     group.root = pack_tree(bvh, boxes_, references_, scene_);
 }
 

@@ -16,7 +16,7 @@ public:
     void add(const PrimitiveRange& range, std::uint32_t row);
 
     // Sets the group's root, bounds, extent and scale.
-    void finish(flat::Group& group);
+    void finish(flat::Group& group, bool cut_triangles);
 
 private:
     // The boxes of a range, from boxes_[first] on.

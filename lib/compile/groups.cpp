@@ -14,8 +14,11 @@ namespace {
 
 class TreeBuilder {
 public:
-    explicit TreeBuilder(flat::Scene& scene)
-        : scene_(scene), height_(scene.groups.size(), kUnbuilt), holds_media_(scene.groups.size(), false) {}
+    TreeBuilder(flat::Scene& scene, bool cut_triangles)
+        : scene_(scene),
+          cut_triangles_(cut_triangles),
+          height_(scene.groups.size(), kUnbuilt),
+          holds_media_(scene.groups.size(), false) {}
 
     // Inner groups first: an instance needs the bounds of its group. Returns how many instances nest below.
     std::uint32_t build(GroupId id) {
@@ -42,7 +45,7 @@ public:
         if (height > flat::kMaxNesting)
             throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
         height_[index] = height;
-        tree.finish(scene_.groups[index]);
+        tree.finish(scene_.groups[index], cut_triangles_);
         return height;
     }
 
@@ -50,6 +53,7 @@ private:
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;
+    const bool cut_triangles_;
     std::vector<std::uint32_t> height_;  // by group
     std::vector<bool> holds_media_;      // by group
 };
@@ -103,7 +107,7 @@ private:
 
 }  // namespace
 
-void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(GroupId::root); }
+void build_trees(flat::Scene& scene, bool cut_triangles) { TreeBuilder(scene, cut_triangles).build(GroupId::root); }
 
 void place_media(flat::Scene& scene) { MediumPlacer{scene}; }
 

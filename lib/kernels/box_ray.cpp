@@ -27,6 +27,7 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Group& group) {
     const Vec3 along = unit * ray.direction;  // its largest coordinate in [1, 2)
     const double along_error = unit * frame.direction_error;
     t_scale = group.scale / unit;
+    t_start = 0;
 
     Point3 at = Point3{} + group.scale * (ray.origin - Point3{}), origin = ray.origin;
     const double box_extent = group.scale * group.extent;

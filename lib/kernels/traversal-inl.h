@@ -292,8 +292,7 @@ private:
         while (shape.hit(*shape.object, rest, hit)) {
             if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
             const bool passes = Query::kThroughBoundaries && hit.index_matched;
-            if (!passes &&
-                query_.report({hit.t, hit.u, hit.v}, number, inward(Vec3(hit.normal)), hit.index_matched))
+            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward(Vec3(hit.normal)), hit.index_matched))
                 return true;
             if (!passes && !Query::kEveryHit) return false;
             rest.t_min = hit.t;

@@ -137,9 +137,10 @@ Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
 const std::string& CompiledScene::features() const { return scene_->feature_names; }
 const std::string& CompiledScene::name() const { return scene_->name; }
 
-CompiledScene compile(const Scene& scene) {
+CompiledScene compile(const Scene& scene, const CompileSettings& settings) {
     const FloatEnvironment environment;
-    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
+    const bool cut_triangles = settings.quality == BuildQuality::high;
+    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene, cut_triangles)));
 }
 
 }  // namespace limn

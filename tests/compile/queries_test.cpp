@@ -19,6 +19,23 @@ bool has_feature(const CompiledScene& scene, const std::string& name) {
     return (" " + scene.features() + " ").find(" " + name + " ") != std::string::npos;
 }
 
+// Triangles here and there, of edges up to `along` and `aside`.
+MeshData scattered(Random& random, std::uint32_t count, double along, double aside) {
+    MeshData data;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Point3 a = Point3{} + random.in_cube(1);
+        const Vec3 edge = random.in_cube(along), width = random.in_cube(aside);
+        for (const Point3& p : {a, a + edge, a + edge + width})
+            data.vertices.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        data.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return data;
+}
+
+ZooScene zoo_of_mesh(const char* name, const MeshData& data) {
+    return zoo_of(name, {std::make_shared<Mesh>(data, nullptr)});
+}
+
 Ray down(double x, double y) { return {.origin = {x, y, 100}, .direction = {0, 0, -1}}; }
 
 }  // namespace
@@ -48,6 +65,64 @@ TEST_CASE("CompiledScene: a batch answers as single rays do", "[compile]") {
         CHECK_THROWS_AS(compiled.any_hit(rays, many), ArgumentError);
         CHECK_NOTHROW(compiled.closest_hit(std::span<const Ray>{}, std::span<RayHit>{}));
     }
+}
+
+TEST_CASE("CompiledScene: rays that go much the same way are answered together as they are one by one", "[compile]") {
+    Random random(321);
+    for (const ZooScene& zoo : {zoo_mesh(), zoo_of_mesh("ball", icosphere(4)),
+                                zoo_of_mesh("soup", scattered(random, 3000, 0.2, 0.2)), zoo_mixed(402)}) {
+        const CompiledScene compiled = compile(zoo.scene);
+        std::vector<Ray> rays;
+        for (int bundle = 0; bundle < 400; ++bundle) {
+            const Ray first = random_ray(random, zoo.targets);
+            const double spread = std::pow(10, random.uniform(-6, -1.5)) * max_abs(first.direction);
+            for (int i = 0; i < 37; ++i) {  // more than are ever traced together
+                Ray ray = first;
+                ray.direction = ray.direction + random.in_cube(spread);
+                if (bundle % 3 == 1) ray.origin = ray.origin + random.in_cube(spread);
+                if (bundle % 5 == 2) ray.t_max = random.uniform(0, 3);
+                if (bundle % 7 == 3) ray.t_min = random.uniform(-1, 2);
+                if (i % 11 == 5 && ray.t_min <= ray.t_max) ray.t_min = -ray.t_max;
+                rays.push_back(ray);
+            }
+        }
+        std::vector<RayHit> hits(rays.size());
+        std::vector<std::uint8_t> occluded(rays.size());
+        compiled.closest_hit(rays, hits);
+        compiled.any_hit(rays, occluded);
+        int differing = 0, found = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const auto single = compiled.closest_hit(rays[i]);
+            found += single.has_value();
+            differing += single ? !same(*single, hits[i]) : hits[i].t != kInfinity;
+            differing += occluded[i] != (single ? 1 : 0);
+        }
+        INFO(zoo.name);
+        CHECK(differing == 0);
+        CHECK(found > 1000);
+    }
+}
+
+TEST_CASE("compile: triangles that are cut between boxes are hit as whole ones are", "[compile]") {
+    // Long and thin, across each other, so that many are cut.
+    Random random(322);
+    Scene scene;
+    scene.add(std::make_shared<Mesh>(scattered(random, 2000, 1, 0.02), nullptr));
+    scene.add(std::make_shared<Sphere>(Point3{0, 0, 0}, 0.3, nullptr));
+    const CompiledScene medium = compile(scene), high = compile(scene, {.quality = BuildQuality::high});
+    CHECK(high.stats().memory_bytes > medium.stats().memory_bytes);
+    CHECK(static_cast<double>(high.stats().memory_bytes) < 1.6 * static_cast<double>(medium.stats().memory_bytes));
+    int differing = 0, found = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Ray ray{.origin = Point3{} + random.in_cube(2), .direction = random.in_cube(1)};
+        const auto expected = medium.closest_hit(ray), hit = high.closest_hit(ray);
+        found += expected.has_value();
+        differing += expected.has_value() != hit.has_value() || (hit && !same(*expected, *hit)) ||
+                     high.any_hit(ray) != expected.has_value();
+        if (hit) differing += !(high.surface_at(ray, *hit).position == medium.surface_at(ray, *hit).position);
+    }
+    CHECK(differing == 0);
+    CHECK(found > 2000);
 }
 
 TEST_CASE("CompiledScene: of exact duplicates the lowest number is reported", "[compile]") {
