@@ -24,11 +24,12 @@ HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group&
     hn::Store(high, d, out.high);
     hn::Store(direction, d, out.direction);
     hn::Store(hn::DemoteTo(d, hn::Sub(origin, hn::PromoteTo(wide, high))), d, out.low);
-    if (HWY_UNLIKELY(!out.is_ordinary(frame, group))) return out.adapt(frame, group);
+    float wider = 0;
+    if (HWY_UNLIKELY(!out.is_ordinary(frame, group, wider))) return out.adapt(frame, group);
     const auto least = hn::Set(d, BoxRay::kLeast);
     const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), least), direction));
     const auto shift = hn::Neg(hn::Mul(high, inverse));
-    const auto widening = hn::Mul(hn::Set(d, BoxRay::kWider * out.reach), hn::Abs(inverse));
+    const auto widening = hn::Mul(hn::Set(d, wider), hn::Abs(inverse));
     hn::Store(inverse, d, out.inverse);
     hn::Store(hn::Sub(shift, widening), d, out.near_shift);
     hn::Store(hn::Add(shift, widening), d, out.far_shift);

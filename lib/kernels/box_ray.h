@@ -43,16 +43,24 @@ struct BoxRay {
     unsigned octant;          // bit a: direction[a] is negative
     double t_scale, t_start;  // the t of here is t * t_scale - t_start
 
-    // Whether the ray is taken as it is. \pre direction, high and low are set
-    HWY_INLINE bool is_ordinary(const RayFrame& frame, const flat::Group& group) {
+    // Whether the ray is taken as it is. Sets what does not depend on axes, and `wider`. \pre direction, high and low
+    // are set
+    HWY_INLINE bool is_ordinary(const RayFrame& frame, const flat::Group& group, float& wider) {
         const float length = largest(direction);
         extent = static_cast<float>(group.extent);
         reach = largest(high) + extent;
         t_error = origin_error = direction_error = 0;
         scale = 1;
         t_scale = 1, t_start = 0;
-        return is_taken_as_it_is = group.scale == 1 && frame.outer == nullptr && length > 0x1p-10f &&
-                                   length < 0x1p10f && reach < kFar * extent;
+        wider = kWider * reach;
+        is_taken_as_it_is = group.scale == 1 && length > 0x1p-10f && length < 0x1p10f && reach < kFar * extent;
+        if (HWY_UNLIKELY(frame.outer != nullptr)) {
+            origin_error = static_cast<float>(frame.origin_error) * (1 + 0x1p-20f);
+            direction_error = 2 * static_cast<float>(frame.direction_error) / length;
+            wider += 2 * (origin_error + 2 * direction_error * reach);
+            is_taken_as_it_is = is_taken_as_it_is && direction_error < 0x1p-10f && wider < reach;
+        }
+        return is_taken_as_it_is;
     }
 
     void adapt(const RayFrame& frame, const flat::Group& group);

@@ -12,8 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-// Tells spheres that are surely missed: filter_sphere's discriminant in float, and its bound; or the whole sphere
-// beyond the interval of t. Which root counts is not asked here, so nothing is certain.
+// filter_sphere's discriminant in float, and its bound, which tells spheres that are surely missed; others are dropped
+// where the whole sphere lies beyond the interval of t. Where the discriminant is beyond its bound the first root is
+// off by what filter_sphere says of `outer`, here with the rounding of float and twice over.
 template <bool kMoving>
 HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t count, const RoundRay& ray, float time,
                                    float t_min, float t_max) {
@@ -50,7 +51,19 @@ HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t cou
         const auto scale = hn::Set(d, ray.t_scale);
         const auto near = hn::Mul(scale, hn::Sub(foot_t, half)), far = hn::Mul(scale, hn::Add(foot_t, half));
         const auto dropped = hn::Or(hn::Gt(near, hn::Set(d, t_max)), hn::Lt(far, hn::Set(d, t_min)));
-        found.add(hn::AndNot(dropped, open), hn::FirstN(d, 0), near, far, i);
+
+        const auto discriminant = hn::Sub(r2, foot2);
+        const auto certain = hn::Gt(discriminant, error);
+        const auto half_chord = hn::Sqrt(hn::Mul(discriminant, hn::Set(d, ray.inverse_squared)));
+        const auto relative = hn::Add(hn::Div(error, discriminant), hn::Set(d, ray.relative));
+        const auto root = hn::Sub(foot_t, half_chord);
+        const auto root_error =
+            hn::MulAdd(foot_error, hn::Set(d, 2 * ray.inverse_length),
+                       hn::MulAdd(hn::Mul(hn::Set(d, 2.0f), half_chord), relative,
+                                  hn::Mul(hn::Set(d, 16 * 0x1p-24f), hn::Add(hn::Abs(foot_t), half_chord))));
+        const auto first = hn::Mul(scale, hn::Sub(root, root_error)), last = hn::Mul(scale, hn::Add(root, root_error));
+        found.add(hn::AndNot(dropped, open), certain, hn::IfThenElse(certain, first, near),
+                  hn::IfThenElse(certain, last, far), i);
     }
     return found;
 }

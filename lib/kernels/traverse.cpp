@@ -24,6 +24,7 @@ constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
 constexpr unsigned kMeshesAndAsked =
     kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign) & flat::kBuiltKinds;
 constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
+constexpr unsigned kFlat = kinds(PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = flat::kBuiltKinds;
@@ -40,6 +41,7 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
     if (covers(kMeshesAndAsked)) return run(std::integral_constant<unsigned, kMeshesAndAsked>{});
+    if (covers(kFlat)) return run(std::integral_constant<unsigned, kFlat>{});
     if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
     if (covers(kStill)) return run(std::integral_constant<unsigned, kStill>{});
     run(std::integral_constant<unsigned, kAll>{});
