@@ -44,9 +44,9 @@ struct Bins {
 Vec4 areas(const Bounds (&boxes)[3], Vec4 scale) {
     const auto sides = [&](const Bounds& b) { return (b.upper - b.lower) * scale + splat(0x1p-12f); };
     const Vec4 a = sides(boxes[0]), b = sides(boxes[1]), c = sides(boxes[2]);
-    const Vec4 low = __builtin_shuffle(a, b, Int4{0, 4, 1, 5}), high = __builtin_shuffle(a, b, Int4{2, 6, 3, 7});
-    const Vec4 x = __builtin_shuffle(low, c, Int4{0, 1, 4, 4}), y = __builtin_shuffle(low, c, Int4{2, 3, 5, 5}),
-               z = __builtin_shuffle(high, c, Int4{0, 1, 6, 6});
+    const Vec4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5), high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Vec4 x = __builtin_shufflevector(low, c, 0, 1, 4, 4), y = __builtin_shufflevector(low, c, 2, 3, 5, 5),
+               z = __builtin_shufflevector(high, c, 0, 1, 6, 6);
     return x * (y + z) + y * z;
 }
 

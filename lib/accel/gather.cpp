@@ -69,9 +69,9 @@ Chunk fill(std::span<const FloatBox> boxes, std::uint32_t begin, std::uint32_t e
 
 }  // namespace
 
-Gathered gather(std::span<const FloatBox> boxes) {
+Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
     const auto size = static_cast<std::uint32_t>(boxes.size());
-    Gathered all{ReferenceArray(boxes.size()), {}, {}, 0};
+    Gathered all{ReferenceArray(boxes.size() + room), {}, {}, 0};
     Reference* references = all.references.data();
     std::vector<Chunk> chunks((size + kChunk - 1) / kChunk);
     for_each_chunk(0, size, [&](std::uint32_t c, std::uint32_t begin, std::uint32_t end) {
@@ -87,6 +87,7 @@ Gathered gather(std::span<const FloatBox> boxes) {
         all.unbounded.insert(all.unbounded.end(), chunk.unbounded.begin(), chunk.unbounded.end());
         extent = std::max(extent, chunk.extent);
     }
+    all.range.room = room;
     if (all.range.size() > 0) extent = std::max(extent, largest_magnitude(to_box(all.range.bounds)));
     all.extent = extent;
     return all;
@@ -97,7 +98,7 @@ Range range_over_many(const Reference* references, std::uint32_t begin, std::uin
     for_each_chunk(begin, end, [&](std::uint32_t c, std::uint32_t first, std::uint32_t last) {
         ranges[c] = range_over(references, first, last);
     });
-    Range all{begin, end};
+    Range all{begin, end, 0};
     for (const Range& r : ranges) all.extend(r);
     return all;
 }

@@ -35,8 +35,9 @@ struct Gathered {
     double extent = 0;                     // the largest finite magnitude of a coordinate
 };
 
-// Leaves out empty boxes. Counts boxes as unbounded too whose sides' sums or differences could overflow.
-Gathered gather(std::span<const FloatBox> boxes);
+// Leaves out empty boxes. Counts boxes as unbounded too whose sides' sums or differences could overflow. The references
+// have room for so many more.
+Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room);
 
 // As range_over, in parallel.
 Range range_over_many(const Reference* references, std::uint32_t begin, std::uint32_t end);

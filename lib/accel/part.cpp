@@ -33,10 +33,12 @@ void PartWriter::add_node(std::span<const SplitNode* const> children) {
 }
 
 std::uint32_t PartWriter::add_leaf(std::span<const std::uint32_t> ids) {
-    const auto first = static_cast<std::uint32_t>(part_.ids.size()), count = static_cast<std::uint32_t>(ids.size());
-    part_.leaves.push_back({first, count});
+    const auto first = static_cast<std::uint32_t>(part_.ids.size());
     part_.ids.insert(part_.ids.end(), ids.begin(), ids.end());
     std::sort(part_.ids.begin() + first, part_.ids.end());
+    // The halves of a box that was cut may meet again.
+    part_.ids.erase(std::unique(part_.ids.begin() + first, part_.ids.end()), part_.ids.end());
+    part_.leaves.push_back({first, static_cast<std::uint32_t>(part_.ids.size()) - first});
     return WideNode::kLeaf | static_cast<std::uint32_t>(part_.leaves.size() - 1);
 }
 

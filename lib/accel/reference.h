@@ -54,7 +54,7 @@ static_assert(sizeof(Reference) == 32);
 
 // References that stand together, and what surrounds them and their centres.
 struct Range {
-    std::uint32_t begin = 0, end = 0;
+    std::uint32_t begin = 0, end = 0, room = 0;  // room: for how many more, from the end on
     Bounds bounds = kEmpty, centers = kEmpty;
 
     std::uint32_t size() const { return end - begin; }
@@ -77,7 +77,7 @@ inline FloatBox to_box(const Bounds& b) {
 }
 
 inline Range range_over(const Reference* references, std::uint32_t begin, std::uint32_t end) {
-    Range range{begin, end};
+    Range range{begin, end, 0};
     for (std::uint32_t i = begin; i < end; ++i) range.extend(references[i]);
     return range;
 }

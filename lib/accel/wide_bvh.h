@@ -49,15 +49,21 @@ struct BuildSettings {
     std::uint32_t leaf_width = 8;  // boxes tested at once
     double node_cost = 1, leaf_cost = 1;
     bool spatial_splits = false;  // boxes may be cut, so that an id stands in several leaves; needs a Clip
+    double room = 0.3;            // for how many more, as a part of the number of boxes
 };
 
 // What is in a box, to one who would cut it.
 class Clip {
 public:
+    struct Parts {
+        FloatBox lower, upper;  // empty where nothing is
+    };
+
     virtual ~Clip() = default;
-    // The bounds, rounded outward, of what is in the box of `id`, in `box`, and on one side of the plane where
-    // coordinate `axis` is `position`; the plane belongs to both sides. \pre `box` lies within the box of `id`
-    virtual FloatBox clip(std::uint32_t id, const FloatBox& box, int axis, float position, bool upper_side) const = 0;
+    // The bounds, rounded outward, of what of the primitive `id` lies in `box`, on either side of the plane where
+    // coordinate `axis` is `position`; the plane belongs to both sides. `box` lies within the primitive's own. Many
+    // threads call it.
+    virtual Parts cut(std::uint32_t id, const FloatBox& box, int axis, float position) const = 0;
 };
 
 // No path from the root to a leaf has more nodes.

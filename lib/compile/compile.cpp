@@ -105,6 +105,19 @@ void gather_features(flat::Scene& s) {
     }
 }
 
+// A build without a feature must not answer as if the scene had none of it.
+void require_built(const flat::Features& f) {
+    const auto require_one = [](bool is_built, bool is_used, const char* what) {
+        if (is_used && !is_built) throw ArgumentError(std::string("this build of limn is without ") + what);
+    };
+    require_one(flat::kHasMotion, f.moving_spheres || f.moving_instances, "motion");
+    require_one(flat::kHasMedia, f.media, "media");
+    require_one(flat::kHasInstances, f.instances, "instances");
+    require_one(flat::kHasForeignShapes, f.foreign_shapes, "foreign shapes");
+    require_one(flat::kHasTextures, f.textures, "textures");
+    require_one(flat::kHasSmoothNormals, f.smooth_normals, "smooth normals");
+}
+
 // Meshes whose vertices are all that there is of them get places, to be filled with the tree.
 void reserve_places(flat::Scene& s) {
     for (flat::Mesh& mesh : s.meshes) {
@@ -126,19 +139,6 @@ void release_arrays(flat::Scene& s) {
     }
     const flat::Features& f = s.features;
     if (!f.foreign_shapes && !f.foreign_materials && !f.foreign_textures) s.kept.clear();
-}
-
-// A build without a feature must not answer as if the scene had none of it.
-void require_built(const flat::Features& f) {
-    const auto require_one = [](bool is_built, bool is_used, const char* what) {
-        if (is_used && !is_built) throw ArgumentError(std::string("this build of limn is without ") + what);
-    };
-    require_one(flat::kHasMotion, f.moving_spheres || f.moving_instances, "motion");
-    require_one(flat::kHasMedia, f.media, "media");
-    require_one(flat::kHasInstances, f.instances, "instances");
-    require_one(flat::kHasForeignShapes, f.foreign_shapes, "foreign shapes");
-    require_one(flat::kHasTextures, f.textures, "textures");
-    require_one(flat::kHasSmoothNormals, f.smooth_normals, "smooth normals");
 }
 
 // Shapes that can be seen but have no material. Boundaries of media need none.

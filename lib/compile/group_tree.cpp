@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accel/float_box.h"
 #include "accel/slab.h"
 #include "compile/pack.h"
 #include "core/bounds.h"
@@ -21,22 +22,6 @@ namespace {
 constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 constexpr accel::FloatBox kEmpty{{kFloatInfinity, kFloatInfinity, kFloatInfinity},
                                  {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
-
-float round_down(double x) {
-    const auto f = static_cast<float>(x);
-    return f > x ? std::nextafter(f, -kFloatInfinity) : f;
-}
-
-float round_up(double x) {
-    const auto f = static_cast<float>(x);
-    return f < x ? std::nextafter(f, kFloatInfinity) : f;
-}
-
-accel::FloatBox to_float(const Box& box) {
-    accel::FloatBox f;
-    for (std::size_t a = 0; a < 3; ++a) f.lower[a] = round_down(box.lower[a]), f.upper[a] = round_up(box.upper[a]);
-    return f;
-}
 
 using Indices = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
@@ -76,7 +61,7 @@ void GroupTree::measure_mesh(const Part& part) {
                 const TriangleVertices v = triangle_vertices(mesh, i);
                 const bool counts = !is_degenerate(v);
                 const Box box = triangle_bounds(v);
-                boxes_[part.first + i] = counts ? to_float(box) : kEmpty;
+                boxes_[part.first + i] = counts ? accel::to_float_box(box) : kEmpty;
                 if (counts)
                     so_far.bounds.extend(box);
                 else
@@ -132,9 +117,7 @@ void GroupTree::scale_boxes(double scale) {
         if (part.range.kind != PrimitiveKind::mesh) {
             for (std::size_t i = 0; i < part.count; ++i, ++next) {
                 const Box& box = others_[next];
-                boxes_[part.first + i] = box.is_empty() ? kEmpty
-                                                        : to_float({Point3{} + scale * (box.lower - Point3{}),
-                                                                    Point3{} + scale * (box.upper - Point3{})});
+                boxes_[part.first + i] = accel::to_float_box(box, scale);
             }
             continue;
         }
@@ -142,8 +125,8 @@ void GroupTree::scale_boxes(double scale) {
             for (std::size_t i = indices.begin(); i < indices.end(); ++i)
                 for (std::size_t a = 0; a < 3; ++a) {
                     accel::FloatBox& box = boxes_[i];
-                    box.lower[a] = round_down(scale * static_cast<double>(box.lower[a]));
-                    box.upper[a] = round_up(scale * static_cast<double>(box.upper[a]));
+                    box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));
+                    box.upper[a] = accel::round_up(scale * static_cast<double>(box.upper[a]));
                 }
         });
     }

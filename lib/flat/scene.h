@@ -159,13 +159,13 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::
 // Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
-// Exactly as described.
-TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
-
 // None where they are not built.
 inline std::span<const Medium> media_of(const Scene& s) {
     return kHasMedia ? std::span<const Medium>(s.media) : std::span<const Medium>();
 }
+
+// Exactly as described.
+TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 

@@ -31,7 +31,8 @@ TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the re
             std::vector<std::uint32_t> ids(size);
             std::vector<Reference> spare(size);
             SplitNode root;
-            accel::SubtreeBuilder builder(settings, ids.data());
+            const accel::Splitting splitting{settings};
+            accel::SubtreeBuilder builder(splitting, ids.data());
             builder.build(references.data(), spare.data(), accel::range_over(references.data(), 0, size), above, root);
             const int depth = above - 1 + depth_of(root);
             CHECK(depth <= accel::kMaxSplitDepth);

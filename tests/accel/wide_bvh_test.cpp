@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 
@@ -24,13 +23,6 @@ using test::random_boxes;
 namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
-
-bool same_bits(const WideBvh& a, const WideBvh& b) {
-    return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.ids == b.ids &&
-           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(WideNode)) == 0 &&
-           std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(accel::Leaf)) == 0 &&
-           std::memcmp(&a.bounds, &b.bounds, sizeof a.bounds) == 0 && a.cost == b.cost && a.extent == b.extent;
-}
 
 }  // namespace
 
@@ -95,7 +87,7 @@ TEST_CASE("WideBvh: the same boxes give the same bits on any number of threads",
             tbb::task_arena arena(threads);
             const WideBvh bvh = arena.execute([&] { return build_wide_bvh(boxes); });
             if (threads == 1) first = bvh;
-            CHECK(same_bits(first, bvh));
+            CHECK(test::same_bits(first, bvh));
         }
     }
 }

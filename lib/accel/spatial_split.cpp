@@ -1,0 +1,196 @@
+#include "accel/spatial_split.h"
+
+#include <algorithm>
+
+#include "accel/collapse.h"
+
+namespace limn::accel {
+
+namespace {
+
+constexpr int kMaxBins = 16;
+constexpr std::uint32_t kSample = 128;  // references that are cut to choose a plane, or some more
+
+struct Bin {
+    Bounds bounds = kEmpty;
+    std::uint32_t begins = 0, ends = 0;  // references whose lowest, and whose highest bin it is
+};
+
+// Bins of space along one axis.
+class Slices {
+public:
+    Slices(const Range& range, int axis)
+        : axis_(axis),
+          count_(std::min(static_cast<int>(range.size() / 16) + 3, kMaxBins)),
+          origin_(range.bounds.lower[axis]),
+          extent_(range.bounds.upper[axis] - origin_),
+          scale_(static_cast<float>(count_) / extent_) {}
+
+    bool exist() const { return extent_ > 0x1p-100f; }
+    float plane(int bin) const { return origin_ + extent_ * (static_cast<float>(bin) / static_cast<float>(count_)); }
+    int bin_of(float x) const { return std::min(count_ - 1, static_cast<int>((x - origin_) * scale_)); }
+
+    // `is_sampled`: if planes go through it, the bins get what they make of it; else they only count it. Where rounding
+    // puts bins and planes differently the choice is a little worse.
+    void add(const Reference& r, bool is_sampled, const Clip& clip) {
+        const int first = bin_of(r.lower[axis_]), last = bin_of(r.upper[axis_]);
+        ++bins_[first].begins;
+        ++bins_[last].ends;
+        if (first < last && !is_sampled) return;
+        Bounds rest = r.bounds();
+        for (int b = first; b < last; ++b) {
+            const Clip::Parts parts = clip.cut(r.id(), to_box(rest), axis_, plane(b + 1));
+            bins_[b].bounds.extend(to_bounds(parts.lower));
+            rest = to_bounds(parts.upper);
+        }
+        bins_[last].bounds.extend(rest);
+    }
+
+    // Over the area of the range.
+    Cut best(std::uint32_t leaf_width) const {
+        double lower_cost[kMaxBins] = {};
+        Bounds side = kEmpty;
+        std::uint32_t count = 0;
+        for (int b = 0; b + 1 < count_; ++b) {
+            side.extend(bins_[b].bounds);
+            count += bins_[b].begins;
+            lower_cost[b + 1] = side_cost(side, count, leaf_width);
+        }
+        Cut best;
+        side = kEmpty;
+        count = 0;
+        for (int b = count_ - 1; b > 0; --b) {
+            side.extend(bins_[b].bounds);
+            count += bins_[b].ends;
+            const double cost = lower_cost[b] + side_cost(side, count, leaf_width);
+            if (cost < best.cost) best = {cost, axis_, plane(b)};
+        }
+        return best;
+    }
+
+    // Infinite without a box.
+    static double side_cost(const Bounds& side, std::uint32_t count, std::uint32_t leaf_width) {
+        if (count == 0) return std::numeric_limits<double>::infinity();
+        return half_area(to_box(side)) * ((count + leaf_width - 1) / leaf_width);
+    }
+
+private:
+    int axis_, count_;
+    float origin_, extent_, scale_;
+    Bin bins_[kMaxBins];
+};
+
+bool is_empty(const Bounds& b) {
+    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
+}
+
+Bounds joined(Bounds a, const Bounds& b) {
+    a.extend(b);
+    return a;
+}
+
+Bounds common(const Bounds& a, const Bounds& b) { return {max(a.lower, b.lower), min(a.upper, b.upper)}; }
+
+}  // namespace
+
+double overlap(const Reference* references, const Range& range, const Split& split) {
+    Bounds lower = kEmpty, upper = kEmpty;
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
+        (split.is_lower(references[i]) ? lower : upper).extend(references[i].bounds());
+    const Bounds both = common(lower, upper);
+    return is_empty(both) ? 0 : half_area(to_box(both));
+}
+
+Cut best_cut(const Reference* references, const Range& range, std::uint32_t leaf_width, const Clip& clip) {
+    const std::uint32_t step = 1 + range.size() / kSample;
+    Cut best;
+    for (int axis = 0; axis < 3; ++axis) {
+        Slices slices(range, axis);
+        if (!slices.exist()) continue;
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            slices.add(references[i], (i - range.begin) % step == 0, clip);
+        const Cut cut = slices.best(leaf_width);
+        if (cut.cost < best.cost) best = cut;
+    }
+    best.cost /= half_area(to_box(range.bounds));
+    return best;
+}
+
+bool cut(const Reference* references, Reference* to, const Range& range, const Cut& cut, const Clip& clip, Range& lower,
+         Range& upper) {
+    lower = upper = Range();
+    std::uint32_t lower_count = 0, upper_count = 0, across = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const Reference& r = references[i];
+        if (r.upper[cut.axis] <= cut.position) {
+            lower.extend(r), ++lower_count;
+        } else if (r.lower[cut.axis] >= cut.position) {
+            upper.extend(r), ++upper_count;
+        } else {
+            ++across;
+        }
+    }
+    if (across > range.room) return false;
+    lower_count += across, upper_count += across;
+
+    // The lower side is written from the near end of the room upwards, the upper one from the far end downwards.
+    const std::uint32_t end = range.end + range.room;
+    std::uint32_t lower_end = range.begin, upper_begin = end;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const Reference& r = references[i];
+        if (r.upper[cut.axis] <= cut.position) {
+            to[lower_end++] = r;
+            continue;
+        }
+        if (r.lower[cut.axis] >= cut.position) {
+            to[--upper_begin] = r;
+            continue;
+        }
+        const Clip::Parts parts = clip.cut(r.id(), to_box(r.bounds()), cut.axis, cut.position);
+        Bounds below = common(r.bounds(), to_bounds(parts.lower)), above = common(r.bounds(), to_bounds(parts.upper));
+        below.upper[cut.axis] = std::min(below.upper[cut.axis], cut.position);
+        above.lower[cut.axis] = std::max(above.lower[cut.axis], cut.position);
+        const bool any_below = !is_empty(below), any_above = !is_empty(above);
+        if (any_below && any_above) {
+            const auto cost = [&](const Bounds& l, std::uint32_t in_lower, const Bounds& u, std::uint32_t in_upper) {
+                return half_area(to_box(l)) * in_lower + half_area(to_box(u)) * in_upper;
+            };
+            const double both =
+                cost(joined(lower.bounds, below), lower_count, joined(upper.bounds, above), upper_count);
+            const double whole_lower =
+                cost(joined(lower.bounds, r.bounds()), lower_count, upper.bounds, upper_count - 1);
+            const double whole_upper =
+                cost(lower.bounds, lower_count - 1, joined(upper.bounds, r.bounds()), upper_count);
+            if (whole_lower < both || whole_upper < both) {
+                const bool is_lower = whole_lower <= whole_upper;
+                (is_lower ? lower : upper).extend(r);
+                to[is_lower ? lower_end++ : --upper_begin] = r;
+                --(is_lower ? upper_count : lower_count);
+                continue;
+            }
+        }
+        lower_count -= any_below ? 0 : 1, upper_count -= any_above ? 0 : 1;
+        if (any_below) lower.extend(to[lower_end++] = Reference(below, r.id()));
+        if (any_above) upper.extend(to[--upper_begin] = Reference(above, r.id()));
+    }
+    const std::uint32_t size = range.size(), lower_size = lower_end - range.begin, upper_size = end - upper_begin;
+    if (lower_size == 0 || upper_size == 0 || lower_size >= size || upper_size >= size) return false;
+    share_room(to, range, lower_size, upper_begin, upper_size, lower, upper);
+    return true;
+}
+
+void share_room(Reference* to, const Range& range, std::uint32_t lower_size, std::uint32_t upper_begin,
+                std::uint32_t upper_size, Range& lower, Range& upper) {
+    const std::uint32_t size = lower_size + upper_size, room = range.size() + range.room - size;
+    lower.begin = range.begin, lower.end = range.begin + lower_size;
+    lower.room = static_cast<std::uint32_t>(std::uint64_t{room} * lower_size / size);
+    upper.begin = lower.end + lower.room, upper.end = upper.begin + upper_size;
+    upper.room = room - lower.room;
+    if (upper.begin <= upper_begin) {
+        std::copy(to + upper_begin, to + upper_begin + upper_size, to + upper.begin);
+    } else {
+        std::copy_backward(to + upper_begin, to + upper_begin + upper_size, to + upper.end);
+    }
+}
+
+}  // namespace limn::accel
