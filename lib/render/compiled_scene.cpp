@@ -14,8 +14,10 @@ namespace limn {
 
 namespace {
 
+// Media are apart, and not inlined: scenes without them pay for a comparison alone.
+
 // Puts the hit of a medium's boundary in place of `best` where it comes first.
-void nearer_boundary(const flat::Scene& scene, const Ray& ray, kernels::Hit& best) {
+[[gnu::noinline]] void nearer_boundary(const flat::Scene& scene, const Ray& ray, kernels::Hit& best) {
     for (const flat::Medium& medium : flat::media_of(scene)) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
@@ -23,6 +25,12 @@ void nearer_boundary(const flat::Scene& scene, const Ray& ray, kernels::Hit& bes
         hit.index_matched = true;
         if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
     }
+}
+
+[[gnu::noinline]] bool meets_boundary(const flat::Scene& scene, const Ray& ray) {
+    return std::ranges::any_of(flat::media_of(scene), [&](const flat::Medium& medium) {
+        return kernels::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
+    });
 }
 
 RayHit complete(const flat::Scene& scene, const kernels::Hit& hit) {
@@ -47,8 +55,8 @@ bool is_fit(const Ray& r) {
     return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
-// \pre is_usable(ray), as below
-std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
+// \pre is_usable(ray), as below. Inlined although batches with media call it too.
+[[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
     kernels::Hit hit = kernels::closest_hit(scene, ray);
     if (!flat::media_of(scene).empty()) nearer_boundary(scene, ray, hit);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
@@ -56,9 +64,7 @@ std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
 }
 
 bool find_any(const flat::Scene& scene, const Ray& ray) {
-    return kernels::any_hit(scene, ray) || std::ranges::any_of(flat::media_of(scene), [&](const flat::Medium& medium) {
-               return kernels::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
-           });
+    return kernels::any_hit(scene, ray) || (!flat::media_of(scene).empty() && meets_boundary(scene, ray));
 }
 
 // answer(first, count) for every run of rays that can be used, at most kRun long; the number of the others, whose
