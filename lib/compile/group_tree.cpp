@@ -51,6 +51,21 @@ private:
     std::span<const flat::Reference> references_;
 };
 
+// How far a number moves when it is packed as float.
+double lost(double x) { return std::abs(x - static_cast<double>(static_cast<float>(x))); }
+
+double lost(const Point3& p) { return std::max({lost(p.x), lost(p.y), lost(p.z)}); }
+
+// The same for a sum, whose own rounding is exact in double (difference_up).
+double lost(const Point3& p, const Vec3& edge) {
+    double most = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double sum = p[a] + edge[a], added = sum - p[a], rounding = (p[a] - (sum - added)) + (edge[a] - added);
+        most = std::max(most, lost(sum) + std::abs(rounding));
+    }
+    return most;
+}
+
 using Indices = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
 
@@ -70,6 +85,7 @@ void GroupTree::add(const PrimitiveRange& range, std::uint32_t row) {
         for (std::uint32_t i = 0; i < stored; ++i) {
             others_.push_back(bounds_of(range, i));
             bounds_.extend(others_.back());
+            packed_error_ = std::max(packed_error_, packed_error_of(range, i));
             extent_ = std::max(extent_, accel::finite_extent(others_.back()));
         }
         if (stored > 0) scene_.kinds |= flat::bit(range.kind);
@@ -138,6 +154,31 @@ Box GroupTree::bounds_of(const PrimitiveRange& range, std::uint32_t element) con
     return {};
 }
 
+double GroupTree::packed_error_of(const PrimitiveRange& range, std::uint32_t element) const {
+    const std::uint32_t row = range.first_row + element;
+    switch (range.kind) {
+        case PrimitiveKind::sphere: return lost(scene_.spheres[row].center);
+        case PrimitiveKind::moving_sphere: {  // whose way between two floats is rounded three times
+            const flat::MovingSphere& s = scene_.moving_spheres[row];
+            const double largest = std::max(max_abs(s.center0), max_abs(s.center1));
+            return std::max(lost(s.center0), lost(s.center1)) + 0x1p-22 * largest;
+        }
+        case PrimitiveKind::triangle: {
+            const flat::Triangle& t = scene_.triangles[row];
+            return std::max({lost(t.a), lost(t.b), lost(t.c)});
+        }
+        case PrimitiveKind::quad: {
+            const flat::Quad& q = scene_.quads[row];
+            return std::max({lost(q.corner), lost(q.corner, q.edge_u), lost(q.corner, q.edge_v)});
+        }
+        case PrimitiveKind::mesh:
+        case PrimitiveKind::instance:
+        case PrimitiveKind::foreign:
+        case PrimitiveKind::medium: break;
+    }
+    return 0;
+}
+
 // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.
 void GroupTree::scale_boxes(double scale) {
     std::size_t next = 0;
@@ -168,6 +209,7 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     exponent = exponent > -20 && exponent < 40 ? 0 : std::max(exponent, -1000);  // so that the scale is finite
     group.bounds = bounds_;
     group.extent = extent_;
+    group.packed_error = accel::round_up(packed_error_);
     group.scale = std::ldexp(1.0, -exponent);
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).

@@ -27,6 +27,7 @@ private:
 
     void measure_mesh(const Part& part);
     Box bounds_of(const PrimitiveRange& range, std::uint32_t element) const;
+    double packed_error_of(const PrimitiveRange& range, std::uint32_t element) const;
     void scale_boxes(double scale);
 
     flat::Scene& scene_;
@@ -36,6 +37,7 @@ private:
     std::vector<Box> others_;  // of what is not in a mesh: not yet in float
     Box bounds_;
     double extent_ = 0;  // the largest finite coordinate
+    double packed_error_ = 0;
 };
 
 }  // namespace limn::compiler

@@ -67,8 +67,9 @@ struct Group {
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
     Box bounds;
-    double extent = 0;  // the largest finite coordinate in the tree
-    double scale = 1;   // of the nodes' boxes: a power of two, which keeps them in the range of float
+    double extent = 0;       // the largest finite coordinate in the tree
+    float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
+    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.

@@ -70,10 +70,7 @@ private:
     static constexpr bool has_spheres() { return has(PrimitiveKind::sphere) || has(PrimitiveKind::moving_sphere); }
     // Where t may overflow, and a hit be none.
     static constexpr double kEndless = 1e300;
-    // Vertices of meshes are packed as they are; other coordinates are rounded, moving centres then interpolated.
-    static constexpr unsigned kPacked =
-        kKinds & ~(flat::bit(PrimitiveKind::instance) | flat::bit(PrimitiveKind::foreign));
-    float packed_error() const { return kPacked == flat::bit(PrimitiveKind::mesh) ? 0 : 0x1p-22f * box_ray_.extent; }
+    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : group_.packed_error; }
 
     // A hit for sure, not asked exactly yet.
     struct Pending {

@@ -47,9 +47,17 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     run(std::integral_constant<unsigned, kAll>{});
 }
 
+constexpr float kPacketTriangles = 4;
+
+// How far rays may part, in their directions and of the extent, to be traced together: over more triangles than there
+// are lanes a packet does more work than its rays one by one.
+float packet_spread(const flat::Scene& scene) {
+    const auto across = std::sqrt(static_cast<float>(scene.stored_primitives));  // triangles from side to side
+    return std::min(1 / 16.0f, kPacketTriangles / across);
+}
+
 // Whether the rays go much the same way, so that they meet much the same boxes.
-bool are_alike(const BoxRay* rays, std::size_t count) {
-    constexpr float kSpread = 1 / 16.0f;  // of the direction's longest coordinate, and of the extent
+bool are_alike(const BoxRay* rays, std::size_t count, float spread) {
     const BoxRay& first = rays[0];
     const unsigned axis = longest_axis(first.direction);
     for (std::size_t i = 0; i < count; ++i) {
@@ -57,7 +65,7 @@ bool are_alike(const BoxRay* rays, std::size_t count) {
         if (!ray.is_taken_as_it_is || ray.octant != first.octant || longest_axis(ray.direction) != axis) return false;
         for (std::size_t a = 0; a < 3; ++a) {
             const float turn = ray.direction[a] * ray.inverse[axis] - first.direction[a] * first.inverse[axis];
-            if (!(std::abs(turn) < kSpread && std::abs(ray.high[a] - first.high[a]) < kSpread * first.extent))
+            if (!(std::abs(turn) < spread && std::abs(ray.high[a] - first.high[a]) < spread * first.extent))
                 return false;
         }
     }
@@ -72,6 +80,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
         return;
     }
     std::array<BoxRay, kPacket> boxes;
+    const float spread = packet_spread(scene);
     std::vector<RayFrame> frames;
     frames.reserve(kPacket);
     for (std::size_t first = 0; first < count; first += kPacket) {
@@ -81,7 +90,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
             frames.emplace_back(rays[first + i]);
             set_up(rays[first + i], frames[i], root, boxes[i]);
         }
-        if (some > 1 && are_alike(boxes.data(), some)) {
+        if (some > 1 && are_alike(boxes.data(), some, spread)) {
             PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), some, queries + first).run();
         } else {
             for (std::size_t i = 0; i < some; ++i)
