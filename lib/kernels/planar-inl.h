@@ -17,8 +17,13 @@ namespace limn::kernels::HWY_NAMESPACE {
 // wb and wa + wc, the sums off by 3 e.
 //
 // Where a hit is certain its weights are off by 5 e / |det|, so z by twice that times the depth, by E, and by 24
-// roundings of z, of which there are 56 in 4 E; t by that, and the bounds' own rounding. Where it is not, z lies
+// roundings of z, of which there are 64 in 4 E; t by that, and the bounds' own rounding. Where it is not, z lies
 // between that of the vertices, for a quad as far again.
+//
+// A ray that leaves a surface has t close to 0 there, which these bounds seldom tell from 0: the side of the plane that
+// the origin is on does. n.q, n the normal and q from the origin to a vertex, is off by 16 u of the sum of the
+// magnitudes of its products: 5 u from the edges' products, 2 u from q, and the sum's own; and, as in is_behind, by what
+// edges and q are off beside that, `absolute`.
 template <bool kQuad>
 HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t count, const PlanarRay& ray, float t_min,
                                   float t_max) {
@@ -93,15 +98,19 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
                        uy = hn::Sub(load(y + vertex), load(y)), vy = hn::Sub(load(y + 2 * vertex), load(y)),
                        uz = hn::Sub(bz, az), vz = hn::Sub(cz, az);
             const auto qx = seen(x, high_x, low_x), qy = seen(y, high_y, low_y);
-            const auto product = hn::MulAdd(
-                hn::MulSub(uy, vz, hn::Mul(uz, vy)), qx,
-                hn::MulAdd(hn::MulSub(uz, vx, hn::Mul(ux, vz)), qy, hn::Mul(hn::MulSub(ux, vy, hn::Mul(uy, vx)), az)));
+            auto product = hn::Zero(d), size = hn::Zero(d);
+            const auto add = [&](auto u1, auto v2, auto u2, auto v1, auto q) HWY_ATTR {
+                const auto left = hn::Mul(u1, v2), right = hn::Mul(u2, v1);
+                product = hn::MulAdd(hn::Sub(left, right), q, product);
+                size = hn::MulAdd(hn::Add(hn::Abs(left), hn::Abs(right)), hn::Abs(q), size);
+            };
+            add(uy, vz, uz, vy, qx);
+            add(uz, vx, ux, vz, qy);
+            add(ux, vy, uy, vx, az);
             const auto edge = hn::Max(max_abs(ux, uy, uz), max_abs(vx, vy, vz)), q = max_abs(qx, qy, az);
-            const auto absolute = hn::Set(d, ray.absolute);
-            const auto error = hn::MulAdd(
-                hn::Mul(hn::Mul(edge, edge), q), hn::Set(d, 64 * 0x1p-24f),
-                hn::MulAdd(hn::Mul(edge, absolute), hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)),
-                           hn::Set(d, 0x1p-120f)));
+            const auto moved = hn::Mul(hn::Mul(edge, hn::Set(d, ray.absolute)),
+                                       hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)));
+            const auto error = hn::MulAdd(size, hn::Set(d, 16 * 0x1p-24f), hn::Add(moved, hn::Set(d, 0x1p-120f)));
             // The normal is against the ray where det and the direction's z have the same sign; then what is behind has
             // a positive product.
             const auto sign = hn::Xor(product, hn::Xor(det, slope));
