@@ -115,7 +115,7 @@ TEST_CASE("clip_triangle: no point of the triangle in the box is lost, in exact 
     CHECK(crossings > 1000);
 }
 
-TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider; empty on a side where nothing is", "[accel]") {
+TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and empty on a side where nothing is", "[accel]") {
     const Corners c{{{0, 0, 0}, {4, 0, 0}, {0, 4, 2}}};
     const FloatBox all{{0, 0, 0}, {4, 4, 2}};
     const auto is_near = [](const FloatBox& part, const FloatBox& expected) {
