@@ -92,7 +92,6 @@ public:
             absolute_[i] = planar.absolute;
             t_from_z_[i] = planar.t_from_z;
             coarse_slope_[i] = planar.coarse_slope, coarse_[i] = planar.coarse;
-            starts_at_origin_[i] = planar.starts_at_origin;
             if (i >= count) {  // met by nothing
                 bound_[i] = kNever, possible_after_[i] = 0;
                 continue;
@@ -150,9 +149,8 @@ private:
     // test_planar with a triangle for all lanes and a ray in each.
     HWY_INLINE bool triangle(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) {
         const RayLanes d;
-        const auto* rows = reinterpret_cast<const float*>(block.rows(header.count)) + i;
         const auto corner = [&](std::size_t vertex, std::size_t a)
-                                HWY_ATTR { return hn::Set(d, rows[(3 * vertex + axes_[a]) * header.count]); };
+                                HWY_ATTR { return hn::Set(d, block.number(header.count, 3 * vertex + axes_[a], i)); };
         const auto seen = [&](std::size_t vertex, std::size_t a) HWY_ATTR {
             return hn::Sub(hn::Sub(corner(vertex, a), hn::Load(d, high_[a])), hn::Load(d, low_[a]));
         };
@@ -196,11 +194,11 @@ private:
         HWY_ALIGN float nears[kPacket], fars[kPacket];
         hn::Store(near, d, nears);
         hn::Store(far, d, fars);
-        return take(block, header, i, lanes, bits(certain), nears, fars);
+        return take(block, i, lanes, bits(certain), nears, fars);
     }
 
-    bool take(const flat::BlockView& block, const flat::Block& header, std::uint32_t i, std::uint32_t open,
-              std::uint32_t certain, const float* near, const float* far) {
+    bool take(const flat::BlockView& block, std::uint32_t i, std::uint32_t open, std::uint32_t certain,
+              const float* near, const float* far) {
         bool changed = false;
         for (; open != 0; open &= open - 1) {
             const auto r = static_cast<std::size_t>(std::countr_zero(open));
@@ -223,7 +221,6 @@ private:
                 ask(r, block, i);
             }
         }
-        static_cast<void>(header);
         return changed;
     }
 
@@ -266,7 +263,6 @@ private:
     HWY_ALIGN float high_[3][kPacket], low_[3][kPacket], shear_x_[kPacket], shear_y_[kPacket], absolute_[kPacket],
         t_from_z_[kPacket], coarse_slope_[kPacket], coarse_[kPacket], bound_[kPacket], possible_after_[kPacket];
     float certain_after_[kPacket], certain_before_[kPacket];
-    bool starts_at_origin_[kPacket];
     std::uint32_t pending_mask_ = 0;
     Pending pending_[kPacket];
     std::array<std::optional<ExactTests>, kPacket> exact_;
