@@ -22,8 +22,8 @@ namespace limn::kernels::HWY_NAMESPACE {
 //
 // A ray that leaves a surface has t close to 0 there, which these bounds seldom tell from 0: the side of the plane that
 // the origin is on does. n.q, n the normal and q from the origin to a vertex, is off by 16 u of the sum of the
-// magnitudes of its products: 5 u from the edges' products, 2 u from q, and the sum's own; and, as in is_behind, by what
-// edges and q are off beside that, `absolute`.
+// magnitudes of its products: 5 u from the products of the edges, which are seen from no origin, 2 u from q, and the
+// sum's own; and, as in is_behind, by what edges and q are off beside that, `absolute`.
 template <bool kQuad>
 HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t count, const PlanarRay& ray, float t_min,
                                   float t_max) {
@@ -96,7 +96,7 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
             const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
             const auto ux = hn::Sub(load(x + vertex), load(x)), vx = hn::Sub(load(x + 2 * vertex), load(x)),
                        uy = hn::Sub(load(y + vertex), load(y)), vy = hn::Sub(load(y + 2 * vertex), load(y)),
-                       uz = hn::Sub(bz, az), vz = hn::Sub(cz, az);
+                       uz = hn::Sub(load(z + vertex), load(z)), vz = hn::Sub(load(z + 2 * vertex), load(z));
             const auto qx = seen(x, high_x, low_x), qy = seen(y, high_y, low_y);
             auto product = hn::Zero(d), size = hn::Zero(d);
             const auto add = [&](auto u1, auto v2, auto u2, auto v1, auto q) HWY_ATTR {

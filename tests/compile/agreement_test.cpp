@@ -146,3 +146,52 @@ TEST_CASE("compile: ten thousand small balls and a mesh are hit as the described
         objects.push_back(ball(Point3{} + random.in_cube(20), random.log_uniform(1e-3, 0.5)));
     compare(zoo_of("many", objects), 1500, 313);
 }
+
+TEST_CASE("compile: rays that start close beside large tilted shapes are answered as by the described ones",
+          "[compile]") {
+    // Where the origin is all but in the plane, float has to tell on which side, and to say when it cannot.
+    Random random(323);
+    Tally tally;
+    for (int shape = 0; shape < 300; ++shape) {
+        const double size = std::pow(10, random.uniform(-2, 3)), tilt = std::pow(10, random.uniform(-3, 0));
+        const auto edge = [&] {  // mostly along two axes, a little along the third
+            const Vec3 v = size * random.in_cube(1);
+            return shape % 3 == 0 ? Vec3{v.x, v.y, tilt * v.z} : shape % 3 == 1 ? Vec3{tilt * v.x, v.y, v.z} : v;
+        };
+        const auto to_float = [](const Vec3& v) {
+            return Vec3{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+        };
+        const Point3 corner = Point3{} + to_float(size * random.in_cube(1));
+        Vec3 u = to_float(edge());
+        const Vec3 v = to_float(edge());
+        if (shape % 5 < 2)
+            u = to_float({u.x, 1e-5 * u.y, 1e-5 * u.z});  // all but along an axis: most products are small
+        const Point3 b = corner + u, c = corner + v;
+        Scene scene;
+        if (shape % 2 == 0) {
+            scene.add(std::make_shared<Quad>(corner, u, v, nullptr));
+        } else {
+            const auto vertex = [](const Point3& p) {
+                return Float3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+            };
+            MeshData data;
+            data.vertices = {vertex(corner), vertex(b), vertex(c)};
+            data.triangles = {{0, 1, 2}};
+            scene.add(std::make_shared<Mesh>(data, nullptr));
+        }
+        const CompiledScene compiled = compile(scene);
+        for (int i = 0; i < 200; ++i) {
+            const double s = random.uniform(0, 0.6),
+                         t = i % 2 ? random.uniform(0, 1 - s) : random.log_uniform(1e-4, 0.3);
+            const Vec3 off =
+                random.in_cube(size * std::pow(10, i % 3 ? random.uniform(-9, -6) : random.uniform(-12, -2)));
+            const Point3 origin = corner + s * u + t * v + off;
+            compare(scene, compiled, {.origin = origin, .direction = random.in_cube(1)}, tally);
+            compare(scene, compiled, {.origin = origin, .direction = -1 * off + 1e-3 * random.in_cube(max_abs(off))},
+                    tally);
+        }
+    }
+    INFO(tally.first);
+    CHECK(tally.wrong == 0);
+    CHECK(tally.hits > 20000);
+}
