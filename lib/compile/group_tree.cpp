@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "accel/clip_triangle.h"
@@ -20,10 +19,6 @@
 namespace limn::compiler {
 
 namespace {
-
-constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
-constexpr accel::FloatBox kEmpty{{kFloatInfinity, kFloatInfinity, kFloatInfinity},
-                                 {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
 
 // Cuts triangles of meshes, and the boxes of everything else. \pre boxes are not scaled: vertices are as they are
 class TriangleClip final : public accel::Clip {
@@ -105,7 +100,7 @@ void GroupTree::measure_mesh(const Part& part) {
                 const TriangleVertices v = triangle_vertices(mesh, i);
                 const bool counts = !is_degenerate(v);
                 const Box box = triangle_bounds(v);
-                boxes_[part.first + i] = counts ? accel::to_float_box(box) : kEmpty;
+                boxes_[part.first + i] = accel::to_float_box(counts ? box : Box());
                 if (counts)
                     so_far.bounds.extend(box);
                 else
@@ -203,14 +198,11 @@ void GroupTree::scale_boxes(double scale) {
 }
 
 void GroupTree::finish(flat::Group& group, bool cut_triangles) {
-    int exponent = 0;
-    std::frexp(extent_, &exponent);
-    // Where float serves, boxes stay as they are.
-    exponent = exponent > -20 && exponent < 40 ? 0 : std::max(exponent, -1000);  // so that the scale is finite
     group.bounds = bounds_;
     group.extent = extent_;
     group.packed_error = accel::round_up(packed_error_);
-    group.scale = std::ldexp(1.0, -exponent);
+    // Where float serves, boxes stay as they are.
+    group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).
     const TriangleClip clip(scene_, references_);

@@ -22,13 +22,19 @@ using Lanes = hn::CappedTag<float, flat::kWidth>;
 using V = hn::Vec<Lanes>;
 using M = hn::Mask<Lanes>;
 
-HWY_INLINE std::uint32_t bits(M mask) {
+// Of up to 16 lanes.
+template <class D>
+HWY_INLINE std::uint32_t bits(D d, hn::Mask<D> mask) {
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Lanes(), mask, bytes);
-    return bytes[0];
+    hn::StoreMaskBits(d, mask, bytes);
+    return bytes[0] | (hn::MaxLanes(D()) > 8 ? std::uint32_t{bytes[1]} << 8 : 0u);
 }
+HWY_INLINE std::uint32_t bits(M mask) { return bits(Lanes(), mask); }
 
-HWY_INLINE V max_abs(V a, V b, V c) { return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))); }
+template <class T>
+HWY_INLINE T max_abs(T a, T b, T c) {
+    return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c)));
+}
 
 // t, beyond what rounding to float and what is reported may be off by.
 HWY_INLINE float above(float t) { return t * (t > 0 ? 1 + 0x1p-22f : 1 - 0x1p-22f); }

@@ -12,6 +12,7 @@
 #include "kernels/exact_tests.h"
 #include "kernels/leaf_rays.h"
 #include "kernels/node-inl.h"
+#include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +20,6 @@ namespace limn::kernels::HWY_NAMESPACE {
 
 using RayLanes = hn::CappedTag<float, 16>;
 using RV = hn::Vec<RayLanes>;
-using RM = hn::Mask<RayLanes>;
 inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
 
 // The boxes that any ray of the packet may meet, eight at once, from the ranges of origins and directions: a plane at p
@@ -155,46 +155,28 @@ private:
             return hn::Sub(hn::Sub(corner(vertex, a), hn::Load(d, high_[a])), hn::Load(d, low_[a]));
         };
         const auto shear_x = hn::Load(d, shear_x_), shear_y = hn::Load(d, shear_y_);
-        const auto az = seen(0, 2), bz = seen(1, 2), cz = seen(2, 2);
-        const auto ax = hn::NegMulAdd(shear_x, az, seen(0, 0)), bx = hn::NegMulAdd(shear_x, bz, seen(1, 0)),
-                   cx = hn::NegMulAdd(shear_x, cz, seen(2, 0));
-        const auto ay = hn::NegMulAdd(shear_y, az, seen(0, 1)), by = hn::NegMulAdd(shear_y, bz, seen(1, 1)),
-                   cy = hn::NegMulAdd(shear_y, cz, seen(2, 1));
-        const auto wa = hn::MulSub(cx, by, hn::Mul(cy, bx));
-        const auto wb = hn::MulSub(ax, cy, hn::Mul(ay, cx));
-        const auto wc = hn::MulSub(bx, ay, hn::Mul(by, ax));
-        const auto least = hn::Min(wa, hn::Min(wb, wc)), most = hn::Max(wa, hn::Max(wb, wc));
-        const auto across = hn::Max(largest(ax, bx, cx), largest(ay, by, cy));
-        const auto coarse = hn::MulAdd(hn::Load(d, coarse_slope_), across, hn::Load(d, coarse_));
-        auto open = hn::Not(hn::And(hn::Lt(least, hn::Neg(coarse)), hn::Gt(most, coarse)));
+        SeenVertices<RV> p;
+        p.az = seen(0, 2), p.bz = seen(1, 2), p.cz = seen(2, 2);
+        p.ax = hn::NegMulAdd(shear_x, p.az, seen(0, 0)), p.ay = hn::NegMulAdd(shear_y, p.az, seen(0, 1));
+        p.bx = hn::NegMulAdd(shear_x, p.bz, seen(1, 0)), p.by = hn::NegMulAdd(shear_y, p.bz, seen(1, 1));
+        p.cx = hn::NegMulAdd(shear_x, p.cz, seen(2, 0)), p.cy = hn::NegMulAdd(shear_y, p.cz, seen(2, 1));
+        const EdgeValues<RV> w = edge_values<false>(d, p);
+        const auto coarse = hn::MulAdd(hn::Load(d, coarse_slope_), w.across, hn::Load(d, coarse_));
+        auto open = hn::Not(is_missed(w, coarse));
         if (HWY_LIKELY(hn::AllFalse(d, open))) return false;
 
-        const auto coordinate_error =
-            hn::MulAdd(hn::Set(d, relative_), hn::Add(across, largest(az, bz, cz)), hn::Load(d, absolute_));
-        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
-        open = hn::AndNot(hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e)), open);
-        const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
-        const auto det = hn::Add(wa, hn::Add(wb, wc));
-        const auto inverse = hn::Div(hn::Set(d, 1.0f), det);
-        const auto mean = hn::Mul(hn::MulAdd(wa, az, hn::MulAdd(wb, bz, hn::Mul(wc, cz))), inverse);
-        const auto lowest = hn::Min(az, hn::Min(bz, cz)), highest = hn::Max(az, hn::Max(bz, cz));
-        const auto weight_error = hn::Mul(hn::Mul(hn::Set(d, 10.0f), e), hn::Abs(inverse));
-        const auto e4 = hn::Mul(hn::Set(d, 4.0f), coordinate_error);
-        const auto z_error = hn::MulAdd(weight_error, hn::Sub(highest, lowest), e4);
-        const auto slope = hn::Load(d, t_from_z_);
-        const auto t1 = hn::Mul(slope, hn::IfThenElse(certain, hn::Sub(mean, z_error), hn::Sub(lowest, e4)));
-        const auto t2 = hn::Mul(slope, hn::IfThenElse(certain, hn::Add(mean, z_error), hn::Add(highest, e4)));
-        const auto near = hn::Min(t1, t2), far = hn::Max(t1, t2);
+        const auto m = meet_plane<false>(d, p, w, hn::Set(d, relative_), hn::Load(d, absolute_), hn::Zero(d),
+                                         hn::Load(d, t_from_z_));
         const auto bound = hn::Load(d, bound_);
-        const auto dropped = hn::Or(hn::Gt(near, hn::MulAdd(hn::Set(d, 0x1p-22f), hn::Abs(bound), bound)),
-                                    hn::Lt(far, hn::Load(d, possible_after_)));
-        open = hn::AndNot(dropped, open);
-        std::uint32_t lanes = bits(open);
+        const auto dropped = hn::Or(hn::Gt(m.near, hn::MulAdd(hn::Set(d, 0x1p-22f), hn::Abs(bound), bound)),
+                                    hn::Lt(m.far, hn::Load(d, possible_after_)));
+        open = hn::AndNot(hn::Or(m.missed, dropped), open);
+        const std::uint32_t lanes = bits(d, open);
         if (lanes == 0) return false;
         HWY_ALIGN float nears[kPacket], fars[kPacket];
-        hn::Store(near, d, nears);
-        hn::Store(far, d, fars);
-        return take(block, i, lanes, bits(certain), nears, fars);
+        hn::Store(m.near, d, nears);
+        hn::Store(m.far, d, fars);
+        return take(block, i, lanes, bits(d, m.certain), nears, fars);
     }
 
     bool take(const flat::BlockView& block, std::uint32_t i, std::uint32_t open, std::uint32_t certain,
@@ -243,13 +225,6 @@ private:
         const bool ended = query.report(hit, scene_.ranges[header.range].first_number + block.id(i), false);
         const float bound = ended ? kNever : rays_[r].upper(query.limit());
         if (bound < bound_[r]) bound_[r] = bound;
-    }
-
-    static HWY_INLINE RV largest(RV a, RV b, RV c) { return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c))); }
-    static HWY_INLINE std::uint32_t bits(RM mask) {
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(RayLanes(), mask, bytes);
-        return bytes[0] | std::uint32_t{bytes[1]} << 8;
     }
 
     const flat::Scene& scene_;

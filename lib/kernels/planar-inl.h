@@ -24,6 +24,75 @@ namespace limn::kernels::HWY_NAMESPACE {
 // the origin is on does. n.q, n the normal and q from the origin to a vertex, is off by 16 u of the sum of the
 // magnitudes of its products: 5 u from the products of the edges, which are seen from no origin, 2 u from q, and the
 // sum's own; and, as in is_behind, by what edges and q are off beside that, `absolute`.
+
+// The vertices as a ray sees them: x and y sheared, z as it is.
+template <class T>
+struct SeenVertices {
+    T ax, ay, az, bx, by, bz, cx, cy, cz;
+};
+
+template <class T>
+struct EdgeValues {
+    T wa, wb, wc, least, most;  // the last two of all that have to have one sign
+    T across;                   // the largest x or y
+};
+
+template <bool kQuad, class D, class T = hn::Vec<D>>
+HWY_INLINE EdgeValues<T> edge_values(D d, const SeenVertices<T>& p) {
+    EdgeValues<T> w;
+    w.wa = hn::MulSub(p.cx, p.by, hn::Mul(p.cy, p.bx));
+    w.wb = hn::MulSub(p.ax, p.cy, hn::Mul(p.ay, p.cx));
+    w.wc = hn::MulSub(p.bx, p.ay, hn::Mul(p.by, p.ax));
+    w.least = hn::Min(w.wb, w.wc), w.most = hn::Max(w.wb, w.wc);
+    if constexpr (kQuad) {
+        const auto third = hn::Set(d, 0.333f);
+        const auto ab = hn::Mul(third, hn::Add(w.wa, w.wb)), ac = hn::Mul(third, hn::Add(w.wa, w.wc));
+        w.least = hn::Min(w.least, hn::Min(ab, ac)), w.most = hn::Max(w.most, hn::Max(ab, ac));
+    } else {
+        w.least = hn::Min(w.least, w.wa), w.most = hn::Max(w.most, w.wa);
+    }
+    w.across = hn::Max(max_abs(p.ax, p.bx, p.cx), max_abs(p.ay, p.by, p.cy));
+    return w;
+}
+
+// What the edge values say with an error of e.
+template <class T>
+HWY_INLINE auto is_missed(const EdgeValues<T>& w, T e) {
+    return hn::And(hn::Lt(w.least, hn::Neg(e)), hn::Gt(w.most, e));
+}
+
+// Where the plane is met.
+template <class D, class T = hn::Vec<D>>
+struct PlaneMeeting {
+    hn::Mask<D> missed, certain;
+    T det, near, far;  // the last two: bounds on t
+};
+
+// `slope`: t / z; `relative`, `absolute`, `direction_error`: PlanarRay's.
+template <bool kQuad, class D, class T = hn::Vec<D>>
+HWY_INLINE PlaneMeeting<D> meet_plane(D d, const SeenVertices<T>& p, const EdgeValues<T>& w, T relative, T absolute,
+                                      T direction_error, T slope) {
+    PlaneMeeting<D> m;
+    const auto coordinate_error = hn::MulAdd(relative, hn::Add(w.across, max_abs(p.az, p.bz, p.cz)), absolute);
+    const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(w.across, coordinate_error)), coordinate_error);
+    m.missed = is_missed(w, e);
+    m.certain = hn::Or(hn::Gt(w.least, e), hn::Lt(w.most, hn::Neg(e)));
+    m.det = hn::Add(w.wa, hn::Add(w.wb, w.wc));
+    const auto inverse = hn::Div(hn::Set(d, 1.0f), m.det);
+    const auto mean = hn::Mul(hn::MulAdd(w.wa, p.az, hn::MulAdd(w.wb, p.bz, hn::Mul(w.wc, p.cz))), inverse);
+    const auto lowest = hn::Min(p.az, hn::Min(p.bz, p.cz)), highest = hn::Max(p.az, hn::Max(p.bz, p.cz));
+    const auto depth = hn::Sub(highest, lowest);
+    const auto weight_error = hn::Mul(hn::Mul(hn::Set(d, 10.0f), e), hn::Abs(inverse));
+    const auto e4 = hn::Mul(hn::Set(d, 4.0f), coordinate_error);
+    const auto z_error = hn::MulAdd(weight_error, depth, hn::MulAdd(direction_error, hn::Abs(mean), e4));
+    auto z_low = hn::Sub(lowest, e4), z_high = hn::Add(highest, e4);
+    if constexpr (kQuad) z_low = hn::Sub(z_low, depth), z_high = hn::Add(z_high, depth);
+    const auto t1 = hn::Mul(slope, hn::IfThenElse(m.certain, hn::Sub(mean, z_error), z_low));
+    const auto t2 = hn::Mul(slope, hn::IfThenElse(m.certain, hn::Add(mean, z_error), z_high));
+    m.near = hn::Min(t1, t2), m.far = hn::Max(t1, t2);
+    return m;
+}
+
 template <bool kQuad>
 HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t count, const PlanarRay& ray, float t_min,
                                   float t_max) {
@@ -43,55 +112,27 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
         const auto seen = [&](const float* row, auto high, auto low) {
             return hn::Sub(hn::Sub(hn::LoadU(d, row + i), high), low);
         };
-        const auto az = seen(z, high_z, low_z), bz = seen(z + vertex, high_z, low_z),
-                   cz = seen(z + 2 * vertex, high_z, low_z);
-        const auto ax = hn::NegMulAdd(shear_x, az, seen(x, high_x, low_x)),
-                   bx = hn::NegMulAdd(shear_x, bz, seen(x + vertex, high_x, low_x)),
-                   cx = hn::NegMulAdd(shear_x, cz, seen(x + 2 * vertex, high_x, low_x));
-        const auto ay = hn::NegMulAdd(shear_y, az, seen(y, high_y, low_y)),
-                   by = hn::NegMulAdd(shear_y, bz, seen(y + vertex, high_y, low_y)),
-                   cy = hn::NegMulAdd(shear_y, cz, seen(y + 2 * vertex, high_y, low_y));
-        const auto wa = hn::MulSub(cx, by, hn::Mul(cy, bx));
-        const auto wb = hn::MulSub(ax, cy, hn::Mul(ay, cx));
-        const auto wc = hn::MulSub(bx, ay, hn::Mul(by, ax));
-        auto least = hn::Min(wb, wc), most = hn::Max(wb, wc);
-        if constexpr (kQuad) {
-            const auto third = hn::Set(d, 0.333f);
-            const auto ab = hn::Mul(third, hn::Add(wa, wb)), ac = hn::Mul(third, hn::Add(wa, wc));
-            least = hn::Min(least, hn::Min(ab, ac)), most = hn::Max(most, hn::Max(ab, ac));
-        } else {
-            least = hn::Min(least, wa), most = hn::Max(most, wa);
-        }
-        const auto across = hn::Max(max_abs(ax, bx, cx), max_abs(ay, by, cy));
+        SeenVertices<V> p;
+        p.az = seen(z, high_z, low_z), p.bz = seen(z + vertex, high_z, low_z);
+        p.cz = seen(z + 2 * vertex, high_z, low_z);
+        p.ax = hn::NegMulAdd(shear_x, p.az, seen(x, high_x, low_x));
+        p.bx = hn::NegMulAdd(shear_x, p.bz, seen(x + vertex, high_x, low_x));
+        p.cx = hn::NegMulAdd(shear_x, p.cz, seen(x + 2 * vertex, high_x, low_x));
+        p.ay = hn::NegMulAdd(shear_y, p.az, seen(y, high_y, low_y));
+        p.by = hn::NegMulAdd(shear_y, p.bz, seen(y + vertex, high_y, low_y));
+        p.cy = hn::NegMulAdd(shear_y, p.cz, seen(y + 2 * vertex, high_y, low_y));
+        const EdgeValues<V> w = edge_values<kQuad>(d, p);
         // The bound for vertices as far away as there are any tells most misses, sooner.
-        const auto coarse = hn::MulAdd(hn::Set(d, ray.coarse_slope), across, hn::Set(d, ray.coarse));
-        const auto missed = hn::And(hn::Lt(least, hn::Neg(coarse)), hn::Gt(most, coarse));
-        auto open = hn::AndNot(missed, hn::FirstN(d, count - i));
+        const auto coarse = hn::MulAdd(hn::Set(d, ray.coarse_slope), w.across, hn::Set(d, ray.coarse));
+        auto open = hn::AndNot(is_missed(w, coarse), hn::FirstN(d, count - i));
         if (HWY_LIKELY(hn::AllFalse(d, open))) continue;
 
-        const auto coordinate_error =
-            hn::MulAdd(hn::Set(d, ray.relative), hn::Add(across, max_abs(az, bz, cz)), hn::Set(d, ray.absolute));
-        const auto e = hn::Mul(hn::Mul(hn::Set(d, 4.0f), hn::Add(across, coordinate_error)), coordinate_error);
-        open = hn::AndNot(hn::And(hn::Lt(least, hn::Neg(e)), hn::Gt(most, e)), open);
-        const auto certain = hn::Or(hn::Gt(least, e), hn::Lt(most, hn::Neg(e)));
-        const auto det = hn::Add(wa, hn::Add(wb, wc));
-        const auto inverse = hn::Div(hn::Set(d, 1.0f), det);
-        const auto mean = hn::Mul(hn::MulAdd(wa, az, hn::MulAdd(wb, bz, hn::Mul(wc, cz))), inverse);
-        const auto lowest = hn::Min(az, hn::Min(bz, cz)), highest = hn::Max(az, hn::Max(bz, cz));
-        const auto depth = hn::Sub(highest, lowest);
-        const auto weight_error = hn::Mul(hn::Mul(hn::Set(d, 10.0f), e), hn::Abs(inverse));
-        const auto e4 = hn::Mul(hn::Set(d, 4.0f), coordinate_error);
-        const auto z_error =
-            hn::MulAdd(weight_error, depth, hn::MulAdd(hn::Set(d, ray.direction_error), hn::Abs(mean), e4));
-        auto z_low = hn::Sub(lowest, e4), z_high = hn::Add(highest, e4);
-        if constexpr (kQuad) z_low = hn::Sub(z_low, depth), z_high = hn::Add(z_high, depth);
         const auto slope = hn::Set(d, ray.t_from_z);
-        const auto t1 = hn::Mul(slope, hn::IfThenElse(certain, hn::Sub(mean, z_error), z_low));
-        const auto t2 = hn::Mul(slope, hn::IfThenElse(certain, hn::Add(mean, z_error), z_high));
-        const auto near = hn::Min(t1, t2), far = hn::Max(t1, t2);
+        const auto [missed, certain, det, near, far] = meet_plane<kQuad>(
+            d, p, w, hn::Set(d, ray.relative), hn::Set(d, ray.absolute), hn::Set(d, ray.direction_error), slope);
         // Where nothing is known there is a NaN, and no comparison drops it.
         const auto dropped = hn::Or(hn::Gt(near, hn::Set(d, t_max)), hn::Lt(far, hn::Set(d, t_min)));
-        open = hn::AndNot(dropped, open);
+        open = hn::AndNot(hn::Or(missed, dropped), open);
         if (ray.starts_at_origin && !hn::AllFalse(d, hn::And(open, hn::Lt(near, hn::Zero(d))))) {
             const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
             const auto ux = hn::Sub(load(x + vertex), load(x)), vx = hn::Sub(load(x + 2 * vertex), load(x)),
@@ -106,8 +147,8 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
             };
             add(uy, vz, uz, vy, qx);
             add(uz, vx, ux, vz, qy);
-            add(ux, vy, uy, vx, az);
-            const auto edge = hn::Max(max_abs(ux, uy, uz), max_abs(vx, vy, vz)), q = max_abs(qx, qy, az);
+            add(ux, vy, uy, vx, p.az);
+            const auto edge = hn::Max(max_abs(ux, uy, uz), max_abs(vx, vy, vz)), q = max_abs(qx, qy, p.az);
             const auto moved = hn::Mul(hn::Mul(edge, hn::Set(d, ray.absolute)),
                                        hn::MulAdd(hn::Set(d, 16.0f), q, hn::Mul(hn::Set(d, 3.0f), edge)));
             const auto error = hn::MulAdd(size, hn::Set(d, 16 * 0x1p-24f), hn::Add(moved, hn::Set(d, 0x1p-120f)));

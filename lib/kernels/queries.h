@@ -12,17 +12,14 @@ namespace limn::kernels {
 
 struct Closest {
     static constexpr bool kEveryHit = false, kThroughBoundaries = false, kFirstHit = false;
-    flat::RawHit best;
-    double u = 0, v = 0;         // of the best
-    bool index_matched = false;  // as the best, a foreign shape, says
+    Hit best;  // index_matched as a foreign shape says
 
     double limit() const { return best.t; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
-        if (hit.t < best.t || number < best.primitive)
-            best = {hit.t, number}, u = hit.u, v = hit.v, index_matched = matched;
+        if (hit.t < best.t || number < best.primitive) best = {{hit.t, number}, hit.u, hit.v, matched};
         return false;
     }
-    Hit hit() const { return best.primitive == flat::RawHit::kMiss ? Hit{} : Hit{best, u, v, index_matched}; }
+    Hit hit() const { return best.primitive == flat::RawHit::kMiss ? Hit{} : best; }
 };
 
 template <bool kThrough>

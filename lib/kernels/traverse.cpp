@@ -139,10 +139,8 @@ HWY_EXPORT(search_every);
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
-constexpr std::size_t kChunk = 256;  // rays, whose queries stay in the cache
-
 Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
-    Closest query{{frame.ray.t_max, flat::RawHit::kMiss}};
+    Closest query{{{frame.ray.t_max, flat::RawHit::kMiss}}};
     HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
     return query.hit();
 }
@@ -182,26 +180,17 @@ bool any_hit(const flat::Scene& scene, const Ray& ray) {
 }
 
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
-    std::array<Closest, kChunk> queries;
-    for (std::size_t first = 0; first < rays.size(); first += kChunk) {
-        const std::size_t count = std::min(kChunk, rays.size() - first);
-        for (std::size_t i = 0; i < count; ++i) queries[i] = {{rays[first + i].t_max, flat::RawHit::kMiss}};
-        HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data() + first, count, queries.data());
-        for (std::size_t i = 0; i < count; ++i) {
-            const Closest& query = queries[i];
-            hits[first + i] = query.hit();
-        }
-    }
+    std::array<Closest, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {{{rays[i].t_max, flat::RawHit::kMiss}}};
+    HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].hit();
 }
 
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
-    std::array<Any<false>, kChunk> queries;
-    for (std::size_t first = 0; first < rays.size(); first += kChunk) {
-        const std::size_t count = std::min(kChunk, rays.size() - first);
-        for (std::size_t i = 0; i < count; ++i) queries[i] = {rays[first + i].t_max};
-        HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data() + first, count, queries.data());
-        for (std::size_t i = 0; i < count; ++i) found[first + i] = queries[i].found ? 1 : 0;
-    }
+    std::array<Any<false>, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max};
+    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
 }
 
 bool is_occluded(const flat::Scene& scene, const Ray& ray) {

@@ -21,7 +21,8 @@ struct Hit : flat::RawHit {
 Hit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
 
-// The same for each of many rays: those that follow each other and go much the same way are traced together.
+// The same for each of up to kMostRays rays: those that follow each other and go much the same way are traced together.
+inline constexpr std::size_t kMostRays = 256;  // so that what is kept for each stays in the cache
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits);
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
 

@@ -67,15 +67,14 @@ bool find_any(const flat::Scene& scene, const Ray& ray) {
     return kernels::any_hit(scene, ray) || (!flat::media_of(scene).empty() && meets_boundary(scene, ray));
 }
 
-// answer(first, count) for every run of rays that can be used, at most kRun long; the number of the others, whose
-// answers stay a miss.
-constexpr std::size_t kRun = 256;
+// answer(first, count) for every run of rays that can be used, at most kernels::kMostRays long; the number of the
+// others, whose answers stay a miss.
 template <class Answer>
 std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer) {
     const FloatEnvironment environment;
     std::size_t unusable = 0;
     for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
-        while (end < rays.size() && end - first < kRun && is_fit(rays[end])) ++end;
+        while (end < rays.size() && end - first < kernels::kMostRays && is_fit(rays[end])) ++end;
         if (end > first) answer(first, end - first);
         if (end < rays.size() && !is_fit(rays[end])) ++end, ++unusable;
     }
@@ -117,7 +116,7 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayH
             for (std::size_t i = first; i < first + count; ++i)
                 hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
         });
-    std::array<kernels::Hit, kRun> found;
+    std::array<kernels::Hit, kernels::kMostRays> found;
     return answer_runs(rays, [&](std::size_t first, std::size_t count) {
         kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
         for (std::size_t i = 0; i < count; ++i)
