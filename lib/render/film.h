@@ -1,4 +1,4 @@
-// The film: sums of samples, in four replicates from which the render learns its own error.
+// The film: sums of samples, in four replicates from which the render learns its own error (error_estimate.h).
 #pragma once
 
 #include <array>
@@ -7,7 +7,6 @@
 
 #include "limn/core/color.h"
 #include "limn/image/image.h"
-#include "limn/render/render.h"
 
 namespace limn::tracing {
 
@@ -27,21 +26,29 @@ public:
     // A sample that is not finite counts as black; the result says whether it was finite.
     bool add(int x, int y, const Color& sample);
 
+    // Mean of all samples, black if there is none yet.
+    Color mean(int x, int y) const;
+    // Samples in replicate r, and their mean. \pre there is one
+    std::uint32_t replicate_samples(int x, int y, std::uint32_t r) const;
+    Color replicate_mean(int x, int y, std::uint32_t r) const;
+    // The largest share that one sample has of the pixel's luminance, 0 to 1.
+    double largest_share(int x, int y) const;
+
     Image image() const;
-    ErrorEstimate error() const;
     double mean_samples() const;
+    std::uint32_t fewest_samples() const;
     std::size_t memory_bytes() const { return pixels_.size() * sizeof(Pixel); }
 
 private:
     struct Pixel {
         std::array<Color, kReplicates> sums;
-        double largest = 0;  // luminance of the brightest sample
+        float largest = 0;  // luminance of the brightest sample
         std::uint32_t samples = 0;
     };
+    static_assert(sizeof(Pixel) == 104);
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    static Color mean(const Pixel& p);
 
     int width_, height_;
     std::vector<Pixel> pixels_;

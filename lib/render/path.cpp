@@ -54,8 +54,8 @@ PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
             Ray flight = ray;
             flight.t_max = hit.t;
             media_.trace(scene_, flight);
-            const double random = sampler.next(), choose = sampler.next();
-            if (const std::optional<FreeFlight> event = media_.sample(random, choose)) {
+            const Uv random = sampler.next_2d();
+            if (const std::optional<FreeFlight> event = media_.sample(random.u, random.v)) {
                 vertex.surface = {};
                 vertex.surface.position = ray.at(event->t);
                 vertex.surface.material = {static_cast<std::uint32_t>(event->phase), nullptr, nullptr};
@@ -81,6 +81,7 @@ Color PathTracer::radiance(Ray ray, Sampler& sampler) {
     Point3 previous = ray.origin;
     double scatter_pdf = 0;  // of the last direction; 0: specular or from the camera, no light sampling competes
     for (int segment = 1; segment <= max_depth_; ++segment) {
+        sampler.seek(segment, Use::flight);
         const End end = advance(ray, vertex, sampler);
         if (end == End::background)
             light += throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(ray.direction);
@@ -95,15 +96,19 @@ Color PathTracer::radiance(Ray ray, Sampler& sampler) {
             }
         }
         if (segment == max_depth_) break;
-        if (sample_lights_ && can_be_evaluated(scene_, vertex.surface.material))
+        if (sample_lights_ && can_be_evaluated(scene_, vertex.surface.material)) {
+            sampler.seek(segment, Use::light);
             light += throughput * direct_light(vertex, ray.time, sampler);
+        }
 
+        sampler.seek(segment, Use::scattering);
         const std::optional<ScatterSample> scattered =
             sample_material(scene_, vertex.surface, vertex.out, sampler.next_3d());
         if (!scattered || is_black(scattered->weight)) break;
         throughput *= scattered->weight;
         if (max_depth_ == kUnlimitedDepth && segment >= kRouletteStart) {
             const double survival = std::min(max_component(throughput), kLargestSurvival);
+            sampler.seek(segment, Use::roulette);
             if (!(sampler.next() < survival)) break;
             throughput = throughput / survival;
         }
@@ -117,9 +122,9 @@ Color PathTracer::radiance(Ray ray, Sampler& sampler) {
 // f |cos| * emission * transmittance / pdf for one direction towards a light, weighted against finding it by
 // scattering.
 Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampler) {
-    const double pick = sampler.next();
-    const Uv uv = sampler.next_2d();
-    const std::optional<LightSample> s = sample_light(scene_, vertex.surface.position, time, pick, uv.u, uv.v);
+    // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
+    const Random3 pick = sampler.next_3d();
+    const std::optional<LightSample> s = sample_light(scene_, vertex.surface.position, time, pick.x, pick.y, pick.z);
     if (!s) return {};
     const ScatterValue f = material_value(scene_, vertex.surface, vertex.out, s->direction);
     if (is_black(f.value)) return {};

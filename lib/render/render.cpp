@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 
 #include "core/float_environment.h"
 #include "flat/scene.h"
 #include "limn/core/error.h"
+#include "render/error_estimate.h"
 #include "render/film.h"
 #include "render/parallel.h"
 #include "render/path.h"
@@ -31,6 +33,10 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
             "width and height must lie in 1 to 1048576");
     require(s.samples_per_pixel > 0, "samples per pixel must be at least 1");
     require(s.max_depth > 0, "the depth limit must be at least 1");
+    require(!s.error || (*s.error > 0 && std::isfinite(*s.error)), "the error asked for must be over 0 and finite");
+    require(!s.time_limit || (*s.time_limit > 0 && std::isfinite(*s.time_limit)),
+            "the time limit must be over 0 and finite");
+    require(s.max_samples_per_pixel > 0, "the most samples per pixel must be at least 1");
     require(s.threads >= 0 && s.threads <= kMaxThreads, "threads must lie in 0 to 1024");
     if (scene.flat().unassigned > 0)
         throw Error("render: " + std::to_string(scene.flat().unassigned) + " shapes of the scene have no material");
@@ -44,30 +50,31 @@ public:
         : scene_(scene.flat()),
           camera_(camera, settings.width, settings.height),
           settings_(settings),
+          most_samples_(settings.error || settings.time_limit ? settings.max_samples_per_pixel
+                                                              : settings.samples_per_pixel),
           film_(settings.width, settings.height) {}
 
     void run() {
         report(true);
-        int done = 0;
-        int pass = tracing::kReplicates;
-        for (; done < settings_.samples_per_pixel && !stop_; pass = std::min(2 * pass, kLargestPass)) {
-            const int target = done + std::min(pass, settings_.samples_per_pixel - done);
-            const int columns = (settings_.width + kTile - 1) / kTile, rows = (settings_.height + kTile - 1) / kTile;
-            const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-            tracing::for_each_index(tiles, context_, [&](std::size_t tile) {
-                if (stop_) return;
-                const auto across = static_cast<std::size_t>(columns);
-                render_tile(static_cast<int>(tile % across) * kTile, static_cast<int>(tile / across) * kTile, target);
-                report(false);
-            });
-            if (context_.is_group_execution_cancelled()) stop_ = true;  // by us, or by the caller's own task group
+        // Without a target there is never a check. The first one comes after the passes of 4, 8, 16, 32 samples and
+        // what is left of the next.
+        int done = 0, check = settings_.error ? tracing::kFirstCheck : most_samples_;
+        for (int pass = tracing::kReplicates; done < most_samples_ && !ended();
+             pass = std::min(2 * pass, kLargestPass)) {
+            const int target = done + std::min(pass, std::min(check, most_samples_) - done);
+            render_pass(target);
             done = target;
+            if (done == check && settings_.error && !ended()) check = check_error(done);
         }
-        if (!stop_) report(true);
+        finished_ = true;
+        if (!interrupted_) report(true);
     }
 
     RenderResult result(const CompiledScene& scene, int threads) const {
-        RenderResult r{film_.image(), film_.error(), {}};
+        RenderResult r{film_.image(), {}, {}, {}};
+        r.error = tracing::estimate_error(film_, &r.maps);
+        r.error.target = settings_.error;
+        r.error.reached = settings_.error && r.error.ci95_high <= *settings_.error;
         r.report.scene = scene.name();
         r.report.width = settings_.width, r.report.height = settings_.height;
         r.report.seed = settings_.seed;
@@ -81,11 +88,42 @@ public:
         r.report.unusable_rays = unusable_rays_;
         r.report.features = scene.features();
         r.report.memory_bytes = scene.stats().memory_bytes + film_.memory_bytes();
-        r.report.complete = samples_done_ == all_samples();
+        r.report.complete = !interrupted_;
+        r.report.stopped_by = interrupted_ ? StoppedBy::callback
+                              : reached_   ? StoppedBy::error
+                              : timed_out_ ? StoppedBy::time
+                                           : StoppedBy::samples;
         return r;
     }
 
 private:
+    bool ended() const { return interrupted_ || reached_ || timed_out_; }
+
+    void render_pass(int target) {
+        const int columns = (settings_.width + kTile - 1) / kTile, rows = (settings_.height + kTile - 1) / kTile;
+        const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        tracing::for_each_index(tiles, context_, [&](std::size_t tile) {
+            if (interrupted_) return;
+            // The first pass is for all pixels, whatever it takes, so that there is a picture and an estimate.
+            if (settings_.time_limit && target > tracing::kReplicates && seconds() >= *settings_.time_limit)
+                timed_out_ = true;
+            if (timed_out_) return;
+            const auto across = static_cast<std::size_t>(columns);
+            render_tile(static_cast<int>(tile % across) * kTile, static_cast<int>(tile / across) * kTile, target);
+            report(false);
+        });
+        if (context_.is_group_execution_cancelled()) interrupted_ = true;  // by us, or by the caller's own task group
+    }
+
+    // Whether the error is little enough after `done` samples a pixel; returns when to ask again.
+    int check_error(int done) {
+        const double upper = tracing::check_error(film_).ci95_high;
+        reached_ = upper <= *settings_.error;
+        // Where independent samples would reach it: where this stands in between tells how far the render has come.
+        samples_needed_ = done * std::max(1.0, upper / *settings_.error);
+        return tracing::next_check(done, upper, *settings_.error);
+    }
+
     void render_tile(int left, int top, int target) {
         tracing::PathTracer tracer(scene_, settings_.max_depth, settings_.estimator);
         std::uint64_t nonfinite = 0, samples = 0;
@@ -103,12 +141,11 @@ private:
     Color sample(int x, int y, std::uint64_t i, tracing::PathTracer& tracer) const {
         const auto pixel =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) + static_cast<std::uint64_t>(x);
-        tracing::Sampler sampler(settings_.seed, pixel, i);
+        tracing::Sampler sampler(settings_.seed, pixel, i, settings_.sampler);
         // Drawn whether needed or not, so that each dimension keeps its meaning.
-        const Uv in_pixel = sampler.next_2d(), on_lens = sampler.next_2d();
-        const double in_shutter = sampler.next();
-        const double dx = settings_.antialias ? in_pixel.u : 0.5, dy = settings_.antialias ? in_pixel.v : 0.5;
-        return tracer.radiance(camera_.ray(x + dx, y + dy, on_lens.u, on_lens.v, in_shutter), sampler);
+        const auto [in_x, in_y, lens_u, lens_v, in_shutter] = sampler.next_5d();
+        const double dx = settings_.antialias ? in_x : 0.5, dy = settings_.antialias ? in_y : 0.5;
+        return tracer.radiance(camera_.ray(x + dx, y + dy, lens_u, lens_v, in_shutter), sampler);
     }
 
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -116,7 +153,7 @@ private:
     // Tells the caller how far things are; at most every 50 ms, unless `always`.
     void report(bool always) {
         if (!settings_.progress) return;
-        if (stop_ || reporting_.test_and_set(std::memory_order_acquire)) return;
+        if (interrupted_ || reporting_.test_and_set(std::memory_order_acquire)) return;
         struct Finish {
             std::atomic_flag& flag;
             ~Finish() { flag.clear(std::memory_order_release); }
@@ -124,27 +161,35 @@ private:
         const double now = seconds();
         if (!always && now - last_report_ < 0.05) return;
         last_report_ = now;
-        if (!settings_.progress({fraction(), now})) {
-            stop_ = true;
+        last_fraction_ = std::max(last_fraction_, fraction(now));
+        if (!settings_.progress({last_fraction_, now}) && !finished_) {
+            interrupted_ = true;
             context_.cancel_group_execution();
         }
     }
 
-    std::uint64_t all_samples() const {
-        return static_cast<std::uint64_t>(settings_.width) * static_cast<std::uint64_t>(settings_.height) *
-               static_cast<std::uint64_t>(settings_.samples_per_pixel);
+    // Of what will end the render first, as far as that can be known.
+    double fraction(double now) const {
+        const double samples =
+            static_cast<double>(samples_done_) / (static_cast<double>(settings_.width) * settings_.height);
+        double fraction = samples / most_samples_;
+        if (settings_.time_limit) fraction = std::max(fraction, now / *settings_.time_limit);
+        if (settings_.error) fraction = std::max(fraction, samples / samples_needed_);
+        return finished_ ? 1 : samples_done_ == 0 ? 0 : std::min(fraction, 1.0);
     }
-    double fraction() const { return static_cast<double>(samples_done_) / static_cast<double>(all_samples()); }
 
     const flat::Scene& scene_;
     const CameraRays camera_;
     const RenderSettings& settings_;
+    const int most_samples_;  // a pixel
     tracing::Film film_;
     tbb::task_group_context context_;
-    std::atomic<bool> stop_ = false;
+    std::atomic<bool> interrupted_ = false, timed_out_ = false;
+    bool reached_ = false, finished_ = false;
+    double samples_needed_ = 16 * tracing::kFirstCheck;  // a guess before the first check
     std::atomic<std::uint64_t> rays_ = 0, unusable_rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
     std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
-    double last_report_ = 0;
+    double last_report_ = 0, last_fraction_ = 0;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -164,8 +209,10 @@ RenderResult render(const CompiledScene& scene, const Camera& camera, const Rend
         tbb::global_control::max_allowed_parallelism,
         std::max(threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
     tbb::task_arena arena(settings.threads);
-    arena.execute([&] { job.run(); });
-    return job.result(scene, settings.threads);
+    return arena.execute([&] {
+        job.run();
+        return job.result(scene, settings.threads);
+    });
 }
 
 const char* version() { return LIMN_VERSION; }

@@ -3,44 +3,106 @@
 
 #include <Random123/philox.h>
 
+#include <array>
 #include <cstdint>
+#include <utility>
 
 #include "limn/core/surface.h"
 #include "limn/core/vec.h"
+#include "limn/render/settings.h"
+#include "render/film.h"
+#include "render/sobol.h"
 
 namespace limn::tracing {
 
-// The dimensions of one sample, in order. Philox4x64-10: Salmon et al., Parallel Random Numbers: As Easy as 1, 2, 3,
-// 2011. 53 bits a number, so that a free path can be longer than 24 bits allow.
+// What a vertex of a path draws numbers for.
+enum class Use : std::uint32_t { light, scattering, roulette, flight };
+
+// The numbers of one sample, drawn in groups. Within a group of up to five dimensions the samples of a pixel form a
+// Sobol sequence; the groups are independently scrambled and shuffled (Burley, Practical hash-based Owen scrambling,
+// 2020), so that there is no end of them. A number that is drawn for the same use at the same vertex is in the same
+// group in all samples of a pixel, whatever else they draw.
+//
+// Each of the film's replicates has a randomisation of its own: sample i is point i / 4 of replicate i mod 4.
+// Every number has 53 bits, so that a free path can be long: 32 of a Sobol point, the others merely random.
+//
+// `independent` numbers: Philox4x64-10, a block for each four of a group. Salmon et al., Parallel random numbers: as
+// easy as 1, 2, 3, 2011.
 class Sampler {
 public:
-    Sampler(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
-        : key_{{seed, 0}}, counter_{{pixel, sample, 0, 0}} {}
-
-    // In [0, 1).
-    double next() {
-        if (used_ == 4) refill();
-        return static_cast<double>(block_[used_++] >> 11) * 0x1p-53;
+    Sampler(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample, SamplerKind kind = SamplerKind::sobol)
+        : kind_(kind), seed_(seed), pixel_(pixel), sample_(sample) {
+        if (kind_ == SamplerKind::independent) return;
+        const std::uint64_t point = sample / kReplicates, replicate = sample % kReplicates;
+        // A sequence ends after 2^24 points; what follows is another randomisation.
+        const std::uint64_t sequence = (point >> sobol::kIndexBits) * kReplicates + replicate;
+        base_ = sobol::mixed(sobol::mixed(sobol::mixed(seed + kStep) + kStep * pixel) + kStep * sequence);
+        index_ = sobol::reversed(static_cast<std::uint32_t>(point)) & ~0xffU;
     }
+
+    // What is drawn next is the first group for this use at this vertex of the path; the camera's are before vertex 1.
+    void seek(int vertex, Use use) {
+        group_ = static_cast<std::uint32_t>(vertex) * kGroupsOfVertex + static_cast<std::uint32_t>(use) * kGroupsOfUse;
+    }
+
+    // Each takes a group. In [0, 1).
+    double next() { return draw<1>()[0]; }
     Uv next_2d() {
-        const double u = next();
-        return {u, next()};
+        const auto [u, v] = draw<2>();
+        return {u, v};
     }
     Random3 next_3d() {
-        const double x = next(), y = next();
-        return {x, y, next()};
+        const auto [x, y, z] = draw<3>();
+        return {x, y, z};
     }
+    std::array<double, 5> next_5d() { return draw<5>(); }
 
 private:
-    void refill() {
-        block_ = r123::Philox4x64{}(counter_, key_);
-        ++counter_[2];
-        used_ = 0;
+    // Flights come last, since there may be many.
+    static constexpr std::uint32_t kGroupsOfVertex = 4096, kGroupsOfUse = 16;
+    static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: far from any small ratio
+
+    template <std::size_t n>
+    std::array<double, n> draw() {
+        const std::uint32_t group = group_++;
+        if (kind_ == SamplerKind::independent) return independent<n>(group);
+        const std::uint64_t seeds = sobol::mixed(base_ + kStep * group);
+        const std::uint32_t index = sobol::scrambled_upward(index_, static_cast<std::uint32_t>(seeds));
+        return [&]<std::size_t... d>(std::index_sequence<d...>) {
+            return std::array<double, n>{scrambled(sobol::reversed_coordinate<d>(index), seed_of<d>(seeds))...};
+        }
+        (std::make_index_sequence<n>{});
     }
 
-    r123::Philox4x64::key_type key_;
-    r123::Philox4x64::ctr_type counter_, block_{};
-    unsigned used_ = 4;
+    // The high half of a product with an odd number depends on all bits of the other factor.
+    template <std::size_t d>
+    static std::uint32_t seed_of(std::uint64_t seeds) {
+        constexpr std::uint64_t kFactors[sobol::kDimensions] = {
+            0xd1342543de82ef95, 0xaf251af3b0f025b5, 0x2545f4914f6cdd1d, 0x9fb21c651e98df25, 0xda942042e4dd58b5};
+        return static_cast<std::uint32_t>((seeds * kFactors[d]) >> 32);
+    }
+
+    static double scrambled(std::uint32_t reversed_coordinate, std::uint32_t seed) {
+        const std::uint32_t bits = sobol::scrambled_upward(reversed_coordinate, seed);
+        const std::uint32_t rest = (bits ^ seed) * 0x9e3779b1U >> 11;
+        const std::uint64_t number = static_cast<std::uint64_t>(sobol::reversed(bits)) << 21 | rest;
+        return static_cast<double>(static_cast<std::int64_t>(number)) * 0x1p-53;
+    }
+
+    template <std::size_t n>
+    std::array<double, n> independent(std::uint32_t group) const {
+        std::array<double, n> numbers{};
+        for (std::size_t first = 0; first < n; first += 4) {
+            const auto block = r123::Philox4x64{}({{pixel_, sample_, group, first / 4}}, {{seed_, 0}});
+            for (std::size_t i = first; i < n && i < first + 4; ++i)
+                numbers[i] = static_cast<double>(block[i - first] >> 11) * 0x1p-53;
+        }
+        return numbers;
+    }
+
+    SamplerKind kind_;
+    std::uint32_t group_ = 0, index_ = 0;
+    std::uint64_t seed_, pixel_, sample_, base_ = 0;
 };
 
 }  // namespace limn::tracing

@@ -26,13 +26,14 @@ TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities 
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
         tracing::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
-        const double pick = same_numbers.next();
-        const Uv uv = same_numbers.next_2d();
-        const auto drawn = tracing::sample_light(scene.flat(), floor.position, 0, pick, uv.u, uv.v);
+        same_numbers.seek(1, tracing::Use::light);
+        const Random3 pick = same_numbers.next_3d();
+        const auto drawn = tracing::sample_light(scene.flat(), floor.position, 0, pick.x, pick.y, pick.z);
         REQUIRE(drawn.has_value());
         const ScatterValue f = tracing::material_value(scene.flat(), floor, out, drawn->direction);
         double expected = f.value.r * kRadiance * power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
 
+        same_numbers.seek(1, tracing::Use::scattering);
         const auto scattered = tracing::sample_material(scene.flat(), floor, out, same_numbers.next_3d());
         REQUIRE(scattered.has_value());
         const Ray ray = floor.spawn_ray(scattered->direction, 0);

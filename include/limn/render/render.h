@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "limn/image/image.h"
 #include "limn/render/compiled_scene.h"
@@ -17,14 +19,19 @@ namespace limn {
 /// counts. Light that no path has found yet cannot be seen.
 struct ErrorEstimate {
     double estimate = 0;  ///< NaN where there is none
-    /// The 95 % interval, from the spread over blocks of pixels; NaN where there is none.
+    /// The 95 % interval of the picture's true error, from the spread over pixels; NaN where there is none.
     ///@{
     double ci95_low = 0, ci95_high = 0;
     ///@}
     /// 99.9th percentile over pixels of the largest share that one sample has of its pixel, 0 to 1.
     double max_sample_share = 0;
-    std::string reason;  ///< why there is no estimate; empty where there is one
+    std::string reason;              ///< why there is no estimate; empty where there is one
+    std::optional<double> target{};  ///< RenderSettings::error
+    bool reached = false;            ///< there is a target, and ci95_high is at or under it
 };
+
+/// What ended a render: the number of samples, RenderSettings::error, RenderSettings::time_limit or the callback.
+enum class StoppedBy : std::uint8_t { samples, error, time, callback };
 
 /// What was rendered, how, and what it cost.
 struct RenderReport {
@@ -34,7 +41,7 @@ struct RenderReport {
     std::uint64_t seed = 0;               ///< as asked for
     int threads = 0;                      ///< that the render had
     int max_depth = 0;                    ///< as asked for
-    double samples_per_pixel = 0;         ///< mean over pixels; less than asked for if it was stopped
+    double samples_per_pixel = 0;         ///< mean over pixels
     double compile_seconds = 0;           ///< that `compile` took
     double render_seconds = 0;            ///< that `render` took
     std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
@@ -42,9 +49,17 @@ struct RenderReport {
     /// Of `rays`, those that a shape or material of extreme numbers made unusable (see is_usable): they carry
     /// no light.
     std::uint64_t unusable_rays = 0;
-    std::string features;          ///< CompiledScene::features
-    std::size_t memory_bytes = 0;  ///< compiled scene and film
-    bool complete = true;          ///< false if it was stopped
+    std::string features;                       ///< CompiledScene::features
+    std::size_t memory_bytes = 0;               ///< compiled scene and film
+    bool complete = true;                       ///< false if the callback stopped it, or the caller's own TBB context
+    StoppedBy stopped_by = StoppedBy::samples;  ///< the first to hit
+};
+
+/// What is known of each pixel, row by row from the top left one.
+struct PixelMaps {
+    /// The pixel's own estimated relMSE, of which ErrorEstimate::estimate is the mean; empty where there is none.
+    std::vector<float> error;
+    std::vector<float> samples;  ///< that the pixel has
 };
 
 /// A picture and what is known of it.
@@ -52,10 +67,11 @@ struct RenderResult {
     Image image;          ///< linear, not clamped
     ErrorEstimate error;  ///< of `image`
     RenderReport report;  ///< of this run
+    PixelMaps maps;       ///< of `image`
 };
 
-/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera, size, samples, depth,
-/// seed, filter and estimator alone: not on threads.
+/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera, size, samples or error
+/// asked for, depth, seed, filter, estimator and sampler alone: not on threads, unless a time limit hits.
 ///
 /// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
 /// memory lacks; what the progress callback or an object of the caller's own class throws
