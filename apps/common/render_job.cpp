@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
+#include <utility>
 
 #include "interrupt.h"
 #include "limn/core/error.h"
@@ -24,6 +27,12 @@ void check_outputs(const RenderJob& job, const RenderOptions& options) {
     if (!options.report.empty()) check_text_path(options.report);
 }
 
+void check_channels(const RenderOptions& options) {
+    const auto has_place = [](const std::string& path) { return image_holds_layers(path); };
+    if (!options.channels.empty() && std::none_of(options.outputs.begin(), options.outputs.end(), has_place))
+        throw ArgumentError("--channels: only an EXR has a place for them, and none is written");
+}
+
 // A lamp brighter than half can hold must not cost the picture.
 Image clamped_to_half(Image image, const Console& console) {
     constexpr float kLargestHalf = 65504;
@@ -37,10 +46,23 @@ Image clamped_to_half(Image image, const Console& console) {
     return image;
 }
 
+// Below four samples a pixel no error is known: then that channel is NaN.
+std::vector<ImageLayer> layers_of(const PixelMaps& maps, const RenderOptions& options) {
+    std::vector<ImageLayer> layers;
+    for (const std::string& name : options.channels) {
+        std::vector<float> values = name == "error" ? maps.error : maps.samples;
+        values.resize(maps.samples.size(), std::numeric_limits<float>::quiet_NaN());
+        layers.push_back({name, std::move(values)});
+    }
+    return layers;
+}
+
 // Saves each output whatever becomes of the others: hours of rendering may be in them. Returns whether all were saved.
 bool save_all(const RenderResult& result, const RenderSettings& settings, const RenderOptions& options,
               const Console& console) {
-    const SaveOptions save{.half = options.half, .facts = picture_facts(result, settings, options.command_line)};
+    const std::vector<ImageLayer> layers = layers_of(result.maps, options);
+    const SaveOptions save{
+        .half = options.half, .facts = picture_facts(result, settings, options.command_line), .layers = layers};
     const Image image = options.half ? clamped_to_half(result.image, console) : result.image;
     bool all = true;
     for (const std::string& path : options.outputs) try {
@@ -54,11 +76,13 @@ bool save_all(const RenderResult& result, const RenderSettings& settings, const 
 
 std::string summary(const RenderResult& result, const RenderOptions& options) {
     const RenderReport& r = result.report;
+    const ErrorEstimate& e = result.error;
     const std::string error =
-        result.error.reason.empty() ? fmt::format("relMSE {:.2g}", result.error.estimate) : result.error.reason;
-    return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}", r.complete ? "" : "interrupted; ",
+        e.reason.empty() ? fmt::format("relMSE {:.2g}, at most {:.2g}", e.estimate, e.ci95_high) : e.reason;
+    const std::string missed = e.target && !e.reached ? fmt::format("; {:.2g} was not reached", *e.target) : "";
+    return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}{}", r.complete ? "" : "interrupted; ",
                        fmt::join(options.outputs, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds,
-                       error);
+                       error, missed);
 }
 
 int interrupted_status() { return 128 + caught_signal(); }
@@ -67,6 +91,7 @@ int interrupted_status() { return 128 + caught_signal(); }
 
 int run_render_job(const RenderJob& job, const RenderOptions& options, const Console& console) {
     check_camera_alone(options.camera);
+    check_channels(options);
     check_outputs(job, options);
     catch_interrupts();
 

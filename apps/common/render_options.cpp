@@ -1,6 +1,7 @@
 #include "render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -31,10 +32,22 @@ void check_output_name(const std::string& path) {
     }
 }
 
+double parse_positive(const char* option, const std::string& text) {
+    const double value = parse_number(option, text);
+    if (!(value > 0)) refuse(option, text, "must be over 0");
+    return value;
+}
+
 void add_numbers(CLI::App& app, RenderOptions& o) {
     add(app, "--size", "WxH", "Size in pixels", [&o](const std::string& s) { o.size = parse_size("--size", s); });
     add(app, "--spp", "N", "Samples per pixel",
         [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
+    add(app, "--error", "E",
+        "Render until the picture's relMSE is at most E, by the upper end of its 95 % interval; --spp is then the most",
+        [&o](const std::string& s) { o.error = parse_positive("--error", s); });
+    add(app, "--time-limit", "SECONDS",
+        "Render no longer than that, with --error until the first of both; --spp is then the most",
+        [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
     add(app, "--seed", "N", "Another seed gives other noise, the same seed the same picture",
         [&o](const std::string& s) {
             o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
@@ -49,6 +62,25 @@ void add_numbers(CLI::App& app, RenderOptions& o) {
             if (s != "path" && s != "naive") refuse("--estimator", s, "must be path or naive");
             o.estimator = s == "path" ? Estimator::path : Estimator::naive;
         });
+    add(app, "--sampler", "sobol|independent",
+        "Random numbers: spread evenly over each pixel's samples, or independent", [&o](const std::string& s) {
+            if (s != "sobol" && s != "independent") refuse("--sampler", s, "must be sobol or independent");
+            o.sampler = s == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
+        });
+}
+
+// Names of channels with commas between them, each once.
+std::vector<std::string> parse_channels(const std::string& text) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string name = text.substr(begin, end - begin);
+        if (name != "error" && name != "samples") refuse("--channels", text, "must be error, samples or error,samples");
+        if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
+        names.push_back(name);
+        begin = end + 1;
+    }
+    return names;
 }
 
 void add_camera(CLI::App& app, CameraOptions& o) {
@@ -86,7 +118,7 @@ void add_camera(CLI::App& app, CameraOptions& o) {
 
 // Names that later versions will give a meaning to. Refused, so that no script comes to rely on their absence.
 void add_reserved(CLI::App& app) {
-    for (const char* name : {"--error", "--time-limit", "--shard", "--checkpoint", "--resume"})
+    for (const char* name : {"--shard", "--checkpoint", "--resume"})
         add(app, name, "X", "",
             [name](const std::string& s) {
                 refuse(name, s, "this option is reserved and not available in this version");
@@ -118,6 +150,9 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
         ->each(check_output_name);
     add_numbers(app, o);
     app.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
+    add(app, "--channels", "error,samples",
+        "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples it has",
+        [&o](const std::string& s) { o.channels = parse_channels(s); });
     app.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
     app.add_option("--report", o.report, "Write what was done and how well as JSON; - for standard output")
         ->type_name("FILE.json")
@@ -135,10 +170,14 @@ void apply(const RenderOptions& o, Figure& figure) {
         figure.camera.aspect_ratio.reset();  // that of the new size
     }
     replace(settings.samples_per_pixel, o.samples_per_pixel);
+    replace(settings.max_samples_per_pixel, o.samples_per_pixel);
+    if (o.error) settings.error = o.error;
+    if (o.time_limit) settings.time_limit = o.time_limit;
     replace(settings.seed, o.seed);
     replace(settings.threads, o.threads);
     replace(settings.max_depth, o.max_depth);
     replace(settings.estimator, o.estimator);
+    replace(settings.sampler, o.sampler);
     if (o.no_antialias) settings.antialias = false;
     replace_camera(figure.camera, o.camera);
 }

@@ -28,8 +28,11 @@ struct RenderOptions {
     std::optional<Size> size;
     std::optional<int> samples_per_pixel, threads, max_depth;
     std::optional<std::uint64_t> seed;
+    std::optional<double> error, time_limit;
     std::optional<Estimator> estimator;
+    std::optional<SamplerKind> sampler;
     CameraOptions camera;
+    std::vector<std::string> channels;  ///< that an EXR gets beside its colours
     bool no_antialias = false;
     bool half = false;
     bool quiet = false;

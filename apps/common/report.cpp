@@ -17,10 +17,20 @@ Json error_json(const ErrorEstimate& error) {
             {"estimate", json_number(error.estimate)},
             {"ci95_low", json_number(error.ci95_low)},
             {"ci95_high", json_number(error.ci95_high)},
-            {"target", nullptr},  // nobody can ask for one yet
-            {"reached", nullptr},
+            {"target", error.target ? Json(*error.target) : Json(nullptr)},
+            {"reached", error.target ? Json(error.reached) : Json(nullptr)},
             {"max_sample_share", json_number(error.max_sample_share)},
             {"reason", error.reason.empty() ? Json(nullptr) : Json(error.reason)}};
+}
+
+const char* name_of(StoppedBy cause) {
+    switch (cause) {
+        case StoppedBy::samples: return "samples";
+        case StoppedBy::error: return "error";
+        case StoppedBy::time: return "time";
+        case StoppedBy::callback: break;
+    }
+    return "interrupted";
 }
 
 Json words(const std::string& text) {
@@ -45,6 +55,7 @@ std::string report_json(const RenderResult& result, double save_seconds) {
         {"rays", r.rays},
         {"mrays_per_second", json_number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
         {"error", error_json(result.error)},
+        {"stopped_by", name_of(r.stopped_by)},
         {"nonfinite_samples", r.nonfinite_samples},
         {"unusable_rays", r.unusable_rays},
         {"features", words(r.features)},
@@ -69,6 +80,7 @@ std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResul
         {"max_depth", r.max_depth == kUnlimitedDepth ? "unlimited" : text(r.max_depth)},
         {"antialias", settings.antialias ? "yes" : "no"},
         {"estimator", settings.estimator == Estimator::path ? "path" : "naive"},
+        {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
         {"seconds.compile", text(r.compile_seconds)},
         {"seconds.render", text(r.render_seconds)},
         {"error.metric", kMetric},
@@ -80,6 +92,12 @@ std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResul
     } else {
         facts.emplace_back("error.reason", e.reason);
     }
+    if (e.target) {
+        facts.emplace_back("error.target", text(*e.target));
+        facts.emplace_back("error.reached", e.reached ? "yes" : "no");
+    }
+    facts.emplace_back("error.max_sample_share", text(e.max_sample_share));
+    facts.emplace_back("stopped_by", name_of(r.stopped_by));
     facts.emplace_back("nonfinite_samples", text(r.nonfinite_samples));
     facts.emplace_back("unusable_rays", text(r.unusable_rays));
     facts.emplace_back("complete", r.complete ? "yes" : "no");

@@ -32,13 +32,14 @@ struct StoredImage {
     Facts facts;          // without their prefix
 };
 
-// A picture to be written: 8-bit sRGB values for PNG, else linear ones, three channels.
+// A picture to be written: 8-bit sRGB values for PNG, else linear ones, three channels and those of `layers`.
 struct EncodeJob {
     FileFormat format = FileFormat::exr;
     int width = 0, height = 0;
     std::variant<std::span<const std::uint8_t>, std::span<const float>> values;
     bool half = false;
     const Facts& facts;
+    std::vector<std::string> layers{};  // EXR alone
 };
 
 bool can_encode(FileFormat format);
@@ -46,8 +47,8 @@ bool can_encode(FileFormat format);
 // The bytes of the file `path`. \throws FileError
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
 
-// The first three channels at most. \throws FileError naming `path`
-StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
+// The first channels, at most `most`. \throws FileError naming `path`
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most = 3);
 StoredImage decode_file(const std::string& path);
 Facts decode_facts(const std::string& path);
 ImageInfo decode_info(const std::string& path);

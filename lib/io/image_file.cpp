@@ -36,14 +36,29 @@ FileFormat format_of(const std::string& path) {
     throw FileError(path, hint + ("the name of a picture must end in " + known));
 }
 
+// With its prefix, a PNG keyword has at most 79 characters (PNG specification, 11.3.4.2).
+bool is_name(const std::string& text) {
+    return !text.empty() && text.size() <= 70 &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
 void check_facts(const Facts& facts) {
     for (const auto& [name, value] : facts) {
-        const auto printable = [](char c) { return c > ' ' && c <= '~'; };
-        // With its prefix, a PNG keyword has at most 79 characters (PNG specification, 11.3.4.2).
-        if (name.empty() || name.size() > 70 || !std::all_of(name.begin(), name.end(), printable))
+        if (!is_name(name))
             throw ArgumentError("save_image: the name of a fact must be 1 to 70 printable characters: '" + name + "'");
         if (value.find('\0') != std::string::npos)
             throw ArgumentError("save_image: the fact " + name + " holds a zero byte");
+    }
+}
+
+void check_layers(const std::vector<ImageLayer>& layers, const Image& image) {
+    std::vector<std::string> taken = {"R", "G", "B", "A"};
+    for (const ImageLayer& layer : layers) {
+        if (!is_name(layer.name) || std::find(taken.begin(), taken.end(), layer.name) != taken.end())
+            throw ArgumentError("save_image: no channel can be called '" + layer.name + "'");
+        if (3 * layer.values.size() != image.values().size())
+            throw ArgumentError("save_image: the channel " + layer.name + " has not one value a pixel");
+        taken.push_back(layer.name);
     }
 }
 
@@ -101,6 +116,17 @@ std::span<const float> to_storable(const Image& image, FileFormat format, bool h
     return storage;
 }
 
+// Pixel by pixel the colour's three values and one of each layer.
+std::vector<float> interleaved(std::span<const float> colours, const std::vector<ImageLayer>& layers) {
+    std::vector<float> values;
+    values.reserve(colours.size() / 3 * (3 + layers.size()));
+    for (std::size_t i = 0; i < colours.size() / 3; ++i) {
+        values.insert(values.end(), &colours[3 * i], &colours[3 * i] + 3);
+        for (const ImageLayer& layer : layers) values.push_back(layer.values[i]);
+    }
+    return values;
+}
+
 bool same_value(std::uint8_t a, std::uint8_t b) { return a == b; }
 // Bit for bit but for the payload of a NaN, which half cuts.
 bool same_value(float a, float b) {
@@ -109,7 +135,8 @@ bool same_value(float a, float b) {
 
 // The file holds just the values that were to be written.
 bool holds(const StoredImage& stored, const EncodeJob& job) {
-    if (stored.width != job.width || stored.height != job.height || stored.channels != 3) return false;
+    if (stored.width != job.width || stored.height != job.height) return false;
+    if (stored.channels != 3 + static_cast<int>(job.layers.size())) return false;
     const auto equal = [&stored](const auto& values) {
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
         const auto* back = std::get_if<std::vector<Value>>(&stored.values);
@@ -170,6 +197,7 @@ Image to_image(const StoredImage& stored, Encoding encoding, const std::string& 
 void save(const Image& image, const std::string& path, const SaveOptions& options) {
     const FileFormat format = format_of(path);
     check_facts(options.facts);
+    check_layers(options.layers, image);
     check_values(image, path, format, options.half);
     std::vector<std::uint8_t> srgb;
     std::vector<float> rounded;
@@ -178,8 +206,16 @@ void save(const Image& image, const std::string& path, const SaveOptions& option
         job.values = std::span<const std::uint8_t>(srgb = to_srgb8(image.values()));
     else
         job.values = to_storable(image, format, options.half, rounded);
+    if (format == FileFormat::exr && !options.layers.empty()) {
+        std::vector<ImageLayer> layers = options.layers;
+        std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+        for (const ImageLayer& layer : layers) job.layers.push_back(layer.name);  // in the order of an EXR
+        rounded = interleaved(std::get<std::span<const float>>(job.values), layers);
+        job.values = std::span<const float>(rounded);
+    }
     const std::vector<std::byte> bytes = encode(job, path);
-    if (!holds(decode(format, bytes, path), job)) throw FileError(path, "what was written does not read back");
+    if (!holds(decode(format, bytes, path, 3 + static_cast<int>(job.layers.size())), job))
+        throw FileError(path, "what was written does not read back");
     replace_file(path, bytes);
 }
 
@@ -198,6 +234,8 @@ void save_image(const Image& image, const std::string& path, const SaveOptions& 
 }
 
 void check_image_name(const std::string& path) { format_of(path); }
+
+bool image_holds_layers(const std::string& path) { return format_of(path) == FileFormat::exr; }
 
 void check_writable(const std::string& path) {
     format_of(path);

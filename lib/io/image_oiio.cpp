@@ -33,7 +33,14 @@ ImageSpec spec_of(const EncodeJob& job) {
         spec.attribute("oiio:ColorSpace", "sRGB");
         return spec;
     }
-    ImageSpec spec(job.width, job.height, 3, job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
+    ImageSpec spec(job.width, job.height, 3 + static_cast<int>(job.layers.size()),
+                   job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
+    spec.channelnames = {"R", "G", "B"};
+    spec.channelnames.insert(spec.channelnames.end(), job.layers.begin(), job.layers.end());
+    if (job.half && !job.layers.empty()) {
+        spec.channelformats.assign(3, TypeDesc::HALF);
+        spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
+    }
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), kBt709);
     spec.attribute("compression", "zip");
@@ -98,14 +105,14 @@ void read_values(ImageInput& input, TypeDesc type, StoredImage& image, const std
         throw FileError(path, "cannot be read: " + message(input.geterror()));
 }
 
-StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& path) {
+StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& path, int most = 3) {
     const ImageSpec spec = input.spec();
     if (spec.depth > 1 || spec.deep) throw FileError(path, "is not a flat picture");
     require_possible_size(spec.width, spec.height, spec.nchannels, file_bytes, path);
     StoredImage image;
     image.width = spec.width;
     image.height = spec.height;
-    image.channels = std::min(spec.nchannels, 3);
+    image.channels = std::min(spec.nchannels, most);
     read_transfer(spec, image);
     image.facts = read_facts(spec);
     if (spec.format == TypeDesc::UINT8) {
@@ -150,9 +157,9 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     return {begin, begin + bytes.size()};
 }
 
-StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    return read(*open(format, memory, path), bytes.size(), path);
+    return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
 StoredImage decode_file(const std::string& path) {

@@ -82,7 +82,7 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     return bytes;
 }
 
-StoredImage decode(FileFormat, std::span<const std::byte> bytes, const std::string& path) {
+StoredImage decode(FileFormat, std::span<const std::byte> bytes, const std::string& path, int) {
     return decode_stb(bytes, path);
 }
 

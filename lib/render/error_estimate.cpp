@@ -33,39 +33,74 @@ struct Replicates {
     std::array<Channels, kReplicates> means;
 };
 
-// The variance of the mean of all N samples: sum of n_r (replicate mean - mean)^2 / ((R - 1) N), unbiased for unequal
-// n_r too.
-double variance_of_mean(const Replicates& p, double mean, std::size_t channel) {
-    double sum = 0;
-    for (std::size_t r = 0; r < kReplicates; ++r) sum += p.counts[r] * square(p.means[r][channel] - mean);
-    return sum / ((kReplicates - 1) * p.samples);
+// The three ways to split four replicates into two pairs.
+constexpr std::size_t kSplits[3][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}};
+
+// What one pair of replicates says of the variance of the mean of all N samples: unbiased, also for unequal counts.
+double variance_by_pair(const Replicates& p, std::size_t a, std::size_t b, std::size_t channel) {
+    const double difference = p.means[a][channel] - p.means[b][channel];
+    return square(difference) / (p.samples * (1 / p.counts[a] + 1 / p.counts[b]));
 }
 
-// That variance over r^2 + 0.01, with r^2 from the pixel. Where samples are skewed, variance and mean of the same
-// samples are high together, and their quotient is too small: fireflies would hide themselves. So each pair of
-// replicates gives a variance, the other two give r^2, which knows nothing of it, and the six ways to choose are
-// averaged. 1 / (r^2 + 0.01) of a noisy r is on average too large, by no more than a factor of
-// 1 + 3 (variance of r) / (r^2 + 0.01) in the first order: hence the last term.
-double relative_by_pixel(const Replicates& p, std::size_t channel) {
-    constexpr std::size_t kPairs[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
-                                          {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
-    double sum = 0;
-    for (const auto& [a, b, c, d] : kPairs) {
-        const auto mean = [&](std::size_t r) { return p.means[r][channel]; };
-        const double variance = square(mean(a) - mean(b)) / (p.samples * (1 / p.counts[a] + 1 / p.counts[b]));
-        const double here = (mean(c) + mean(d)) / 2, variance_here = square((mean(c) - mean(d)) / 2);
-        sum += variance / (square(here) + kDarkness + 3 * variance_here);
-    }
-    return sum / 6;
+// r^2 + 0.01 by two replicates. 1 / (r^2 + 0.01) of a noisy r is on average too large; the last term, its second
+// derivative times the variance of r, makes up for that where it is convex.
+double denominator_by_pair(const Replicates& p, std::size_t a, std::size_t b, std::size_t channel) {
+    const double x = p.means[a][channel], y = p.means[b][channel];
+    const double squared = square((x + y) / 2), variance = square((x - y) / 2);
+    return squared + kDarkness + std::max(0.0, 3 * squared - kDarkness) * variance / (squared + kDarkness);
 }
 
-struct RowSums {
-    double by_pixel = 0, by_pixel_squared = 0, by_surround = 0, by_surround_squared = 0;
-    RowSums& operator+=(const RowSums& o) {
-        by_pixel += o.by_pixel, by_pixel_squared += o.by_pixel_squared;
-        by_surround += o.by_surround, by_surround_squared += o.by_surround_squared;
+// A pixel's relative error, and an estimate of the square of its expectation, which the square of the first, noisy as
+// it is, would exceed.
+struct Relative {
+    double error = 0, squared = 0;
+    Relative& operator+=(const Relative& o) {
+        error += o.error, squared += o.squared;
         return *this;
     }
+};
+
+// Of the pixel by its pairs, averaged over the splits. The two pairs of a split are independent, so that their product
+// has the square of the expectation as its own.
+template <class Pair>
+Relative by_splits(const Pair& by_pair) {
+    Relative r;
+    for (const auto& [a, b, c, d] : kSplits) {
+        double first = 0, second = 0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            first += by_pair(a, b, c, d, channel) / 3;
+            second += by_pair(c, d, a, b, channel) / 3;
+        }
+        r += {(first + second) / 6, first * second / 3};
+    }
+    return r;
+}
+
+// With r^2 from the pixel. Where samples are skewed, variance and mean of the same samples are high together, and their
+// quotient is too small: fireflies would hide themselves. So one pair of replicates gives the variance, the other r^2,
+// which knows nothing of it.
+Relative relative_by_pixel(const Replicates& p) {
+    return by_splits([&p](std::size_t a, std::size_t b, std::size_t c, std::size_t d, std::size_t channel) {
+        return variance_by_pair(p, a, b, channel) / denominator_by_pair(p, c, d, channel);
+    });
+}
+
+// With r^2 from the pixels around.
+Relative relative_by_surround(const Replicates& p, const Channels& around) {
+    return by_splits([&](std::size_t a, std::size_t b, std::size_t, std::size_t, std::size_t channel) {
+        return variance_by_pair(p, a, b, channel) / (square(around[channel]) + kDarkness);
+    });
+}
+
+// Over pixels. `spread` is the sum of the squares of `squared`: its standard error, squared, or more.
+struct Sum {
+    double error = 0, squared = 0, spread = 0;
+    void add(const Relative& r) { error += r.error, squared += r.squared, spread += square(r.squared); }
+    void add(const Sum& o) { error += o.error, squared += o.squared, spread += o.spread; }
+};
+
+struct RowSums {
+    Sum by_pixel, by_surround;
 };
 
 // One pass over all rows in parallel; sums are added up row by row, so that threads do not matter.
@@ -84,7 +119,10 @@ public:
         std::vector<RowSums> rows(size(height_));
         for_each_row([&](int y) { rows[size(y)] = row(y, part); });
         RowSums all;
-        for (const RowSums& r : rows) all += r;
+        for (const RowSums& r : rows) {
+            all.by_pixel.add(r.by_pixel);
+            all.by_surround.add(r.by_surround);
+        }
         return all;
     }
 
@@ -111,15 +149,12 @@ private:
             Color surround;
             for (int i = left; i <= right; ++i) surround += columns[size(i)];
             const Channels around = channels(surround / ((right - left + 1) * (bottom - top + 1)));
-            const Channels here = channels(means_[at(x, y)]);
             const Replicates replicates(film_, x, y);
-            double by_pixel = 0, by_surround = 0;
-            for (std::size_t c = 0; c < 3; ++c) {
-                by_pixel += relative_by_pixel(replicates, c) / 3;
-                by_surround += variance_of_mean(replicates, here[c], c) / (square(around[c]) + kDarkness) / 3;
-            }
-            sums += {by_pixel, square(by_pixel), by_surround, square(by_surround)};
-            part(x, y, by_pixel, by_surround);
+            const Relative by_pixel = relative_by_pixel(replicates);
+            const Relative by_surround = relative_by_surround(replicates, around);
+            sums.by_pixel.add(by_pixel);
+            sums.by_surround.add(by_surround);
+            part(x, y, by_pixel.error, by_surround.error);
         }
         return sums;
     }
@@ -149,27 +184,25 @@ bool can_estimate(const Film& film, ErrorEstimate& e) {
 }
 
 // The interval is of the true error of this very picture, which is itself a sum of random squares: 1 degree of freedom
-// a pixel, whose channels go together at worst, where the estimate from four replicates has 3. For normal replicate
-// means of n pixels with equal error the quotient of both is F-distributed with n and 3 n degrees. For unequal ones
-// n is (sum e)^2 / sum e^2, from the spread over pixels: with E[e_p^2] = 5/3 of the square of its expectation, both
-// sums are freed of what the noise of e itself adds. (Pixels with heavier tails have larger squares, so that n
-// falls; while the fourth moment, which moves truth and estimate alike, falls out of their difference.)
-void add_interval(ErrorEstimate& e, double sum, double sum_of_squares, double count) {
-    e.estimate = sum / count;
-    if (!(sum > 0)) return;
-    const double values = (sum * sum - 0.4 * sum_of_squares) / (0.6 * sum_of_squares);
+// a pixel, whose channels go together at worst, where the estimate from four replicates has 3. For n pixels of equal
+// error and normal replicates the quotient of both is F-distributed with n and 3 n degrees. The variance of truth minus
+// estimate is 8/3 of the sum of the squared errors that the pixels have in the mean, for whatever distribution: fourth
+// cumulants move both alike and cancel. So n is the square of the sum of e over the sum of squares; of the former, the
+// part that the estimate's own variance of 2/3 adds is taken off. The sum of squares is itself noisy where a few pixels
+// carry it: it counts as one standard error larger.
+void add_interval(ErrorEstimate& e, const Sum& sum, double count) {
+    e.estimate = sum.error / count;
+    if (!(sum.error > 0)) return;
+    const double values = std::clamp(square(sum.error) / (sum.squared + std::sqrt(sum.spread)) - 2.0 / 3, 1.0, count);
     const ErrorFactors factors = error_factors(values);
     e.ci95_low = factors.low * e.estimate;
     e.ci95_high = factors.high * e.estimate;
 }
 
-bool pixel_counts(const RowSums& sums) { return sums.by_pixel >= sums.by_surround; }
+bool pixel_counts(const RowSums& sums) { return sums.by_pixel.error >= sums.by_surround.error; }
 
 void add_larger(ErrorEstimate& e, const RowSums& s, double count) {
-    if (pixel_counts(s))
-        add_interval(e, s.by_pixel, s.by_pixel_squared, count);
-    else
-        add_interval(e, s.by_surround, s.by_surround_squared, count);
+    add_interval(e, pixel_counts(s) ? s.by_pixel : s.by_surround, count);
 }
 
 }  // namespace

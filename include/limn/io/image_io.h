@@ -17,12 +17,20 @@ namespace limn {
 /// formats and linear for floating point. `srgb` decodes the sRGB transfer, `raw` takes the values as they are.
 enum class Encoding { automatic, srgb, raw };
 
+/// A number for each pixel beside its colour.
+struct ImageLayer {
+    std::string name;           ///< of the channel: 1 to 70 printable characters, not R, G, B or A
+    std::vector<float> values;  ///< row by row from the top left pixel
+};
+
 /// What a picture is written with.
 struct SaveOptions {
     bool half = false;  ///< EXR: half instead of float; save_image throws a FileError if a value is too large for it
     /// Facts about the picture, written as text: EXR attributes and PNG text named `limn:NAME`, HDR comments. NAME as
     /// in the `--report`, 1 to 70 printable characters. EXR does not keep an empty text, HDR no line breaks.
     std::vector<std::pair<std::string, std::string>> facts{};
+    /// EXR: further channels, float in any case. Other formats have no place for them and leave them out.
+    std::vector<ImageLayer> layers{};
 };
 
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
@@ -33,11 +41,14 @@ struct SaveOptions {
 ///
 /// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
 ///
-/// \throws ArgumentError if a fact's name cannot be written
+/// \throws ArgumentError if a fact's or a layer's name cannot be written, or a layer is not of the picture's size
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
 /// \throws FileError where save_image would throw it for the name alone: an unknown suffix
 void check_image_name(const std::string& path);
+
+/// Whether a picture of that name keeps SaveOptions::layers. \throws FileError as check_image_name
+bool image_holds_layers(const std::string& path);
 
 /// \throws FileError where save_image would throw it for a reason that can be known beforehand: suffix, folder,
 /// permissions
