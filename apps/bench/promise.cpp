@@ -34,11 +34,11 @@ struct Entry {
 };
 
 constexpr Entry kEntries[] = {
-    {"cornell", [] { return figures::fig15_cornell_box(); }, 2.5e-3},
-    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }, 2.2e-3},
-    {"glass", [] { return figures::fig13_dielectric(); }, 1e-3},
-    {"smoke", [] { return figures::fig16_volume_cornell_box(); }, 1.6e-3},
-    {"fireflies", fireflies, 5e-3},
+    {"cornell", [] { return figures::fig15_cornell_box(); }, 2.2e-3},
+    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }, 1.6e-3},
+    {"glass", [] { return figures::fig13_dielectric(); }, 8e-4},
+    {"smoke", [] { return figures::fig16_volume_cornell_box(); }, 1.3e-3},
+    {"fireflies", fireflies, 3e-3},
 };
 
 RenderSettings settings_of(const Promise& promise, std::uint64_t seed) {

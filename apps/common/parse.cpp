@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "limn/core/error.h"
+#include "limn/io/image_io.h"
 
 namespace limn::app {
 
@@ -21,6 +22,17 @@ void refuse(std::string_view option, std::string_view text, std::string_view pro
 std::function<void(const std::string&)> file_name(std::string option) {
     return [option = std::move(option)](const std::string& text) {
         if (text.empty()) refuse(option, "''", "is not the name of a file");
+    };
+}
+
+std::function<void(const std::string&)> picture_name(std::string option) {
+    return [option = std::move(option)](const std::string& path) {
+        file_name(option)(path);
+        try {
+            check_image_name(path);
+        } catch (const FileError& e) {
+            throw ArgumentError(option + " " + e.what());
+        }
     };
 }
 

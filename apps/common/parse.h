@@ -31,6 +31,9 @@ Integer parse_integer(std::string_view option, std::string_view text, Integer lo
 /// The name of a file, which must not be empty: for CLI11's each().
 std::function<void(const std::string&)> file_name(std::string option);
 
+/// The same of a picture to be written: what is wrong with the name alone is wrong in the arguments.
+std::function<void(const std::string&)> picture_name(std::string option);
+
 double parse_number(std::string_view option, std::string_view text);
 
 /// Three numbers with commas between them.

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "limn/core/error.h"
-#include "limn/io/image_io.h"
 
 namespace limn::app {
 
@@ -20,16 +19,6 @@ using Use = std::function<void(const std::string& text)>;
 CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
                  const Use& use) {
     return app.add_option_function<std::string>(name, use, help)->type_name(type);
-}
-
-// What is wrong with the name alone is wrong in the arguments.
-void check_output_name(const std::string& path) {
-    file_name("-o")(path);
-    try {
-        check_image_name(path);
-    } catch (const FileError& e) {
-        throw ArgumentError(std::string("-o ") + e.what());
-    }
 }
 
 double parse_positive(const char* option, const std::string& text) {
@@ -147,7 +136,7 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("-o,--output", o.outputs, "A picture to write, .exr or .png; may be repeated")
         ->type_name("FILE")
         ->allow_extra_args(false)
-        ->each(check_output_name);
+        ->each(picture_name("-o"));
     add_numbers(app, o);
     app.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
     add(app, "--channels", "error,samples",

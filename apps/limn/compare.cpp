@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <vector>
 
 #include "commands.h"
 #include "json_output.h"
@@ -18,17 +19,29 @@ namespace {
 
 struct Arguments {
     std::string test, reference, reference_b;
+    std::vector<std::string> outputs;
 };
 
-ImageMetrics measure(const Arguments& a) {
+struct Measured {
+    ImageMetrics metrics;
+    Image error;
+};
+
+Measured measure(const Arguments& a) {
     const Image test = load_image(a.test);
     const Image reference = load_image(a.reference);
     try {
-        if (a.reference_b.empty()) return compare_images(test, reference);
-        return compare_images(test, reference, load_image(a.reference_b));
+        if (a.reference_b.empty()) return {compare_images(test, reference), error_image(test, reference)};
+        const Image half = load_image(a.reference_b);
+        return {compare_images(test, reference, half), error_image(test, reference, half)};
     } catch (const ArgumentError& e) {
         throw Error(a.test + ": " + e.what());  // the sizes come out of the files
     }
+}
+
+// As numbers where the format keeps them, else in false colours.
+void save_error(const Image& error, const std::string& path) {
+    save_image(image_holds_layers(path) ? error : false_colour(error), path);
 }
 
 std::string table(const ImageMetrics& m) {
@@ -87,11 +100,24 @@ int compare_command(int argc, const char* const* argv) {
     cli.add_option("TEST", a.test, "The image in question")->required()->each(file_name("TEST"));
     cli.add_option("REF", a.reference, "The reference, or one half of it")->required()->each(file_name("REF"));
     cli.add_option("REF_B", a.reference_b, "The other half of the reference")->each(file_name("REF_B"));
+    cli.add_option(
+           "-o,--output", a.outputs,
+           "Write where the error is: .exr has (x - r)^2 / (r^2 + 0.01) of each value, whose mean is relMSE; .png "
+           "false colours, black to white for 1e-6 to 1; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->each(picture_name("-o"));
     const JsonOption json_option(cli);
     if (!parse_arguments(cli, argc, argv)) return kDone;
-    json_option.check({a.test, a.reference, a.reference_b});
+    const std::vector<std::string> inputs = {a.test, a.reference, a.reference_b};
+    check_distinct(a.outputs, inputs);
+    for (const std::string& path : a.outputs) check_writable(path);
+    std::vector<std::string> others = inputs;
+    others.insert(others.end(), a.outputs.begin(), a.outputs.end());
+    json_option.check(others);
 
-    const ImageMetrics metrics = measure(a);
+    const auto [metrics, error] = measure(a);
+    for (const std::string& path : a.outputs) save_error(error, path);
     json_option.write(table(metrics), json(metrics, a));
     if (metrics.valid) return kDone;
     throw Error(fmt::format("the error is invalid: {} values are not finite",

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <string>
 #include <vector>
 
-#include "limn/core/error.h"
+#include "image/compare_values.h"
 
 namespace limn {
 
@@ -15,19 +14,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// design.md section 4: keeps dark pixels from dominating.
-constexpr double kDarkness = 0.01;
-
 double square(double x) { return x * x; }
 
 double encode_clamped(double linear) { return srgb_encode(std::clamp(linear, 0.0, 1.0)); }
-
-void require_same_size(const Image& test, const Image& reference) {
-    const auto size = [](const Image& i) { return std::to_string(i.width()) + " x " + std::to_string(i.height()); };
-    if (test.width() != reference.width() || test.height() != reference.height())
-        throw ArgumentError("compare_images: the images differ in size: " + size(test) + " and " + size(reference));
-    if (test.empty()) throw ArgumentError("compare_images: the images are empty");
-}
 
 // The share of the sum of `errors` that the worst 0.1 % of them carry, at least one. Reorders them.
 double share_of_worst(std::vector<double>& errors, double sum) {
@@ -60,7 +49,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
             m.valid = false;
             continue;
         }
-        relative[i] = square(difference) / (square(r) + kDarkness);
+        relative[i] = relative_squared_error(x, r);
         m.relative_mse += relative[i];
         m.mse += square(difference);
         if (difference > 0) m.smape += 2 * difference / (std::abs(x) + std::abs(r));
@@ -87,15 +76,15 @@ ImageMetrics compare(const Image& test, Reference reference) {
 }  // namespace
 
 ImageMetrics compare_images(const Image& test, const Image& reference) {
-    require_same_size(test, reference);
+    require_same_size(test, reference, "compare_images");
     return compare(test, [r = reference.values()](std::size_t i) { return static_cast<double>(r[i]); });
 }
 
 ImageMetrics compare_images(const Image& test, const Image& reference_a, const Image& reference_b) {
-    require_same_size(test, reference_a);
-    require_same_size(test, reference_b);
+    require_same_size(test, reference_a, "compare_images");
+    require_same_size(test, reference_b, "compare_images");
     const std::span<const float> a = reference_a.values(), b = reference_b.values();
-    const auto mean = [a, b](std::size_t i) { return (static_cast<double>(a[i]) + b[i]) / 2; };
+    const auto mean = [a, b](std::size_t i) { return mean_of_halves(a[i], b[i]); };
     ImageMetrics m = compare(test, mean);
     m.has_reference_error = true;
     if (!m.valid) {
@@ -103,8 +92,7 @@ ImageMetrics compare_images(const Image& test, const Image& reference_a, const I
         return m;
     }
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const double half_difference = (static_cast<double>(a[i]) - b[i]) / 2;
-        m.reference_relative_mse += square(half_difference) / (square(mean(i)) + kDarkness);
+        m.reference_relative_mse += relative_squared_error(a[i], mean(i));  // half of what the halves differ by
     }
     m.reference_relative_mse /= static_cast<double>(a.size());
     m.corrected_relative_mse = m.relative_mse - m.reference_relative_mse;

@@ -106,5 +106,39 @@ TEST_CASE("limn compare: JSON that would replace one of the images is refused", 
     CHECK(folder.read("a.exr") == before);
 }
 
+TEST_CASE("limn compare: -o shows where the error is, as numbers whose mean is relMSE and in false colours", "[cli]") {
+    const Folder folder;
+    Image test(3, 2, {0.5, 0.5, 0.5});
+    const Image reference(3, 2, {0.5, 0.5, 0.5});
+    test.set(1, 1, {0.75, 0.5, 0.5});
+    const std::string a = image_file(folder, "a.exr", test), b = image_file(folder, "b.exr", reference);
+    const Outcome outcome = limn({"compare", a, b, b, "-o", folder.path("d.exr"), "-o", folder.path("d.png")});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const Image numbers = load_image(folder.path("d.exr")), colours = load_image(folder.path("d.png"));
+    CHECK(numbers.at(1, 1).r == Approx(0.0625 / 0.26).epsilon(1e-6));
+    CHECK(numbers.at(1, 1).r / 18 == Approx(std::stod(row(outcome.out, "relMSE"))).epsilon(1e-5));
+    CHECK(numbers.at(0, 1) == Color{});
+    CHECK(colours.at(0, 1) == Color{});
+    CHECK(colours.at(1, 1).r > 0.5);
+}
+
+TEST_CASE("limn compare: a picture of the error replaces none that is compared, and has a name that says its format",
+          "[cli]") {
+    const Folder folder;
+    const std::string a = image_file(folder, "a.exr", Image(2, 2, {1, 1, 1}));
+    CHECK(limn({"compare", a, a, "-o", a}).status == 2);
+    CHECK(limn({"compare", a, a, "-o", folder.path("d.jpg")}).status == 2);
+    CHECK(limn({"compare", a, a, "-o", folder.path("no/d.exr")}).status == 1);
+    CHECK(limn({"compare", a, a, "-o", folder.path("d.exr"), "--json", folder.path("d.exr")}).status == 2);
+    CHECK(folder.names() == Names{"a.exr"});
+    CHECK(load_image(a).at(0, 0) == Color{1, 1, 1});
+    // What is invalid fails, and still shows where.
+    Image bad(2, 2, {1, 1, 1});
+    bad.set(1, 0, {std::numeric_limits<double>::quiet_NaN(), 1, 1});
+    CHECK(limn({"compare", image_file(folder, "bad.exr", bad), a, "-o", folder.path("d.png")}).status == 1);
+    CHECK(load_image(folder.path("d.png")).at(1, 0) == Color{0, 1, 0});
+}
+
 }  // namespace
 }  // namespace limn::test

@@ -35,7 +35,8 @@ std::string refusal(const std::vector<const char*>& words) {
 TEST_CASE("Options: every value reaches the figure", "[cli]") {
     const char* const line =
         "-o a.exr --output=b.png --size 30x20 --spp 7 --seed 18446744073709551615 --threads 3 --max-depth unlimited "
-        "--report - --quiet --estimator naive --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
+        "--report - --quiet --estimator naive --sampler independent --error 2e-3 --time-limit .5 "
+        "--channels samples,error --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
         "--vup 0,0,1 --vfov 33 --aperture-angle 0.25 --focus-dist 4";
     std::istringstream stream(line);
     const std::vector<std::string> words(std::istream_iterator<std::string>{stream}, {});
@@ -50,7 +51,10 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
     apply(o, figure);
     CHECK(figure.settings.width == 30);
     CHECK(figure.settings.height == 20);
-    CHECK(figure.settings.samples_per_pixel == 7);
+    CHECK((figure.settings.samples_per_pixel == 7 && figure.settings.max_samples_per_pixel == 7));
+    CHECK((figure.settings.error == 2e-3 && figure.settings.time_limit == 0.5));
+    CHECK(figure.settings.sampler == SamplerKind::independent);
+    CHECK(o.channels == std::vector<std::string>{"samples", "error"});
     CHECK(figure.settings.seed == 18446744073709551615u);
     CHECK(figure.settings.threads == 3);
     CHECK(figure.settings.max_depth == kUnlimitedDepth);
@@ -70,6 +74,10 @@ TEST_CASE("Options: what the command line does not name stays as the figure has 
     figure.settings = {.width = 11, .height = 12, .samples_per_pixel = 13, .max_depth = 14, .seed = 15, .threads = 16};
     figure.settings.antialias = false;
     figure.settings.estimator = Estimator::naive;
+    figure.settings.sampler = SamplerKind::independent;
+    figure.settings.error = 0.25;
+    figure.settings.time_limit = 17;
+    figure.settings.max_samples_per_pixel = 18;
     figure.camera = {.look_from = {1, 2, 3},
                      .look_at = {4, 5, 6},
                      .up = {7, 8, 9},
@@ -85,6 +93,9 @@ TEST_CASE("Options: what the command line does not name stays as the figure has 
     CHECK(figure.settings.seed == 15);
     CHECK(figure.settings.threads == 16);
     CHECK(figure.settings.estimator == Estimator::naive);
+    CHECK(figure.settings.sampler == SamplerKind::independent);
+    CHECK((figure.settings.error == 0.25 && figure.settings.time_limit == 17.0));
+    CHECK(figure.settings.max_samples_per_pixel == 18);
     CHECK_FALSE(figure.settings.antialias);
     CHECK(figure.camera.look_from == Point3{1, 2, 3});
     CHECK(figure.camera.look_at == Point3{4, 5, 6});
@@ -138,7 +149,7 @@ TEST_CASE("Options: the ends of each range are allowed", "[cli]") {
 }
 
 TEST_CASE("Options: what is reserved for later versions is refused as such", "[cli]") {
-    for (const char* option : {"--error", "--time-limit", "--shard", "--checkpoint", "--resume"}) {
+    for (const char* option : {"--shard", "--checkpoint", "--resume"}) {
         CAPTURE(option);
         const std::string message = refusal({option, "1"});
         CHECK(message.find(option) != std::string::npos);

@@ -49,8 +49,8 @@ TEST_CASE("limn render: writes every output and the report, and only those", "[c
 
     const Json report = Json::parse(folder.read("r.json"));
     CHECK(keys(report) == std::set<std::string>{"scene", "width", "height", "seed", "threads", "spp", "seconds", "rays",
-                                                "mrays_per_second", "error", "nonfinite_samples", "unusable_rays",
-                                                "features", "memory_bytes", "version"});
+                                                "mrays_per_second", "error", "stopped_by", "nonfinite_samples",
+                                                "unusable_rays", "features", "memory_bytes", "version"});
     CHECK(keys(report["seconds"]) == std::set<std::string>{"compile", "render", "save"});
     CHECK(keys(report["error"]) == std::set<std::string>{"metric", "estimate", "ci95_low", "ci95_high", "target",
                                                          "reached", "max_sample_share", "reason"});
@@ -201,6 +201,46 @@ TEST_CASE("limn render: the default view shows the whole model in a tall picture
     const auto is_sky = [&](int x, int y) { return view.at(x, y).b > view.at(x, y).r; };
     for (int y = 0; y < 48; ++y) CHECK((is_sky(0, y) && is_sky(15, y)));
     CHECK_FALSE(is_sky(8, 24));
+}
+
+TEST_CASE("limn render: to an error, with the error and the samples of each pixel beside its colour", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj());
+    const Outcome outcome = limn({"render", model, "-o", folder.path("a.exr"), "-o", folder.path("a.png"), "--size",
+                                  "20x14", "--error", "1e-3", "--channels", "samples,error", "--report", "-"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const Json report = Json::parse(outcome.out);
+    CHECK(report["stopped_by"] == "error");
+    CHECK(report["error"]["target"] == 1e-3);
+    CHECK(report["error"]["reached"] == true);
+    CHECK(report["error"]["ci95_high"] <= 1e-3);
+    CHECK(report["spp"] >= 64);
+    std::vector<std::string> names;
+    for (const ImageChannel& c : load_image_info(folder.path("a.exr")).channels) names.push_back(c.name);
+    CHECK(names == std::vector<std::string>{"R", "G", "B", "error", "samples"});
+    CHECK(load_image_info(folder.path("a.png")).channels.size() == 3);
+    // The same picture as without them.
+    REQUIRE(limn({"render", model, "-o", folder.path("b.exr"), "--size", "20x14", "--error", "1e-3"}).status == 0);
+    CHECK(load_image(folder.path("a.exr")) == load_image(folder.path("b.exr")));
+}
+
+TEST_CASE("limn render: what was not reached within --spp or --time-limit is said, and no failure", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("house.obj", house_obj());
+    const Outcome capped = limn({"render", model, "-o", folder.path("a.exr"), "--size", "20x14", "--error", "1e-9",
+                                 "--spp", "70", "--report", "-"});
+    CHECK(capped.status == 0);
+    CHECK(capped.err.find("1e-09 was not reached") != std::string::npos);
+    CHECK(Json::parse(capped.out)["stopped_by"] == "samples");
+    CHECK(Json::parse(capped.out)["spp"] == 70);
+    CHECK(Json::parse(capped.out)["error"]["reached"] == false);
+    const Outcome timed =
+        limn({"render", model, "-o", folder.path("b.exr"), "--size", "20x14", "--time-limit", "0.05", "--report", "-"});
+    CHECK(timed.status == 0);
+    CHECK(Json::parse(timed.out)["stopped_by"] == "time");
+    CHECK(Json::parse(timed.out)["error"]["estimate"] > 0);
+    CHECK(load_image_facts(folder.path("b.exr")).size() > 10);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ RenderResult result() {
                 .unusable_rays = 23,
                 .features = "sphere quad medium",
                 .memory_bytes = 123456,
-                .complete = true};
+                .complete = true,
+                .stopped_by = StoppedBy::time};
     return r;
 }
 
@@ -55,6 +56,7 @@ TEST_CASE("Report: every field holds its own number, in the order of the documen
     "max_sample_share": 0.75,
     "reason": null
   },
+  "stopped_by": "time",
   "nonfinite_samples": 17,
   "unusable_rays": 23,
   "features": [
@@ -80,6 +82,22 @@ TEST_CASE("Report: what is not a number is null, and a name that is not UTF-8 do
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
+TEST_CASE("Report: a target stands beside whether it was reached, and what ended the render is named",
+          "[cli][report]") {
+    RenderResult r = result();
+    r.error.target = 0.375;
+    for (const auto& [cause, name] : {std::pair{StoppedBy::samples, "samples"},
+                                      {StoppedBy::error, "error"},
+                                      {StoppedBy::callback, "interrupted"}}) {
+        r.report.stopped_by = cause;
+        r.error.reached = cause == StoppedBy::error;
+        const auto json = nlohmann::json::parse(app::report_json(r, 0));
+        CHECK(json["stopped_by"] == name);
+        CHECK(json["error"]["target"] == 0.375);
+        CHECK(json["error"]["reached"] == r.error.reached);
+    }
+}
+
 TEST_CASE("Facts: a picture's header says what was rendered, how well, and by which command", "[cli][report]") {
     const RenderSettings settings{.antialias = true, .estimator = Estimator::path};
     CHECK(app::picture_facts(result(), settings, "limn render x.obj") == Facts{{"scene", "a scene"},
@@ -90,12 +108,15 @@ TEST_CASE("Facts: a picture's header says what was rendered, how well, and by wh
                                                                                {"max_depth", "11"},
                                                                                {"antialias", "yes"},
                                                                                {"estimator", "path"},
+                                                                               {"sampler", "sobol"},
                                                                                {"seconds.compile", "1.5"},
                                                                                {"seconds.render", "4"},
                                                                                {"error.metric", "relMSE"},
                                                                                {"error.estimate", "0.25"},
                                                                                {"error.ci95_low", "0.125"},
                                                                                {"error.ci95_high", "0.5"},
+                                                                               {"error.max_sample_share", "0.75"},
+                                                                               {"stopped_by", "time"},
                                                                                {"nonfinite_samples", "17"},
                                                                                {"unusable_rays", "23"},
                                                                                {"complete", "yes"},
@@ -107,8 +128,11 @@ TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so
     RenderResult r = result();
     r.error.reason = "too few";
     r.report.max_depth = kUnlimitedDepth;
+    r.error.target = 0.1;
     r.report.complete = false;
-    const RenderSettings settings{.antialias = false, .estimator = Estimator::naive};
+    r.report.stopped_by = StoppedBy::callback;
+    const RenderSettings settings{
+        .antialias = false, .estimator = Estimator::naive, .sampler = SamplerKind::independent};
     CHECK(app::picture_facts(r, settings, "") == Facts{{"scene", "a scene"},
                                                        {"width", "20"},
                                                        {"height", "14"},
@@ -117,10 +141,15 @@ TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so
                                                        {"max_depth", "unlimited"},
                                                        {"antialias", "no"},
                                                        {"estimator", "naive"},
+                                                       {"sampler", "independent"},
                                                        {"seconds.compile", "1.5"},
                                                        {"seconds.render", "4"},
                                                        {"error.metric", "relMSE"},
                                                        {"error.reason", "too few"},
+                                                       {"error.target", "0.1"},
+                                                       {"error.reached", "no"},
+                                                       {"error.max_sample_share", "0.75"},
+                                                       {"stopped_by", "interrupted"},
                                                        {"nonfinite_samples", "17"},
                                                        {"unusable_rays", "23"},
                                                        {"complete", "no"},

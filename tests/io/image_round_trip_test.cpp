@@ -181,3 +181,42 @@ TEST_CASE("HDR: values are the nearest that share the largest one's exponent", "
 }
 
 #endif
+
+#ifdef LIMN_WITH_OPENIMAGEIO
+TEST_CASE("EXR: layers stand beside the colours as floats, and change nothing of them", "[io][image]") {
+    const Folder folder;
+    Image image(2, 1);
+    image.set(0, 0, {0.1, 0.2, 0.3});
+    image.set(1, 0, {4, 5, 6});
+    for (const bool half : {false, true}) {
+        save_image(image, folder.path("plain.exr"), {.half = half});
+        save_image(image, folder.path("a.exr"),
+                   {.half = half, .layers = {{"samples", {70000, 3}}, {"error", {1e-9f, 0.5f}}}});
+        CHECK(load_image(folder.path("a.exr")) == load_image(folder.path("plain.exr")));
+        std::vector<std::pair<std::string, std::string>> channels;
+        for (const ImageChannel& c : load_image_info(folder.path("a.exr")).channels)
+            channels.emplace_back(c.name, c.type);
+        const std::string colour = half ? "half" : "float";
+        CHECK(channels == std::vector<std::pair<std::string, std::string>>{
+                              {"R", colour}, {"G", colour}, {"B", colour}, {"error", "float"}, {"samples", "float"}});
+    }
+    CHECK((image_holds_layers("a.exr") && !image_holds_layers("a.png")));
+    save_image(image, folder.path("a.png"), {.layers = {{"error", {1, 2}}}});
+    CHECK(load_image_info(folder.path("a.png")).channels.size() == 3);
+}
+
+TEST_CASE("EXR: a layer of another size, without a name or with a colour's is refused", "[io][image]") {
+    const Folder folder;
+    const Image image(2, 1);
+    const auto refused = [&](const std::vector<ImageLayer>& layers) {
+        CHECK_THROWS_AS(save_image(image, folder.path("a.exr"), {.layers = layers}), ArgumentError);
+    };
+    refused({{"error", {1}}});
+    refused({{"error", {1, 2, 3}}});
+    refused({{"", {1, 2}}});
+    refused({{"R", {1, 2}}});
+    refused({{"a b", {1, 2}}});
+    refused({{"z", {1, 2}}, {"z", {1, 2}}});
+    CHECK(folder.names().empty());
+}
+#endif

@@ -255,12 +255,12 @@ TEST_CASE("Error estimate: checks come in multiples of four, close to each other
             const int next = tracing::next_check(samples, ratio, 1);
             CHECK(next % 4 == 0);
             CHECK(next >= samples + 4);
-            CHECK(next <= std::max(samples * 1.5, samples + 4.0));
+            CHECK(next <= std::max(samples * 1.25, samples + 4.0));
             // However fast the error falls, up to the square of the samples, the step ends at most 6.3 % too late.
             CHECK(next <= samples * std::max(1.063, std::sqrt(ratio)));
         }
     }
-    CHECK(tracing::next_check(64, 4, 1) == 96);
+    CHECK(tracing::next_check(64, 4, 1) == 80);
     CHECK(tracing::next_check(1000, 1.44, 1) == 1200);
     CHECK(tracing::next_check(std::numeric_limits<int>::max() - 7, 4, 1) > 0);
 }

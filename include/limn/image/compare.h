@@ -37,4 +37,18 @@ ImageMetrics compare_images(const Image& test, const Image& reference);
 /// \throws ArgumentError if the sizes differ or the images are empty
 ImageMetrics compare_images(const Image& test, const Image& reference_a, const Image& reference_b);
 
+/// Each value's part of relMSE, (x - r)^2 / (r^2 + 0.01), of which ImageMetrics::relative_mse is the mean. NaN where a
+/// value is not finite.
+/// \throws ArgumentError if the sizes differ or the images are empty
+Image error_image(const Image& test, const Image& reference);
+
+/// With the mean of the two halves as the reference, whose own error is not subtracted.
+/// \throws ArgumentError if the sizes differ or the images are empty
+Image error_image(const Image& test, const Image& reference_a, const Image& reference_b);
+
+/// An error image for the eye: each pixel's mean over the channels by its logarithm, from black at 1e-6 and below over
+/// blue (1e-5), purple (1e-4), red (1e-3), orange (1e-2) and yellow (1e-1) to white at 1 and above. Linear colours that
+/// sRGB encodes to steps of even size. Green where there is a NaN.
+Image false_colour(const Image& error);
+
 }  // namespace limn
