@@ -1,4 +1,7 @@
 // What a render says of its own error.
+#include <algorithm>
+#include <cstdlib>
+
 #include "catch.h"
 #include "limn/image/compare.h"
 #include "support/pictures.h"
@@ -131,4 +134,30 @@ TEST_CASE("Error estimate: the largest share of a sample tells of rare bright li
     CHECK(naive.error.max_sample_share > 0.9);
     CHECK(naive.error.max_sample_share <= 1);
     CHECK(path.error.max_sample_share < 0.1);
+}
+
+TEST_CASE("Error estimate: a render to an error keeps its promise 95 times in 100, and takes little more than it must",
+          "[render][estimate]") {
+    const int side = 24, stops = std::getenv("LIMN_FULL") ? 2000 : 100;
+    const Subject subject = smoke_ball(side);
+    for (const auto& [sampler, target] : {std::pair{SamplerKind::sobol, 1e-3}, {SamplerKind::independent, 3e-3}}) {
+        int kept = 0;
+        std::vector<double> margins;
+        for (int seed = 0; seed < stops; ++seed) {
+            RenderSettings settings = square(side, 1, 1);
+            settings.error = target;
+            settings.seed = static_cast<std::uint64_t>(seed);
+            settings.sampler = sampler;
+            const RenderResult r = render(subject.scene, subject.camera, settings);
+            REQUIRE(r.report.samples_per_pixel > 64);
+            const double error = compare_images(r.image, subject.truth).relative_mse;
+            kept += error <= target;
+            margins.push_back(target / error);
+        }
+        CAPTURE(kept);
+        CHECK(kept >= stops * 0.95 - 4.5 * std::sqrt(stops * 0.95 * 0.05));
+        // 576 pixels know their error to 13 %, at 95 %; checks are 5 % apart.
+        std::nth_element(margins.begin(), margins.begin() + stops / 2, margins.end());
+        CHECK(margins[static_cast<std::size_t>(stops / 2)] <= 1.25);
+    }
 }
