@@ -152,9 +152,9 @@ void name_objects(flat::Scene& s) {
                   static_cast<std::uint32_t>(i));
 }
 
-// Rays wait for memory where the tree is larger than the cache that a core can count on, unless they meet so many of its
-// nodes that most were asked for long before.
-constexpr std::size_t kCacheBytes = std::size_t{16} << 20;
+// Rays wait for memory where the tree is larger than the cache that a core can count on, unless they meet so many of
+// its nodes that most were asked for long before.
+constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
 constexpr double kCostOfManyNodes = 48;
 
 void judge_memory(flat::Scene& s) {
@@ -186,9 +186,10 @@ std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
     std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
                       bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
-                      bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) + bytes(s.object_of) +
-                      bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) + bytes(s.materials) +
-                      bytes(s.textures) + bytes(s.kept) + bytes(s.list.entries) + bytes(s.list.planar) + bytes(s.list.round);
+                      bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) +
+                      bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) +
+                      bytes(s.materials) + bytes(s.textures) + bytes(s.kept) + bytes(s.list.entries) +
+                      bytes(s.list.planar) + bytes(s.list.round);
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +

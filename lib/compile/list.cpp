@@ -32,8 +32,8 @@ public:
         };
         std::ranges::stable_sort(entries_, {}, rank);
         PrimitiveList list;
-        for (const PrimitiveList::Entry& e : entries_) ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles
-                                                                                                   : list.spheres);
+        for (const PrimitiveList::Entry& e : entries_)
+            ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles : list.spheres);
         list.entries = std::move(entries_);
         if (pack(list)) scene_.list = std::move(list);
     }

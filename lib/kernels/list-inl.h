@@ -41,8 +41,7 @@ HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triang
     using List = PrimitiveList;
     constexpr float kUlp = 0x1p-24f;
     const auto nx = row(List::kNormal), ny = row(List::kNormal + 1), nz = row(List::kNormal + 2);
-    const auto a = hn::NegMulAdd(
-        nx, ray.ox, hn::NegMulAdd(ny, ray.oy, hn::NegMulAdd(nz, ray.oz, row(List::kOffset))));
+    const auto a = hn::NegMulAdd(nx, ray.ox, hn::NegMulAdd(ny, ray.oy, hn::NegMulAdd(nz, ray.oz, row(List::kOffset))));
     ListedPlane<D> m;
     m.along = hn::MulAdd(nx, ray.dx, hn::MulAdd(ny, ray.dy, hn::Mul(nz, ray.dz)));
     const auto inverse = hn::Div(hn::Set(d, 1.0f), m.along);
@@ -70,7 +69,7 @@ HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triang
 // Where spheres are met.
 template <class D, class T = hn::Vec<D>>
 struct ListedSphere {
-    hn::Mask<D> missed, certain;               // the line, for sure
+    hn::Mask<D> missed, certain;                   // the line, for sure
     T near_first, far_first, near_last, far_last;  // bounds on both roots; all the same two where not certain
 };
 
@@ -81,14 +80,15 @@ HWY_INLINE ListedSphere<D> meet_sphere(D d, const Row& row, const LaneRay<D>& ra
     const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
     const auto px = hn::Sub(row(0), ray.ox), py = hn::Sub(row(1), ray.oy), pz = hn::Sub(row(2), ray.oz);
     const auto radius = row(PrimitiveList::kRadius);
-    const auto foot_t = hn::Mul(hn::MulAdd(px, ray.dx, hn::MulAdd(py, ray.dy, hn::Mul(pz, ray.dz))), ray.inverse_squared);
+    const auto foot_t =
+        hn::Mul(hn::MulAdd(px, ray.dx, hn::MulAdd(py, ray.dy, hn::Mul(pz, ray.dz))), ray.inverse_squared);
     const auto fx = hn::NegMulAdd(foot_t, ray.dx, px), fy = hn::NegMulAdd(foot_t, ray.dy, py),
                fz = hn::NegMulAdd(foot_t, ray.dz, pz);
     const auto foot2 = hn::MulAdd(fx, fx, hn::MulAdd(fy, fy, hn::Mul(fz, fz))), r2 = hn::Mul(radius, radius);
     const auto reach = hn::Add(hn::Abs(px), hn::Add(hn::Abs(py), hn::Abs(pz)));
     const auto foot_error = hn::MulAdd(set(48 * kUlp), reach, hn::Mul(set(4.01f * kUlp), ray.reach));
-    const auto error = hn::MulAdd(foot_error, hn::MulAdd(set(4), radius, foot_error),
-                                  hn::Mul(set(64 * kUlp), hn::Add(r2, foot2)));
+    const auto error =
+        hn::MulAdd(foot_error, hn::MulAdd(set(4), radius, foot_error), hn::Mul(set(64 * kUlp), hn::Add(r2, foot2)));
     const auto discriminant = hn::Sub(r2, foot2);
     ListedSphere<D> m;
     m.missed = hn::Gt(hn::Neg(discriminant), error);
@@ -97,10 +97,9 @@ HWY_INLINE ListedSphere<D> meet_sphere(D d, const Row& row, const LaneRay<D>& ra
     const auto half = hn::Mul(hn::MulAdd(set(1.001f), radius, hn::Mul(set(4), foot_error)), inverse_length);
     const auto half_chord = hn::Sqrt(hn::Mul(discriminant, ray.inverse_squared));
     const auto relative = hn::Add(hn::Div(error, discriminant), set(48 * kUlp));
-    const auto root_error =
-        hn::MulAdd(foot_error, hn::Mul(set(2), inverse_length),
-                   hn::MulAdd(hn::Mul(set(2), half_chord), relative,
-                              hn::Mul(set(16 * kUlp), hn::Add(hn::Abs(foot_t), half_chord))));
+    const auto root_error = hn::MulAdd(foot_error, hn::Mul(set(2), inverse_length),
+                                       hn::MulAdd(hn::Mul(set(2), half_chord), relative,
+                                                  hn::Mul(set(16 * kUlp), hn::Add(hn::Abs(foot_t), half_chord))));
     const auto near = hn::Sub(foot_t, half), far = hn::Add(foot_t, half);
     const auto first = hn::Sub(foot_t, half_chord), last = hn::Add(foot_t, half_chord);
     m.near_first = hn::IfThenElse(m.certain, hn::Sub(first, root_error), near);

@@ -46,9 +46,8 @@ template <class Query>
 bool ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, const Ray& ray, Query& query) {
     const RayFrame frame(ray);
     if (!e.is_instanced) return ask_listed(scene, e, frame, query);
-    return inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) {
-        return is_usable(inner.ray) && ask_listed(scene, e, inner, query);
-    });
+    return inside(scene.instances[e.instance], frame,
+                  [&](const RayFrame& inner) { return is_usable(inner.ray) && ask_listed(scene, e, inner, query); });
 }
 
 }  // namespace limn::kernels

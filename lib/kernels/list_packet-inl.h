@@ -43,10 +43,9 @@ public:
 
     void run() {
         const RayLanes d;
-        LaneRay<RayLanes> ray{hn::Load(d, o_[0]), hn::Load(d, o_[1]), hn::Load(d, o_[2]),
-                              hn::Load(d, d_[0]), hn::Load(d, d_[1]), hn::Load(d, d_[2]),
-                              hn::Load(d, reach_), hn::Load(d, size_), hn::Load(d, inverse_size_),
-                              hn::Zero(d)};
+        LaneRay<RayLanes> ray{hn::Load(d, o_[0]),         hn::Load(d, o_[1]), hn::Load(d, o_[2]),  hn::Load(d, d_[0]),
+                              hn::Load(d, d_[1]),         hn::Load(d, d_[2]), hn::Load(d, reach_), hn::Load(d, size_),
+                              hn::Load(d, inverse_size_), hn::Zero(d)};
         if (list_.spheres != 0)
             ray.inverse_squared = hn::Div(
                 hn::Set(d, 1.0f), hn::MulAdd(ray.dx, ray.dx, hn::MulAdd(ray.dy, ray.dy, hn::Mul(ray.dz, ray.dz))));
@@ -104,7 +103,7 @@ private:
         return hn::Set(d, static_cast<float>(from[0]));
 #else
         const hn::Half<RayLanes> dh;
-        const hn::Rebind<double, hn::Half<RayLanes>> dd;
+        const hn::Rebind<double, hn::Half<RayLanes> > dd;
         return hn::Combine(d, hn::DemoteTo(dh, hn::Load(dd, from + kPacket / 2)), hn::DemoteTo(dh, hn::Load(dd, from)));
 #endif
     }
@@ -113,11 +112,11 @@ private:
         const RayLanes d;
         const float* rows = list_.planar.data() + i;
         const std::size_t stride = list_.planar_stride;
-        const auto met =
-            meet_listed(d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, is_triangle, ray);
+        const auto met = meet_listed(
+            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, is_triangle, ray);
         const auto bound = hn::Load(d, bound_);
-        const auto outside = hn::And(met.known, hn::Or(hn::Gt(met.near, bound),
-                                                       hn::Lt(met.far, hn::Load(d, possible_after_))));
+        const auto outside =
+            hn::And(met.known, hn::Or(hn::Gt(met.near, bound), hn::Lt(met.far, hn::Load(d, possible_after_))));
         std::uint32_t open = bits(d, hn::Not(hn::Or(met.missed, outside))) & active_;
         if (open == 0) return;
         const auto certainly = hn::And(met.certain, hn::And(hn::Gt(met.near, hn::Load(d, certain_after_)),
@@ -127,8 +126,7 @@ private:
             std::uint32_t unsure = open & ~certain;
             const std::uint32_t leaving =
                 unsure & leaving_ & bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d))));
-            if (leaving != 0)
-                unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
+            if (leaving != 0) unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
             for (; unsure != 0; unsure &= unsure - 1) ask(static_cast<std::size_t>(std::countr_zero(unsure)), i);
             certain &= active_;
         }
@@ -139,9 +137,11 @@ private:
         const RayLanes d;
         const float* rows = list_.round.data() + i;
         const std::size_t stride = list_.sphere_stride;
-        const auto met = meet_sphere(d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, ray);
+        const auto met = meet_sphere(
+            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, ray);
         const auto certain_before = hn::Load(d, certain_before_), bound = hn::Load(d, bound_);
-        auto root = first_root(d, met, hn::Load(d, possible_after_), hn::Load(d, certain_after_), certain_before, bound);
+        auto root =
+            first_root(d, met, hn::Load(d, possible_after_), hn::Load(d, certain_after_), certain_before, bound);
         const std::uint32_t open = bits(d, hn::Not(root.missed)) & active_;
         if (open == 0) return;
         std::uint32_t certain = bits(d, root.certain) & open;
@@ -153,8 +153,7 @@ private:
             std::uint32_t inside = 0;
             for (std::uint32_t unsure = open & ~certain; unsure != 0; unsure &= unsure - 1) {
                 const auto r = static_cast<std::size_t>(std::countr_zero(unsure));
-                const Side side =
-                    (leaving_ >> r & 1) != 0 ? side_of(list_.entries[number], rays_[r]) : Side::unknown;
+                const Side side = (leaving_ >> r & 1) != 0 ? side_of(list_.entries[number], rays_[r]) : Side::unknown;
                 if (side == Side::inside && (ahead >> r & 1) != 0)
                     inside |= 1u << r;
                 else if (side != Side::leaving)
@@ -176,8 +175,7 @@ private:
             active_ &= ~certain;
             for (; certain != 0; certain &= certain - 1) queries_[std::countr_zero(certain)].report({}, 0, false);
         } else {
-            const auto new_bound =
-                hn::Min(hn::Load(d, bound_), hn::MulAdd(hn::Abs(far), hn::Set(d, 0x1p-22f), far));
+            const auto new_bound = hn::Min(hn::Load(d, bound_), hn::MulAdd(hn::Abs(far), hn::Set(d, 0x1p-22f), far));
             // Where the one before may still be the nearest it is asked now.
             const auto has_winner = hn::Ne(hn::Load(hn::RebindToUnsigned<RayLanes>(), winners_),
                                            hn::Set(hn::RebindToUnsigned<RayLanes>(), kNone));
@@ -217,9 +215,9 @@ private:
             const auto product = hn::Add(hn::Add(hn::Mul(hn::Set(d, n.x), qx), hn::Mul(hn::Set(d, n.y), qy)),
                                          hn::Mul(hn::Set(d, n.z), qz));
             const auto q = max_abs(qx, qy, qz);
-            const auto error = hn::MulAdd(
-                q, hn::Set(d, edge * (16 * edge_error + edge * 36 * kRoundoff) * (1 + 0x1p-20)),
-                hn::Set(d, edge * edge * 6 * e.error * (1 + 0x1p-20) + 0x1p-900));
+            const auto error =
+                hn::MulAdd(q, hn::Set(d, edge * (16 * edge_error + edge * 36 * kRoundoff) * (1 + 0x1p-20)),
+                           hn::Set(d, edge * edge * 6 * e.error * (1 + 0x1p-20) + 0x1p-900));
             const std::uint32_t sure = bits(d, hn::Gt(hn::Abs(product), error)) & here;
             const std::uint32_t negative = bits(d, hn::Lt(product, hn::Zero(d)));
             result |= (sure & (negative ^ (against >> h))) << h;

@@ -19,7 +19,8 @@ inline bool is_behind(const PrimitiveList::Entry& e, const Point3& origin, bool 
     const double edge = larger(max_abs(e.edge_u), max_abs(e.edge_v));
     const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
     const double product = dot(n, to_corner), q = max_abs(to_corner);
-    const double error = edge * (16 * edge_error * q + edge * (36 * kRoundoff * q + 6 * e.error)) * (1 + 0x1p-20) + 0x1p-900;
+    const double error =
+        edge * (16 * edge_error * q + edge * (36 * kRoundoff * q + 6 * e.error)) * (1 + 0x1p-20) + 0x1p-900;
     return std::abs(product) > error && (product < 0) != against;
 }
 
@@ -66,10 +67,11 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         }
         return;
     }
-    const LaneRay<RayLanes> lanes{hn::Set(d, ox),    hn::Set(d, oy),   hn::Set(d, oz),
-                                  hn::Set(d, dx),    hn::Set(d, dy),   hn::Set(d, dz),
-                                  hn::Set(d, reach), hn::Set(d, size), hn::Set(d, 1 / size),
-                                  hn::Set(d, 1 / (dx * dx + dy * dy + dz * dz))};
+    const LaneRay<RayLanes> lanes{hn::Set(d, ox),       hn::Set(d, oy),
+                                  hn::Set(d, oz),       hn::Set(d, dx),
+                                  hn::Set(d, dy),       hn::Set(d, dz),
+                                  hn::Set(d, reach),    hn::Set(d, size),
+                                  hn::Set(d, 1 / size), hn::Set(d, 1 / (dx * dx + dy * dy + dz * dz))};
     constexpr float kMost = 0x1p120f;
     const auto limited = [](double t) {
         return static_cast<float>(t < -double{kMost} ? -double{kMost} : t > double{kMost} ? double{kMost} : t);
@@ -85,8 +87,8 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         const std::size_t stride = list.planar_stride;
         const auto is_triangle = hn::Not(hn::FirstN(d, list.quads > i ? list.quads - i : 0));
         const auto there = hn::FirstN(d, list.planars() - i);
-        const auto met =
-            meet_listed(d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, is_triangle, lanes);
+        const auto met = meet_listed(
+            d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, is_triangle, lanes);
         const auto outside =
             hn::And(met.known, hn::Or(hn::Gt(met.near, hn::Set(d, bound)), hn::Lt(met.far, possible_after)));
         const auto open = hn::AndNot(hn::Or(met.missed, outside), there);
@@ -128,7 +130,8 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
     for (std::size_t i = 0; i < list.spheres; i += hn::Lanes(d)) {
         const float* rows = list.round.data() + i;
         const std::size_t stride = list.sphere_stride, number = list.planars() + i;
-        const auto met = meet_sphere(d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, lanes);
+        const auto met = meet_sphere(
+            d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, lanes);
         const auto root = first_root(d, met, possible_after, certain_after, certain_before, hn::Set(d, bound));
         const auto open = hn::AndNot(root.missed, hn::FirstN(d, list.spheres - i));
         if (hn::AllFalse(d, open)) continue;

@@ -47,8 +47,8 @@ public:
         if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
     }
 
-    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at first
-    // empty and the root, are the caller's.
+    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at
+    // first empty and the root, are the caller's.
     HWY_INLINE bool advance(Stack& stack, flat::Child& next) {
         for (;;) {
             if (!(next & flat::kLeaf)) {

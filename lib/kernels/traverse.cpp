@@ -45,8 +45,7 @@ template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
     if constexpr (!Query::kEveryHit) {
-        if (id == GroupId::root && !scene.list.empty())
-            return search_list(scene, ray, frame, query);
+        if (id == GroupId::root && !scene.list.empty()) return search_list(scene, ray, frame, query);
     }
     const flat::Group& group = flat::group_at(scene, id);
     const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)

@@ -88,9 +88,9 @@ private:
         r.direction_error = hn::IfThenElse(hn::Lt(error, hn::Set(d, 0.5)), error, hn::Set(d, kInfinity));
         const auto slack = hn::Set(d, 1 + 0x1p-30);
         r.relative = hn::Mul(hn::Add(hn::Set(d, 8 * kRoundoff), r.direction_error), slack);
-        r.absolute = hn::Mul(hn::Mul(hn::Mul(hn::Set(d, 2.0), load(origin_error_, i)),
-                                     hn::Add(hn::Set(d, 1.0), r.direction_error)),
-                             slack);
+        r.absolute = hn::Mul(
+            hn::Mul(hn::Mul(hn::Set(d, 2.0), load(origin_error_, i)), hn::Add(hn::Set(d, 1.0), r.direction_error)),
+            slack);
         return r;
     }
 
@@ -117,11 +117,9 @@ private:
         const Doubles d;
         Errors e;
         e.coordinate = hn::Add(hn::Mul(r.relative, reach), r.absolute);
-        const auto product =
-            hn::Mul(hn::Mul(hn::Set(d, 4.0), hn::Add(across, e.coordinate)), e.coordinate);
+        const auto product = hn::Mul(hn::Mul(hn::Set(d, 4.0), hn::Add(across, e.coordinate)), e.coordinate);
         const auto is_in_range = hn::And(hn::Gt(reach, hn::Set(d, 0x1p-300)), hn::Lt(reach, hn::Set(d, 0x1p300)));
-        e.determinant =
-            hn::IfThenElse(is_in_range, hn::Add(product, hn::Set(d, 0x1p-600)), hn::Set(d, kInfinity));
+        e.determinant = hn::IfThenElse(is_in_range, hn::Add(product, hn::Set(d, 0x1p-600)), hn::Set(d, kInfinity));
         return e;
     }
 
@@ -134,16 +132,15 @@ private:
                                      DV weight_error, DV depth, DV z, double* t_out) const {
         const Doubles d;
         const auto along = load(direction_[2], i);
-        const auto z_error =
-            hn::Add(hn::Mul(hn::Set(d, 2.0), hn::Add(hn::Mul(weight_error, depth), coordinate_error)),
-                    hn::Mul(r.direction_error, hn::Abs(z)));
+        const auto z_error = hn::Add(hn::Mul(hn::Set(d, 2.0), hn::Add(hn::Mul(weight_error, depth), coordinate_error)),
+                                     hn::Mul(r.direction_error, hn::Abs(z)));
         const auto t = hn::Div(z, along), error = hn::Div(z_error, hn::Abs(along));
         const hn::Rebind<float, Doubles> df;
         const auto round = hn::PromoteTo(d, hn::DemoteTo(df, t));
         const auto misses_round = hn::And(hn::Ne(t, round), hn::Le(hn::Abs(hn::Sub(t, round)), error));
         const auto accurate = hn::AndNot(misses_round, hn::Le(error, hn::Mul(hn::Set(d, kAccurate), hn::Abs(t))));
-        const auto within = hn::And(hn::And(hn::Gt(t, load(t_min_, i)), hn::Le(t, load(t_max_, i))),
-                                    hn::Lt(t, hn::Set(d, kInfinity)));
+        const auto within =
+            hn::And(hn::And(hn::Gt(t, load(t_min_, i)), hn::Le(t, load(t_max_, i))), hn::Lt(t, hn::Set(d, kInfinity)));
         const auto weights = hn::Le(weight_error, hn::Set(d, kAccurateWeight));
         hn::Store(t, d, t_out);
         return bits(d, hn::And(hn::And(sure, weights), hn::And(accurate, within)));
@@ -161,8 +158,7 @@ private:
         const Errors e = errors(r, largest(qa, qb, qc), across);
         const auto sure = hn::Or(hn::Gt(least, e.determinant), hn::Lt(most, hn::Neg(e.determinant)));
         const auto det = hn::Add(hn::Add(wa, wb), wc);
-        const auto depth =
-            hn::Sub(hn::Max(pa.z, hn::Max(pb.z, pc.z)), hn::Min(pa.z, hn::Min(pb.z, pc.z)));
+        const auto depth = hn::Sub(hn::Max(pa.z, hn::Max(pb.z, pc.z)), hn::Min(pa.z, hn::Min(pb.z, pc.z)));
         const auto z = hn::Div(hn::Add(hn::Add(hn::Mul(wa, pa.z), hn::Mul(wb, pb.z)), hn::Mul(wc, pc.z)), det);
         const auto weight_error = hn::Div(hn::Mul(hn::Set(d, 5.0), e.determinant), hn::Abs(det));
         hn::Store(hn::Div(wb, det), d, u);
@@ -182,8 +178,8 @@ private:
         const auto least = hn::Min(wu, wv), most = hn::Max(wu, wv);
         const auto across = hn::Max(max_abs(q.x, eu.x, ev.x), max_abs(q.y, eu.y, ev.y));
         const Errors e = errors(r, largest(to_corner, edge_u, edge_v), across);
-        const auto sure = hn::And(hn::Gt(least, e.determinant),
-                                  hn::Gt(hn::Sub(det, most), hn::Mul(hn::Set(d, 3.0), e.determinant)));
+        const auto sure =
+            hn::And(hn::Gt(least, e.determinant), hn::Gt(hn::Sub(det, most), hn::Mul(hn::Set(d, 3.0), e.determinant)));
         const auto u_hit = hn::Div(wu, det), v_hit = hn::Div(wv, det);
         const auto z = hn::Add(q.z, hn::Add(hn::Mul(u_hit, eu.z), hn::Mul(v_hit, ev.z)));
         const auto weight_error = hn::Div(hn::Mul(hn::Set(d, 4.0), e.determinant), det);
@@ -268,9 +264,9 @@ private:
             hn::Add(set(10 * kRoundoff), hn::Mul(hn::Mul(set(8), load(direction_error_)), inverse_length)), slack);
         const auto absolute = hn::Mul(hn::Mul(set(2), load(origin_error_)), slack);
         const auto reach = hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), hn::Abs(pz));
-        const auto in_range = hn::And(hn::And(hn::Gt(squared, set(0x1p-460)), hn::Lt(squared, set(0x1p460))),
-                                      hn::And(hn::Lt(reach, set(0x1p230)),
-                                              hn::And(hn::Lt(radius, set(0x1p230)), hn::Gt(radius, set(0x1p-230)))));
+        const auto in_range = hn::And(
+            hn::And(hn::Gt(squared, set(0x1p-460)), hn::Lt(squared, set(0x1p460))),
+            hn::And(hn::Lt(reach, set(0x1p230)), hn::And(hn::Lt(radius, set(0x1p230)), hn::Gt(radius, set(0x1p-230)))));
 
         const auto foot_t = hn::Div(hn::Neg(dot(px, py, pz, dx, dy, dz)), squared);
         const auto fx = hn::Add(px, hn::Mul(foot_t, dx)), fy = hn::Add(py, hn::Mul(foot_t, dy)),
@@ -283,26 +279,23 @@ private:
 
         const auto half_chord = hn::Sqrt(hn::Div(discriminant, squared));
         const auto outer = hn::Add(foot_t, hn::CopySign(half_chord, foot_t)), size = hn::Abs(outer);
-        const auto outer_error =
-            hn::Add(hn::Add(hn::Mul(foot_error, inverse_length),
-                            hn::Mul(half_chord, hn::Add(hn::Div(error, discriminant), relative))),
-                    hn::Mul(set(4 * kRoundoff), size));
+        const auto outer_error = hn::Add(hn::Add(hn::Mul(foot_error, inverse_length),
+                                                 hn::Mul(half_chord, hn::Add(hn::Div(error, discriminant), relative))),
+                                         hn::Mul(set(4 * kRoundoff), size));
         const auto power = hn::Sub(dot(px, py, pz, px, py, pz), r2);
-        const auto power_error =
-            hn::Add(hn::Mul(set(8 * kRoundoff), hn::Add(hn::Mul(reach, reach), r2)),
-                    hn::Mul(absolute, hn::Add(hn::Mul(set(2), reach), absolute)));
+        const auto power_error = hn::Add(hn::Mul(set(8 * kRoundoff), hn::Add(hn::Mul(reach, reach), r2)),
+                                         hn::Mul(absolute, hn::Add(hn::Mul(set(2), reach), absolute)));
         const auto inner = hn::Div(power, hn::Mul(squared, outer));
-        const auto inner_error =
-            hn::Add(hn::Mul(hn::Div(power_error, hn::Mul(squared, size)), set(2)),
-                    hn::Mul(hn::Abs(inner), hn::Add(hn::Mul(set(2), hn::Div(outer_error, size)),
-                                                    hn::Mul(set(2), relative))));
-        const auto sure = hn::And(in_range, hn::And(hn::Gt(discriminant, error),
-                                                    hn::Le(outer_error, hn::Mul(set(0.25), size))));
+        const auto inner_error = hn::Add(
+            hn::Mul(hn::Div(power_error, hn::Mul(squared, size)), set(2)),
+            hn::Mul(hn::Abs(inner), hn::Add(hn::Mul(set(2), hn::Div(outer_error, size)), hn::Mul(set(2), relative))));
+        const auto sure =
+            hn::And(in_range, hn::And(hn::Gt(discriminant, error), hn::Le(outer_error, hn::Mul(set(0.25), size))));
         const auto is_outer_first = hn::Lt(outer, inner);
-        const auto near = hn::IfThenElse(is_outer_first, outer, inner), far = hn::IfThenElse(is_outer_first, inner, outer);
+        const auto near = hn::IfThenElse(is_outer_first, outer, inner),
+                   far = hn::IfThenElse(is_outer_first, inner, outer);
         const auto t_min = load(t_min_), t_max = load(t_max_);
-        const Verdict first =
-            judge(near, hn::IfThenElse(is_outer_first, outer_error, inner_error), t_min, t_max);
+        const Verdict first = judge(near, hn::IfThenElse(is_outer_first, outer_error, inner_error), t_min, t_max);
         const Verdict last = judge(far, hn::IfThenElse(is_outer_first, inner_error, outer_error), t_min, t_max);
         hn::Store(hn::IfThenElse(first.hit, near, far), d, t);
         return bits(d, hn::And(sure, hn::Or(first.hit, hn::And(first.miss, last.hit))));

@@ -127,8 +127,7 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayH
         [&](std::size_t first, std::size_t count) {
             kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
             for (std::size_t i = 0; i < count; ++i)
-                hits[first + i] =
-                    found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(*scene_, found[i]);
+                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(*scene_, found[i]);
         },
         refuse);
 }
