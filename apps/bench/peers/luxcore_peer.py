@@ -20,7 +20,7 @@ Y_UP = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: what z is t
 class Peer:
     name = "LuxCore"
     version = pyluxcore.Version()
-    settings = f"PATHCPU, random sampler"
+    settings = "PATHCPU, random sampler"
 
     def __init__(self):
         pyluxcore.Init(lambda message: None)
@@ -139,7 +139,8 @@ class Peer:
             self.size = size
         self.told = {
             "renderengine.type": "PATHCPU", "sampler.type": "RANDOM", "native.threads.count": threads,
-            "renderengine.seed": seed, "film.width": size, "film.height": size, "batch.haltspp": spp,
+            "renderengine.seed": 1000 * seed,  # thread i has seed + i
+            "film.width": size, "film.height": size, "batch.haltspp": spp,
             "film.filter.type": "NONE", "film.outputs.0.type": "RGB", "film.outputs.0.filename": "unused.exr",
             "path.pathdepth.total": self.depth, "path.pathdepth.diffuse": self.depth,
             "path.pathdepth.glossy": self.depth, "path.pathdepth.specular": self.depth,

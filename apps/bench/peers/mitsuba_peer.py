@@ -6,12 +6,27 @@ not exist: the checker is a plug-in, which the LLVM variant compiles into its ke
 """
 
 import os
+import re
 import time
 from pathlib import Path
 
-LLVM = "/usr/lib/x86_64-linux-gnu/libLLVM.so.19.1"  # Debian's libllvm19; 15 and 16 crash on some processors
-if Path(LLVM).exists():
-    os.environ.setdefault("DRJIT_LIBLLVM_PATH", LLVM)
+OLDEST_LLVM = 17  # 15 and 16 crash on some processors
+
+
+def find_llvm():
+    """The newest LLVM of Debian's packages libllvm17, libllvm18, ..."""
+    found = {}
+    for folder, pattern in (("/usr/lib", "*/libLLVM*.so*"), ("/usr/lib", "llvm-*/lib/libLLVM*.so*")):
+        for path in Path(folder).glob(pattern):
+            version = re.search(r"libLLVM(?:-|\.so\.)(\d+)", path.name)
+            if version and int(version[1]) >= OLDEST_LLVM:
+                found[int(version[1])] = path
+    return str(found[max(found)]) if found else None
+
+
+LLVM = os.environ.get("DRJIT_LIBLLVM_PATH") or find_llvm()
+if LLVM:
+    os.environ["DRJIT_LIBLLVM_PATH"] = LLVM
 
 import drjit as dr
 import mitsuba as mi
@@ -25,7 +40,7 @@ RARELY = 0.02  # how often, of once, the back of a lamp is sampled that has a wa
 
 
 def choose_variant():
-    if os.environ.get("DRJIT_LIBLLVM_PATH"):
+    if LLVM:
         try:
             mi.set_variant("llvm_ad_rgb")
             dr.eval(mi.Float(1) + dr.opaque(mi.Float, 1))
@@ -114,9 +129,10 @@ class Peer:
 
     def __init__(self):
         self.variant = choose_variant()
+        mi.set_log_level(mi.LogLevel.Error)
         self.settings = f"{self.variant}, path or volpath, multijitter"
         if self.variant == "scalar_rgb":
-            self.settings += " (no LLVM found: Debian's libllvm19)"
+            self.settings += " (no LLVM of at least version 17 found: Debian's libllvm19)"
         else:
             dr.set_flag(dr.JitFlag.KernelHistory, True)
             define_checker()
@@ -174,9 +190,11 @@ class Peer:
             mi.Thread.thread_count = threads
             return self.measured(mi.load_dict(told), sensor, spp, seed)
         dr.set_thread_count(threads)
-        while spp * size * size > LANES * (told.get("passes", 1)):
-            told["passes"] = 2 * told.get("passes", 1)
-        told["samples_per_pass"] = max(1, spp // told.pop("passes", 1))
+        passes = 1
+        while spp % (2 * passes) == 0 and spp // passes * size**2 > LANES:
+            passes *= 2
+        if passes > 1:
+            told["samples_per_pass"] = spp // passes
         return self.measured(mi.load_dict(told), sensor, spp, seed)
 
     def measured(self, integrator, sensor, spp, seed):
