@@ -78,7 +78,7 @@ def renderer_table(rows, pixels, session):
         cells.append("–" if faster is None else seconds_cell(row, 1e-3, faster))
         cells += [amount(rate(row, pixels=pixels)),
                   amount(None if faster is None else faster * rate(row, pixels=pixels)), amount(rate(row, "rays")),
-                  f"{numbers.slope_over_samples(row['rungs']):.2f}",
+                  "–" if len(row["rungs"]) < 2 else f"{numbers.slope_over_samples(row['rungs']):.2f}",
                   f"{amount(row['seconds']['load'])}, {amount(row['seconds']['setup'])}", agreement_cell(key, row)]
         mark = "" if row["session"] == session else " †"
         lines.append(f"| {row['name']}{mark} | " + " | ".join(cells) + " |")
