@@ -70,10 +70,15 @@ class Peer:
     def __init__(self, key):
         self.key = key
         self.log = open(RAW / f"{key}.log", "w")
+        self.start()
+
+    def start(self):
+        begin = time.monotonic()
         self.process = subprocess.Popen([VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", key],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.about = self.answer()
         self.name = self.about["name"]
+        self.about["seconds"]["start"] = time.monotonic() - begin
 
     def answer(self):
         line = self.process.stdout.readline()
@@ -91,6 +96,8 @@ class Peer:
         return self.answer()
 
     def open(self, _, description):
+        if self.process.poll() is not None:  # the scene before was too much for it
+            self.start()
         return self.ask(do="open", scene=str(description))["seconds"]
 
     def render(self, size, spp, seed, threads):
@@ -148,13 +155,11 @@ def start_peers(wanted):
     for key in wanted:
         if key in missing:
             continue
-        begin = time.monotonic()
         try:
             peer = Peer(key)
         except Failed as problem:
             missing[key] = str(problem)
             continue
-        peer.about["seconds"]["start"] = time.monotonic() - begin
         say(f"{peer.name} {peer.about['version']}: {peer.about['settings']}")
         started.append(peer)
     for key, why in missing.items():

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "apps/bench"))
+sys.path[:0] = [str(ROOT / "apps/bench"), str(ROOT / "apps/bench/peers")]
 import convergence_numbers as numbers
 import convergence_tables as tables
 
@@ -15,6 +15,7 @@ try:
     import numpy as np
 
     import convergence_pictures as pictures
+    import geometry
 except ImportError:  # only whoever measures needs it
     np = None
 
@@ -117,6 +118,45 @@ class Pictures(unittest.TestCase):
     def test_blocks_are_means(self):
         ramp = np.arange(12.0).reshape(2, 6, 1)
         self.assertEqual(pictures.block_means(ramp, 2).ravel().tolist(), [3.5, 5.5, 7.5])
+
+
+@unittest.skipIf(np is None, "needs numpy")
+class PeersGeometry(unittest.TestCase):
+    def volume(self, mesh):
+        corners = mesh[0].astype(float)[mesh[1]]
+        return np.sum(np.cross(corners[:, 0], corners[:, 1]) * corners[:, 2]) / 6
+
+    def test_balls_are_closed_and_turned_outward(self):
+        for radius in (0.5, -0.5):
+            vertices, triangles, normals = geometry.sphere_mesh([0, 0, 0], radius, rings=48)
+            edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).tolist()
+            ways = {tuple(edge) for edge in edges}
+            self.assertEqual(len(ways), len(edges))
+            self.assertTrue(all((b, a) in ways for a, b in ways))
+            self.assertLess(abs(self.volume((vertices, triangles)) / (4 / 3 * np.pi * radius**3) - 1), 3e-3)
+            self.assertLess(np.abs(normals * radius - vertices).max(), 1e-5 * abs(radius))
+
+    def test_a_ground_is_fine_where_it_is_seen(self):
+        vertices, triangles, _ = geometry.sphere_mesh([0, -1000, 0], 1000)
+        middles = vertices.astype(float)[triangles].mean(axis=1)
+        near = middles[np.hypot(middles[:, 0], middles[:, 2]) < 20]
+        self.assertGreater(len(near), 1000)
+        self.assertLess(np.abs(np.linalg.norm(near - [0, -1000, 0], axis=1) - 1000).max(), 2e-4)
+
+    def test_a_lamp_has_a_wall_behind_it_where_it_hangs_under_the_ceiling(self):
+        lamp = {"corner": [2, 9.9, 2], "edge_u": [-1, 0, 0], "edge_v": [0, 0, -1], "material": {"kind": "light"}}
+        ceiling = {"corner": [0, 10, 0], "edge_u": [5, 0, 0], "edge_v": [0, 0, 5], "material": {"kind": "lambertian"}}
+        self.assertLess(geometry.quad_corners(lamp)[1][1], 0)
+        self.assertTrue(geometry.has_wall_behind(lamp, [lamp, ceiling]))
+        for away in ({**lamp, "corner": [2, 5, 2]}, {**lamp, "edge_u": [1, 0, 0]}):
+            self.assertFalse(geometry.has_wall_behind(away, [away, ceiling]))
+
+    def test_the_sky_is_above(self):
+        sky = geometry.sky_image({"bottom": [1, 1, 1], "top": [0.5, 0.7, 1]}, height=100)
+        self.assertEqual(sky.shape, (100, 200, 3))
+        self.assertLess(np.abs(sky[0, 0] - [0.5, 0.7, 1]).max(), 1e-3)
+        self.assertLess(np.abs(sky[-1, 7] - 1).max(), 1e-3)
+        self.assertLess(np.abs(sky[25, 3, 0] - (1 - (1 + np.cos(np.pi * 25.5 / 100)) / 4)).max(), 1e-6)
 
 
 def row(name, c, difference=0.0, **more):

@@ -138,7 +138,8 @@ class Peer:
             self.scene.Parse(self.properties())
             self.size = size
         self.told = {
-            "renderengine.type": "PATHCPU", "sampler.type": "RANDOM", "native.threads.count": threads,
+            "renderengine.type": "PATHCPU", "sampler.type": "RANDOM",
+            "sampler.random.adaptive.strength": 0.0, "native.threads.count": threads,
             "renderengine.seed": 1000 * seed,  # thread i has seed + i
             "film.width": size, "film.height": size, "batch.haltspp": spp,
             "film.filter.type": "NONE", "film.outputs.0.type": "RGB", "film.outputs.0.filename": "unused.exr",
