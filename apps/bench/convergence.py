@@ -19,7 +19,7 @@ import time
 import convergence_plots
 import convergence_tables
 from convergence_measure import Plan, measure, threads_here
-from convergence_renderers import PEERS, RAW, limn_ladder, say, start_peers
+from convergence_renderers import PEERS, RAW, Failed, limn_ladder, say, start_peers
 from machine import ROOT, commit, processor
 from paper import write_generated
 
@@ -88,7 +88,10 @@ def measure_all(arguments):
 def main():
     arguments = parse_arguments()
     RAW.mkdir(parents=True, exist_ok=True)
-    raw = json.loads(RESULTS.read_text()) if arguments.again else measure_all(arguments)
+    try:
+        raw = json.loads(RESULTS.read_text()) if arguments.again else measure_all(arguments)
+    except (Failed, FileNotFoundError) as problem:
+        sys.exit(f"convergence: {problem}")
     convergence_plots.draw(raw["scenes"], ROOT / "docs/speed-against-error/curves.svg")
     write_generated(PAPER, convergence_tables.report(raw))
     say(str(PAPER.relative_to(ROOT)))

@@ -30,8 +30,8 @@ def threads_here():
 
 
 def reference_path(renderer, scene, description, plan):
-    told = repr((renderer.about["version"], renderer.about["settings"], plan.reference))
-    mark = hashlib.sha256(description.read_bytes() + told.encode()).hexdigest()[:12]
+    told = repr((renderer.about["settings"], plan.reference)).encode()
+    mark = hashlib.sha256(description.read_bytes() + renderer.identity() + told).hexdigest()[:12]
     return RAW / f"reference_{scene}_{renderer.key}_{plan.size}_{mark}.npz"
 
 
@@ -75,7 +75,7 @@ def add(rung, told, error):
 def can_go_on(key, plan, rows):
     """Whether the next rung is short enough, and this one not yet better than what it is judged by."""
     rung = rows[key]["rungs"][-1]
-    judged_by = rows[key if not key.startswith("limn") else "limn"]["reference"]["error"]
+    judged_by = rows["limn" if key.startswith("limn") else key]["reference"]["error"]
     return (plan.growth * statistics.median(rung["seconds"]) <= plan.cap
             and statistics.mean(rung["errors"]) > judged_by)
 
@@ -116,7 +116,8 @@ def rate_on_all_threads(renderers, plan, rows):
 
 
 def measure(scene, renderers, plan):
-    """One row for each renderer, by key; limn's is one of them. Those that cannot express the scene say why."""
+    """One row for each renderer, by key; limn's is one of them. Those that cannot express the scene say why.
+    Raises Failed where limn cannot render it."""
     description, rows, halves_of, able = describe(scene), {}, {}, []
     for renderer in renderers:
         row = rows[renderer.key] = {"name": renderer.name, **renderer.about, "rungs": []}
@@ -128,6 +129,8 @@ def measure(scene, renderers, plan):
                 row["reference"] = {"spp": spp, "error": pictures.half_error(halves)}
                 halves_of[renderer.key] = halves
         except Failed as problem:
+            if renderer.key == "limn":
+                raise
             say(f"{scene}: without {renderer.key}: {problem}")
             row["failed"] = str(problem)
             continue

@@ -1,9 +1,11 @@
 """Who renders in the convergence report: limn's program, and its peers in processes of their own that stay alive.
 
 Each has a `key`, a `name` for people, `about` (version, settings, seconds of starting), open(scene), which tells the
-seconds of loading, and render(size, spp, seed, threads), which returns the picture and what is known of the render.
+seconds of loading, and render(size, spp, seed, threads), which returns the picture and what is known of the render. As long as
+identity() stays the same, so do its pictures.
 """
 
+import hashlib
 import json
 import subprocess
 import sys
@@ -50,6 +52,9 @@ class Limn:
         self.key, self.name, self.options = key, name, options
         self.about = {"version": version, "settings": " ".join(options) or "as it comes", "seconds": {"start": 0}}
 
+    def identity(self):
+        return hashlib.sha256((BIN / "limn_transport").read_bytes()).digest()
+
     def open(self, scene, _):
         self.scene = scene
         return {"load": 0}
@@ -74,7 +79,7 @@ class Peer:
 
     def start(self):
         begin = time.monotonic()
-        self.process = subprocess.Popen([VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", key],
+        self.process = subprocess.Popen([VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", self.key],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.about = self.answer()
         self.name = self.about["name"]
@@ -94,6 +99,9 @@ class Peer:
         except BrokenPipeError:
             raise Failed(f"ended with status {self.process.wait()} (see {self.log.name})") from None
         return self.answer()
+
+    def identity(self):
+        return self.about["version"].encode()
 
     def open(self, _, description):
         if self.process.poll() is not None:  # the scene before was too much for it
