@@ -25,7 +25,7 @@ from paper import write_generated
 
 PAPER = ROOT / "docs/speed-against-error.md"
 RESULTS = RAW / "results.json"
-SHORT = Plan(size=160, seeds=4, growth=4, cap=4, reference=6)  # some thirty minutes on two cores
+SHORT = Plan(size=100, seeds=4, growth=4, cap=5, reference=6)  # some thirty minutes on two cores
 FULL = Plan(size=400, seeds=4, growth=4, cap=40, reference=60)  # some four hours
 
 
