@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 LARGE = 50  # spheres from this radius on are grounds: seen from near their top only
+RARELY = 0.02  # how often, of once, the back of a lamp is sampled that has a wall behind it
 
 
 class Scene:

@@ -1,7 +1,7 @@
 """Scenes of the report in LuxCore: path tracing on the processor, independent samples.
 
-It knows triangles alone: balls are meshes with exact normals. Its lamps shine to one side, so that theirs is a second
-mesh, turned round. Its sky is z up, and is turned.
+It knows triangles alone: balls are meshes with exact normals. Its lamps shine to one side: the other is a second
+mesh, turned round, chosen rarely where it only lights the wall behind. Its sky is z up, and is turned.
 """
 
 import tempfile
@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pyluxcore
 
-from geometry import has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image, sphere_mesh
+from geometry import RARELY, has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image, sphere_mesh
 
 LIFT = 0.02  # of media, off the floor
 GAP = 1e-3  # between the two sides of a lamp
@@ -130,6 +130,8 @@ class Peer:
         corners, normal = quad_corners(lamp)
         corners = corners - GAP * normal
         material = self.material(lamp["material"])
+        if has_wall:
+            self.told[f"scene.materials.{material}.emission.importance"] = RARELY
         self.add(corners, [[0, 2, 1], [0, 3, 2]], None, material)
 
     def render(self, size, spp, seed, threads):

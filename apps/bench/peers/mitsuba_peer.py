@@ -32,11 +32,10 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from geometry import has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image
+from geometry import RARELY, has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image
 
 LANES = 1 << 24  # paths at once: more take more memory, and are not faster
 LIFT = 0.2  # of media: rays set out 0.05 beyond where they are at such coordinates, and miss what lies within
-RARELY = 0.02  # how often, of once, the back of a lamp is sampled that has a wall behind it
 
 
 def choose_variant():
