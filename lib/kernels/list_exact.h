@@ -7,6 +7,13 @@
 
 namespace limn::kernels {
 
+// Of a triangle, in a mesh or not.
+inline TriangleVertices triangle_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e) {
+    if (e.kind == PrimitiveKind::mesh) return flat::triangle_of(scene, scene.meshes[e.row], e.element);
+    const flat::Triangle& t = scene.triangles[e.row];
+    return {t.a, t.b, t.c};
+}
+
 // Asks one primitive and reports a hit to the query; false if it is missed.
 template <class Query>
 bool ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, const RayFrame& frame, Query& query) {
@@ -20,13 +27,9 @@ bool ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, c
             found = exact.quad(q.corner, q.edge_u, q.edge_v, search, hit);
             break;
         }
-        case PrimitiveKind::triangle: {
-            const flat::Triangle& t = scene.triangles[e.row];
-            found = exact.triangle(t.a, t.b, t.c, search, hit);
-            break;
-        }
+        case PrimitiveKind::triangle:
         case PrimitiveKind::mesh: {
-            const TriangleVertices t = flat::triangle_of(scene, scene.meshes[e.row], e.element);
+            const TriangleVertices t = triangle_listed(scene, e);
             found = exact.triangle(t.a, t.b, t.c, search, hit);
             break;
         }

@@ -10,6 +10,7 @@
 #include "kernels/list-inl.h"
 #include "kernels/list_exact.h"
 #include "kernels/queries.h"
+#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -124,9 +125,12 @@ private:
         std::uint32_t certain = bits(d, certainly) & open;
         if (certain != open) {
             std::uint32_t unsure = open & ~certain;
+            // A ray leaves the surface that it starts on, and a shadow ray ends just before the light.
             const std::uint32_t leaving =
                 unsure & leaving_ & bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d))));
             if (leaving != 0) unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
+            const std::uint32_t inside = unsure & bits(d, met.certain);
+            if (inside != 0 && !list_.entries[i].is_instanced) unsure &= ~answer(i, inside);
             for (; unsure != 0; unsure &= unsure - 1) ask(static_cast<std::size_t>(std::countr_zero(unsure)), i);
             certain &= active_;
         }
@@ -198,40 +202,97 @@ private:
         return hn::LoadMaskBits(RayLanes(), bytes);
     }
 
-    // Of the lanes those whose origin the plane lies behind: is_behind of core/sheared_ray.h. `against`: where n.d < 0.
-    HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
-        using Doubles = hn::CappedTag<double, 8>;
-        const Doubles d;
-        const Vec3 n = cross(e.edge_u, e.edge_v);
-        const double edge = std::max(max_abs(e.edge_u), max_abs(e.edge_v));
-        const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
+    using Doubles = hn::CappedTag<double, 8>;
+
+    // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its answers together.
+    template <class Visit>
+    HWY_INLINE static std::uint32_t by_halves(std::uint32_t lanes, const Visit& visit) {
+        constexpr std::size_t kSome = hn::MaxLanes(Doubles());
         std::uint32_t result = 0;
-        for (std::size_t h = 0; h < kPacket; h += hn::Lanes(d)) {
-            const std::uint32_t here = lanes >> h & ((1u << hn::Lanes(d)) - 1);
-            if (here == 0) continue;
-            const auto qx = hn::Sub(hn::Set(d, e.corner.x), hn::Load(d, origin_[0] + h)),
-                       qy = hn::Sub(hn::Set(d, e.corner.y), hn::Load(d, origin_[1] + h)),
-                       qz = hn::Sub(hn::Set(d, e.corner.z), hn::Load(d, origin_[2] + h));
-            const auto product = hn::Add(hn::Add(hn::Mul(hn::Set(d, n.x), qx), hn::Mul(hn::Set(d, n.y), qy)),
-                                         hn::Mul(hn::Set(d, n.z), qz));
-            const auto q = max_abs(qx, qy, qz);
-            const auto error =
-                hn::MulAdd(q, hn::Set(d, edge * (16 * edge_error + edge * 36 * kRoundoff) * (1 + 0x1p-20)),
-                           hn::Set(d, edge * edge * 6 * e.error * (1 + 0x1p-20) + 0x1p-900));
-            const std::uint32_t sure = bits(d, hn::Gt(hn::Abs(product), error)) & here;
-            const std::uint32_t negative = bits(d, hn::Lt(product, hn::Zero(d)));
-            result |= (sure & (negative ^ (against >> h))) << h;
+        for (std::size_t h = 0; h < kPacket; h += kSome) {
+            const std::uint32_t here = lanes >> h & ((1u << kSome) - 1);
+            if (here != 0) result |= (visit(h, here) & here) << h;
         }
         return result;
     }
 
-    HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
-        Query& query = queries_[r];
-        ask_listed(scene_, list_.entries[i], rays_[r], query);
-        const double limit = query.limit();
+    // Those of the lanes whose origin the plane lies behind.
+    HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
+        const PlaneBehind plane(e);
+        return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
+            const Doubles d;
+            const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(against >> h)};
+            return bits(d, plane.is_behind(d, hn::Load(d, origin_[0] + h), hn::Load(d, origin_[1] + h),
+                                           hn::Load(d, origin_[2] + h), hn::LoadMaskBits(d, bytes)));
+        });
+    }
+
+    // Those of the lanes that the exact filter answers; a hit is reported.
+    HWY_NOINLINE std::uint32_t answer(std::uint32_t i, std::uint32_t lanes) {
+        const PrimitiveList::Entry& e = list_.entries[i];
+        return by_halves(lanes, [&](std::size_t h, std::uint32_t here) HWY_ATTR {
+            const Doubles d;
+            PlanarAnswers<Doubles> a;
+            if (e.kind == PrimitiveKind::quad) {
+                const flat::Quad& q = scene_.quads[e.row];
+                a = PlanarFilter<true, Doubles>::answer(d, question(h, q.corner, q.edge_u, q.edge_v));
+            } else {
+                const TriangleVertices t = triangle_listed(scene_, e);
+                a = PlanarFilter<false, Doubles>::answer(d, question(h, t.a, t.b, t.c));
+            }
+            HWY_ALIGN double t[8], u[8], v[8];
+            hn::Store(a.t, d, t), hn::Store(a.u, d, u), hn::Store(a.v, d, v);
+            const std::uint32_t hits = bits(d, a.hit);
+            for (std::uint32_t rest = hits & here; rest != 0; rest &= rest - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+                queries_[h + k].report({t[k], u[k], v[k]}, e.number, false);
+                note_limit(h + k);
+            }
+            return hits | bits(d, a.miss);
+        });
+    }
+
+    // Of one primitive and the rays from lane h on.
+    template <class A, class B>
+    HWY_INLINE PlanarQuestion<Doubles> question(std::size_t h, const A& a, const B& b, const B& c) const {
+        const Doubles d;
+        const auto load = [&](const double* row) HWY_ATTR { return hn::Load(d, row + h); };
+        const auto dx = load(direction_[0]), dy = load(direction_[1]), dz = load(direction_[2]);
+        // The longest axis, as ShearedRay chooses it.
+        const auto x = hn::Abs(dx), y = hn::Abs(dy);
+        const auto x_over_y = hn::Gt(x, y);
+        const auto z_longest = hn::Not(hn::Gt(hn::IfThenElse(x_over_y, x, y), hn::Abs(dz)));
+        using DV = hn::Vec<Doubles>;
+        const auto permute = [&](DV v0, DV v1, DV v2, DV* out) HWY_ATTR {
+            out[0] = hn::IfThenElse(z_longest, v0, hn::IfThenElse(x_over_y, v1, v2));
+            out[1] = hn::IfThenElse(z_longest, v1, hn::IfThenElse(x_over_y, v2, v0));
+            out[2] = hn::IfThenElse(z_longest, v2, hn::IfThenElse(x_over_y, v0, v1));
+        };
+        const auto permute_one = [&](double v0, double v1, double v2, DV* out)
+                                     HWY_ATTR { permute(hn::Set(d, v0), hn::Set(d, v1), hn::Set(d, v2), out); };
+        PlanarQuestion<Doubles> q;
+        permute(load(origin_[0]), load(origin_[1]), load(origin_[2]), q.origin);
+        permute(dx, dy, dz, q.direction);
+        permute_one(a.x, a.y, a.z, q.vertex);
+        permute_one(b.x, b.y, b.z, q.vertex + 3);
+        permute_one(c.x, c.y, c.z, q.vertex + 6);
+        q.origin_error = q.direction_error = hn::Zero(d);
+        q.t_min = load(t_min_), q.t_max = load(t_max_);
+        return q;
+    }
+
+    // After a report.
+    void note_limit(std::size_t r) {
+        const double limit = queries_[r].limit();
+        t_max_[r] = limit;
         const float bound = above(static_cast<float>(limit));
         if (bound < bound_[r]) bound_[r] = bound;
-        if (Query::kFirstHit && query.ended()) active_ &= ~(1u << r);
+        if (queries_[r].ended()) active_ &= ~(1u << r);
+    }
+
+    HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
+        ask_listed(scene_, list_.entries[i], rays_[r], queries_[r]);
+        note_limit(r);
     }
 
     HWY_NOINLINE void ask_all(std::size_t r) {
@@ -247,7 +308,7 @@ private:
     Query* queries_;
     std::uint32_t* winners_;
     std::size_t count_;
-    std::uint32_t active_ = 0, odd_ = 0, leaving_ = 0;
+    std::uint32_t active_ = 0, odd_ = 0, leaving_ = 0;  // by lane
     HWY_ALIGN double origin_[3][kPacket], direction_[3][kPacket], t_min_[kPacket], t_max_[kPacket];
     HWY_ALIGN float o_[3][kPacket], d_[3][kPacket], reach_[kPacket], size_[kPacket], inverse_size_[kPacket];
     HWY_ALIGN float possible_after_[kPacket], certain_after_[kPacket], certain_before_[kPacket], bound_[kPacket],

@@ -13,36 +13,32 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-// Whether the plane lies behind the ray's origin: is_behind of core/sheared_ray.h. `against`: n.d < 0.
-inline bool is_behind(const PrimitiveList::Entry& e, const Point3& origin, bool against) {
-    const Vec3 n = cross(e.edge_u, e.edge_v), to_corner = e.corner - origin;
-    const double edge = larger(max_abs(e.edge_u), max_abs(e.edge_v));
-    const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
-    const double product = dot(n, to_corner), q = max_abs(to_corner);
-    const double error =
-        edge * (16 * edge_error * q + edge * (36 * kRoundoff * q + 6 * e.error)) * (1 + 0x1p-20) + 0x1p-900;
-    return std::abs(product) > error && (product < 0) != against;
+// PlaneBehind for one ray.
+HWY_INLINE bool is_behind(const PrimitiveList::Entry& e, const Point3& origin, bool against) {
+    const hn::CappedTag<double, 1> d;
+    return bits(d, PlaneBehind(e).is_behind(d, hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z),
+                                            hn::FirstN(d, against ? 1 : 0))) != 0;
 }
 
-// What waits, if that can be done at once.
+// Whether a question to a primitive that is met inside its edges could be answered at once; a hit is reported.
 template <class Query>
 HWY_INLINE bool settle_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
                               Query& query) {
+    if (e.is_instanced) return false;
     const Search search{frame.ray.t_min, query.limit()};
     PlanarHit hit;
+    Decision decision = Decision::unsure;
     if (e.kind == PrimitiveKind::quad) {
         const flat::Quad& q = scene.quads[e.row];
-        if (!settle_one<true>(frame, search, q.corner, q.edge_u, q.edge_v, hit)) return false;
-    } else if (e.kind == PrimitiveKind::triangle) {
-        const flat::Triangle& t = scene.triangles[e.row];
-        if (!settle_one<false>(frame, search, t.a, t.b, t.c, hit)) return false;
+        decision = settle_one<true>(frame, search, q.corner, q.edge_u, q.edge_v, hit);
     } else if (e.kind == PrimitiveKind::sphere) {
-        if (!settle_one(frame, search, e.corner, e.radius, hit)) return false;
+        decision = settle_one(frame, search, e.corner, e.radius, hit);
     } else {
-        return false;
+        const TriangleVertices t = triangle_listed(scene, e);
+        decision = settle_one<false>(frame, search, t.a, t.b, t.c, hit);
     }
-    query.report(hit, e.number, false);
-    return true;
+    if (decision == Decision::hit) query.report(hit, e.number, false);
+    return decision != Decision::unsure;
 }
 
 template <class Query>
@@ -110,17 +106,17 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         }
         std::uint32_t unsure = bits(d, open) & ~certain_bits;
         if (unsure != 0) {
+            hn::Store(met.near, d, near + i);
+            const std::uint32_t known = bits(d, met.known), inside = bits(d, met.certain);
             const std::uint32_t leaving =
                 ray.t_min >= 0 ? bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d)))) : 0u;
             const std::uint32_t against = bits(d, hn::Lt(met.along, hn::Zero(d)));
-            hn::Store(met.near, d, near + i);
-            const std::uint32_t known = bits(d, met.known);
             for (; unsure != 0; unsure &= unsure - 1) {
                 const auto k = static_cast<std::uint32_t>(std::countr_zero(unsure));
                 if ((known >> k & 1) != 0 && near[i + k] > bound) continue;
-                if ((leaving >> k & 1) != 0 && is_behind(list.entries[i + k], ray.origin, (against >> k & 1) != 0))
-                    continue;
-                ask_listed(scene, list.entries[i + k], ray, query);
+                const PrimitiveList::Entry& e = list.entries[i + k];
+                if ((leaving >> k & 1) != 0 && is_behind(e, ray.origin, (against >> k & 1) != 0)) continue;
+                if ((inside >> k & 1) == 0 || !settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
                 if (query.ended()) return;
                 const float limit = above(limited(query.limit()));
                 if (limit < bound) bound = limit;
@@ -162,10 +158,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         const auto k = static_cast<std::size_t>(std::countr_zero(waiting));
         if (near[k] > bound) continue;
         const PrimitiveList::Entry& e = list.entries[k];
-        if (e.is_instanced)
-            ask_listed(scene, e, ray, query);
-        else if (!settle_listed(scene, e, frame, query))
-            ask_listed(scene, e, frame, query);
+        if (!settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
     }
 }
 

@@ -213,34 +213,34 @@ private:
     HWY_INLINE bool settle(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
         PlanarHit hit;
         std::uint64_t number = first_number_;
-        bool is_settled = false;
+        Decision decision = Decision::unsure;
         if (has(PrimitiveKind::mesh) && header.kind == PrimitiveKind::mesh) {
             const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
-            is_settled = settle_one<false>(frame_, search(), v.a, v.b, v.c, hit);
+            decision = settle_one<false>(frame_, search(), v.a, v.b, v.c, hit);
             number += scene_.ranges[header.range].first_number + block.id(lane);
         } else if (has(PrimitiveKind::sphere) && header.kind == PrimitiveKind::sphere) {
             const flat::Reference& reference = scene_.references[block.id(lane)];
             const PrimitiveRange& range = scene_.ranges[reference.range];
             const flat::Sphere& s = scene_.spheres[range.first_row + reference.element];
             number += range.first_number + reference.element;
-            is_settled = settle_one(frame_, search(), s.center, std::abs(s.radius), hit);
+            decision = settle_one(frame_, search(), s.center, std::abs(s.radius), hit);
         } else if (has_planar() && (header.kind == PrimitiveKind::triangle || header.kind == PrimitiveKind::quad)) {
             const flat::Reference& reference = scene_.references[block.id(lane)];
             const PrimitiveRange& range = scene_.ranges[reference.range];
             number += range.first_number + reference.element;
             if (header.kind == PrimitiveKind::quad) {
                 const flat::Quad& q = scene_.quads[range.first_row + reference.element];
-                is_settled = settle_one<true>(frame_, search(), q.corner, q.edge_u, q.edge_v, hit);
+                decision = settle_one<true>(frame_, search(), q.corner, q.edge_u, q.edge_v, hit);
             } else {
                 const flat::Triangle& t = scene_.triangles[range.first_row + reference.element];
-                is_settled = settle_one<false>(frame_, search(), t.a, t.b, t.c, hit);
+                decision = settle_one<false>(frame_, search(), t.a, t.b, t.c, hit);
             }
         }
-        if (is_settled) {
+        if (decision == Decision::hit) {
             query_.report(hit, number, false);
             bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
         }
-        return is_settled;
+        return decision != Decision::unsure;
     }
 
     // Exactly.

@@ -137,12 +137,10 @@ void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
                    Closest* queries) {
     ManyWinners quads, triangles;
     ManySphereWinners spheres;
-    const auto answer = [&](std::uint32_t r, const PlanarHit* hit) {
+    const auto answer = [&](std::uint32_t r, Decision decision, const PlanarHit& hit) {
         const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
-        if (hit)
-            queries[r].report(*hit, e.number, false);
-        else
-            ask_listed(scene, e, rays[r], queries[r]);
+        if (decision == Decision::hit) queries[r].report(hit, e.number, false);
+        if (decision == Decision::unsure) ask_listed(scene, e, rays[r], queries[r]);
     };
     const auto add = [&](const PrimitiveList::Entry& e, const RayFrame& frame, std::uint32_t r) {
         const Search search{frame.ray.t_min, queries[r].limit()};
@@ -154,7 +152,7 @@ void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
             spheres.add(frame, search, e.corner, e.radius, r);
             if (spheres.is_full()) spheres.settle(answer);
         } else {
-            const flat::Triangle& t = scene.triangles[e.row];
+            const TriangleVertices t = triangle_listed(scene, e);
             triangles.add(frame, search, t.a, t.b, t.c, r);
             if (triangles.is_full()) triangles.settle<false>(answer);
         }
@@ -162,10 +160,6 @@ void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
     for (std::uint32_t r = 0; r < count; ++r) {
         if (winners[r] == ListPacket<Closest>::kNone) continue;
         const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
-        if (e.kind == PrimitiveKind::mesh) {
-            ask_listed(scene, e, rays[r], queries[r]);
-            continue;
-        }
         const RayFrame frame(rays[r]);
         if (!e.is_instanced)
             add(e, frame, r);
