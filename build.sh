@@ -7,10 +7,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
+       ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--reuse] [--again]
 
   figures      render the eighteen figures to build/figures/ as EXR and PNG
   test         build and run the whole suite
-  convergence  measure speed against error: docs/speed-against-error.md
+  convergence  speed against error beside Mitsuba, Cycles and LuxCore: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   mutants      faults that the suite must catch
@@ -91,12 +92,15 @@ command=$1
 shift
 full=()
 models=()
+others=()
 for option in "$@"; do
     if [[ $option == --full ]]; then
         full=(--full)
         export LIMN_FULL=1
     elif [[ $command == bench && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
+    elif [[ $command == convergence ]]; then
+        others+=("$option")
     else
         usage
     fi
@@ -110,8 +114,10 @@ case $command in
         ;;
     convergence)
         build
-        install_missing python3 python3-matplotlib python3-numpy
-        /usr/bin/python3 apps/bench/convergence.py "${full[@]}"
+        install_missing python3 python3-venv python3-matplotlib python3-numpy python3-openimageio
+        # Mitsuba is slow without; not every Debian has it.
+        ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
+        /usr/bin/python3 apps/bench/convergence.py "${full[@]}" "${others[@]}"
         ;;
     accuracy)
         install_missing libembree-dev python3 python3-matplotlib python3-numpy

@@ -1,158 +1,100 @@
-"""Speed against error: docs/speed-against-error.md and its plot.
+"""Speed against error, limn beside its peers: the generated part of docs/speed-against-error.md, and its plot.
 
-Renders four of the figures at growing sample counts with several seeds, and states for each the seconds of rendering and
-the relMSE that they bought, against two long renders with other seeds: one by the same estimator, one by the naive one.
-Each reference comes in two independent halves; its own error, known from their difference, is subtracted. Beside the
-measured error stands what the film estimated without any reference.
+Ten scenes, described once (transport_scenes.cpp) and written for each renderer (peers/). Everybody renders a converged
+reference in two halves, then a ladder of growing sample counts on one thread, with several seeds, all taking turns.
+Raw numbers go to build/convergence/results.json as each scene ends. References are kept there as long as scene and
+renderer stay the same.
 
-Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh convergence [--full].
+Needs limn's programs in build/release/bin, matplotlib, numpy and OpenImageIO for Python; Mitsuba, Blender and LuxCore
+come from PyPI into build/peers where they can. Run through ./build.sh convergence [--full] [--scene NAME ...]
+[--peer NAME ...] [--reuse] [--again]. On a machine that does something else meanwhile its times say little.
 """
 
 import argparse
 import datetime
 import json
-import math
-import statistics
-import subprocess
 import sys
-from pathlib import Path
+import time
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
+import convergence_plots
+import convergence_tables
+from convergence_measure import Plan, measure, threads_here
+from convergence_renderers import PEERS, RAW, Failed, limn_ladder, say, start_peers
 from machine import ROOT, commit, processor
+from paper import write_generated
 
-BIN = ROOT / "build/release/bin"
-RAW = ROOT / "build/convergence"
-FIGURES = {
-    "fig01": "bouncing spheres",
-    "fig13": "three spheres, glass and metal",
-    "fig15": "Cornell box",
-    "fig16": "smoke in the Cornell box",
-}
-SAMPLES = (4, 16, 64, 256)
-SEEDS = range(1, 9)
-REFERENCE_SEEDS = {"path": (1001, 1002), "naive": (2001, 2002)}
+PAPER = ROOT / "docs/speed-against-error.md"
+RESULTS = RAW / "results.json"
+SHORT = Plan(size=100, seeds=4, growth=4, cap=5, reference=6)  # some thirty minutes on two cores
+FULL = Plan(size=400, seeds=4, growth=4, cap=40, reference=60)  # some four hours
 
 
-def program(figure):
-    found = sorted(BIN.glob(f"{figure}_*"))
-    if len(found) != 1:
-        sys.exit(f"convergence: {figure} is not built in {BIN}")
-    return found[0]
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--full", action="store_true", help=f"{FULL}, instead of {SHORT}")
+    parser.add_argument("--scene", action="append", choices=list(convergence_tables.SCENES), metavar="NAME",
+                        help="only these: " + ", ".join(convergence_tables.SCENES))
+    parser.add_argument("--peer", action="append", choices=[*PEERS, "none"], metavar="NAME",
+                        help="only these: " + ", ".join(PEERS) + "; none: limn alone")
+    parser.add_argument("--reuse", action="store_true", help="scenes that were measured before are not measured again")
+    parser.add_argument("--again", action="store_true", help="write the report from what was measured last")
+    for name in ("size", "seeds", "cap", "reference"):
+        parser.add_argument(f"--{name}", type=float, metavar="X", help="instead of what the form has: see --full")
+    return parser.parse_args()
 
 
-def render(figure, size, spp, seed, estimator="path"):
-    """Renders once and keeps the result as long as the program stays the same."""
-    name = f"{figure}_{size}_{estimator}_{spp}_{seed}"
-    exr, report = RAW / f"{name}.exr", RAW / f"{name}.json"
-    if not report.exists() or report.stat().st_mtime < program(figure).stat().st_mtime:
-        subprocess.run(
-            [program(figure), "--quiet", "-o", exr, "--report", report, "--size", f"{size}x{size}", "--spp", str(spp),
-             "--seed", str(seed), "--estimator", estimator],
-            check=True, cwd=RAW)
-    return exr, json.loads(report.read_text())
+def plan_of(arguments):
+    plan = FULL if arguments.full else SHORT
+    given = {name: value for name in ("size", "seeds", "cap", "reference")
+             if (value := getattr(arguments, name)) is not None}
+    whole = {name: int(value) for name, value in given.items() if name in ("size", "seeds")}
+    return Plan(**{**vars(plan), **given, **whole})
 
 
-def error(test, halves):
-    out = subprocess.run([BIN / "limn", "compare", test, *halves, "--json", "-"], check=True, capture_output=True, text=True)
-    return json.loads(out.stdout)
+def earlier(plan):
+    """What was measured with the same plan."""
+    if RESULTS.exists():
+        raw = json.loads(RESULTS.read_text())
+        if raw["plan"] == vars(plan):
+            return raw
+    return {"plan": vars(plan), "scenes": {}}
 
 
-def measure(figure, size, reference_spp):
-    halves = {kind: [render(figure, size, spp, seed, kind)[0] for seed in REFERENCE_SEEDS[kind]]
-              for kind, spp in reference_spp.items()}
-    rows = []
-    for spp in SAMPLES:
-        row = {"spp": spp, "seconds": [], "path": [], "naive": [], "estimate": [], "inside": 0, "noisy": set()}
-        for seed in SEEDS:
-            exr, report = render(figure, size, spp, seed)
-            row["seconds"].append(report["seconds"]["render"])
-            row["estimate"].append(report["error"]["estimate"])
-            for kind, pair in halves.items():
-                metrics = error(exr, pair)
-                row[kind].append(metrics["corrected_relmse"])
-                if metrics["reference_too_noisy"]:
-                    row["noisy"].add(kind)
-            row["inside"] += report["error"]["ci95_low"] <= row["path"][-1] <= report["error"]["ci95_high"]
-        rows.append(row)
-    return rows
-
-
-def spread(values):
-    """Mean and the standard error of it."""
-    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
-
-
-def cell(values, noisy=False):
-    mean, deviation = spread(values)
-    return f"{mean:.2e} ± {deviation:.0e}" + (" \\*" if noisy else "")
-
-
-def slope(rows):
-    """Least-squares slope of log error over log samples: -1 for independent samples."""
-    x = [math.log(r["spp"]) for r in rows]
-    y = [math.log(max(statistics.mean(r["path"]), 1e-12)) for r in rows]
-    mx, my = statistics.mean(x), statistics.mean(y)
-    return sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx) ** 2 for a in x)
-
-
-def table(figure, title, rows):
-    lines = [f"### {title} ({figure})", "",
-             "| samples | seconds | relMSE (long render) | relMSE (naive long render) | film's own estimate | estimate / measured | measured within its 95 % interval |",
-             "|---:|---:|---:|---:|---:|---:|---:|"]
-    for r in rows:
-        ratio = statistics.mean(r["estimate"]) / statistics.mean(r["path"])
-        lines.append(f"| {r['spp']} | {statistics.mean(r['seconds']):.3f} | {cell(r['path'], 'path' in r['noisy'])} | "
-                     f"{cell(r['naive'], 'naive' in r['noisy'])} | {cell(r['estimate'])} | {ratio:.2f} | {r['inside']} of {len(SEEDS)} |")
-    return lines + ["", f"Slope of log error over log samples: {slope(rows):.2f}.", ""]
-
-
-def plot(results, path):
-    figure, axes = plt.subplots(figsize=(7, 5))
-    for name, rows in results.items():
-        seconds = [statistics.mean(r["seconds"]) for r in rows]
-        line, = axes.loglog(seconds, [statistics.mean(r["path"]) for r in rows], "o-", label=FIGURES[name])
-        axes.loglog(seconds, [statistics.mean(r["estimate"]) for r in rows], "x:", color=line.get_color())
-    axes.set_xlabel("seconds of rendering")
-    axes.set_ylabel("relMSE (dots: measured, crosses: the film's own estimate)")
-    axes.grid(True, which="both", alpha=0.3)
-    axes.legend()
-    figure.tight_layout()
-    figure.savefig(path, dpi=110)
+def measure_all(arguments):
+    plan, started, session = plan_of(arguments), time.monotonic(), datetime.datetime.now().isoformat("T", "minutes")
+    raw = earlier(plan)
+    wanted = [p for p in arguments.peer or PEERS if p != "none"]
+    peers, raw["missing"] = start_peers(wanted)
+    for scene in arguments.scene or convergence_tables.SCENES:
+        if arguments.reuse and all(key in raw["scenes"].get(scene, {}) for key in ["limn", *(p.key for p in peers)]):
+            continue
+        say(f"{scene}, {(time.monotonic() - started) / 60:.0f} minutes so far")
+        rows = measure(scene, limn_ladder() + peers, plan)
+        for row in rows.values():
+            row["session"] = session
+        # Limn's rows go together; peers that were not asked this time keep theirs.
+        kept = {k: row for k, row in raw["scenes"].get(scene, {}).items() if k in PEERS and k not in rows}
+        raw["scenes"][scene] = {**rows, **kept}
+        raw["head"] = {
+            "command": " ".join(["./build.sh convergence", *sys.argv[1:]]), "date": str(datetime.date.today()),
+            "commit": commit(), "processor": processor(), "threads": threads_here(), "size": plan.size,
+            "seeds": plan.seeds, "minutes": (time.monotonic() - started) / 60}
+        RESULTS.write_text(json.dumps(raw, indent=1))
+    for peer in peers:
+        peer.close()
+    return raw
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--full", action="store_true", help="400x400 instead of 100x100, longer references")
-    full = parser.parse_args().full
-    size = 400 if full else 100
-    reference_spp = {"path": 4096, "naive": 16384} if full else {"path": 1024, "naive": 2048}
+    arguments = parse_arguments()
     RAW.mkdir(parents=True, exist_ok=True)
-
-    results = {}
-    for figure in FIGURES:
-        print(f"{figure} ...", file=sys.stderr, flush=True)
-        results[figure] = measure(figure, size, reference_spp)
-
-    threads = render(next(iter(FIGURES)), size, SAMPLES[0], SEEDS[0])[1]["threads"]
-    plot(results, ROOT / "docs/speed-against-error.png")
-    lines = ["# Speed against error", "",
-             "Written by `./build.sh convergence" + (" --full" if full else "") + "`; do not edit. "
-             f"{datetime.date.today()}, commit {commit()}, {processor()}, {threads} threads, {size}x{size} pixels, depth 10.", "",
-             "relMSE is the mean of (x - r)² / (r² + 0.01) over pixels and channels. Every number is the mean over "
-             f"{len(SEEDS)} seeds ± its standard error. The references are long renders with other seeds, in two halves "
-             f"each: {reference_spp['path']} samples a pixel and half by the same estimator, {reference_spp['naive']} by the "
-             "naive one; their own error is subtracted, and a star marks cells in which it is over a tenth of what is "
-             "measured. That both columns agree shows that the two estimators converge to the same picture. The film's "
-             "estimate knows no reference. Its interval states the spread of the estimate over blocks of pixels.", "",
-             "![error over time](speed-against-error.png)", ""]
-    for figure, rows in results.items():
-        lines += table(figure, FIGURES[figure], rows)
-    (ROOT / "docs/speed-against-error.md").write_text("\n".join(lines))
-    (RAW / "results.json").write_text(json.dumps(results, indent=1, default=sorted))
+    try:
+        raw = json.loads(RESULTS.read_text()) if arguments.again else measure_all(arguments)
+    except (Failed, FileNotFoundError) as problem:
+        sys.exit(f"convergence: {problem}")
+    convergence_plots.draw(raw["scenes"], ROOT / "docs/speed-against-error/curves.svg")
+    write_generated(PAPER, convergence_tables.report(raw))
+    say(str(PAPER.relative_to(ROOT)))
 
 
 if __name__ == "__main__":

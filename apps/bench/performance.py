@@ -21,11 +21,11 @@ import performance_instructions
 import performance_plots
 import performance_tables
 from machine import ROOT, commit, processor
+from paper import write_generated
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/bench"
 PAPER = ROOT / "docs/performance.md"
-BEGIN, END = "<!-- generated: begin -->", "<!-- generated: end -->"
 
 # Triangles of the growing scenes, and how many `--scale 1` has.
 GROWTH = [1e3, 1e4, 1e5, 5e5, 2e6]
@@ -96,12 +96,6 @@ def measure_all(full, models):
     return save("all", raw)
 
 
-def write_paper(generated):
-    before, rest = PAPER.read_text().split(BEGIN)
-    _, after = rest.split(END)
-    PAPER.write_text(f"{before}{BEGIN}\n\n{generated}\n{END}{after}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--full", action="store_true", help="twice the rays and rounds, scenes to 2e7 triangles")
@@ -116,7 +110,7 @@ def main():
            else measure_all(arguments.full, arguments.models))
 
     performance_plots.draw(raw, ROOT / "docs/performance")
-    write_paper(performance_tables.report(raw))
+    write_generated(PAPER, performance_tables.report(raw))
     for fault in raw["faults"]:
         say(fault)
     say(f"docs/performance.md: {len(raw['faults'])} faults, "

@@ -6,6 +6,7 @@
 
 #include "compile/groups.h"
 #include "compile/lights.h"
+#include "compile/list.h"
 #include "limn/core/error.h"
 
 namespace limn::compiler {
@@ -141,6 +142,26 @@ void release_arrays(flat::Scene& s) {
     if (!f.foreign_shapes && !f.foreign_materials && !f.foreign_textures) s.kept.clear();
 }
 
+constexpr std::uint64_t kFewPrimitives = 4096;
+
+void name_objects(flat::Scene& s) {
+    if (s.first_of_object.size() < 2 || s.primitives > kFewPrimitives) return;
+    s.object_of.resize(s.primitives);
+    for (std::size_t i = 0; i < s.first_of_object.size(); ++i)
+        std::fill(s.object_of.begin() + static_cast<std::ptrdiff_t>(s.first_of_object[i]), s.object_of.end(),
+                  static_cast<std::uint32_t>(i));
+}
+
+// Rays wait for memory where the tree is larger than the cache that a core can count on, unless they meet so many of
+// its nodes that most were asked for long before.
+constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
+constexpr double kCostOfManyNodes = 48;
+
+void judge_memory(flat::Scene& s) {
+    const std::size_t bytes = s.nodes.size() * sizeof(s.nodes[0]) + s.blocks.size() * sizeof(s.blocks[0]);
+    s.is_larger_than_cache = bytes > kCacheBytes && s.groups.front().cost < kCostOfManyNodes;
+}
+
 // Shapes that can be seen but have no material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
     std::vector<bool> seen(s.groups.size(), false);
@@ -166,8 +187,9 @@ std::size_t memory_of(const flat::Scene& s) {
     std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
                       bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
                       bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) +
-                      bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) + bytes(s.materials) +
-                      bytes(s.textures) + bytes(s.kept);
+                      bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) +
+                      bytes(s.materials) + bytes(s.textures) + bytes(s.kept) + bytes(s.list.entries) +
+                      bytes(s.list.planar) + bytes(s.list.round);
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +
@@ -195,6 +217,9 @@ flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     reserve_places(out);
     // A boundary that is met twice by the same triangle would be left when it is entered.
     build_trees(out, cut_triangles && out.medium_shapes.empty());
+    list_primitives(out);
+    judge_memory(out);
+    name_objects(out);
     place_media(out);
     collect_lights(out);
     gather_features(out);

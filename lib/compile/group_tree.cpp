@@ -209,6 +209,7 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     const bool may_cut = cut_triangles && group.scale == 1;
     accel::WideBvh bvh = accel::build_wide_bvh(
         boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2, .spatial_splits = may_cut}, may_cut ? &clip : nullptr);
+    group.cost = bvh.cost;
     group.root = pack_tree(bvh, boxes_, references_, scene_);
 }
 

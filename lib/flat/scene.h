@@ -11,6 +11,7 @@
 #include "core/mesh_triangle.h"
 #include "core/ray_frame.h"
 #include "flat/features.h"
+#include "flat/list.h"
 #include "flat/tree.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
@@ -70,6 +71,7 @@ struct Group {
     double extent = 0;       // the largest finite coordinate in the tree
     float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
     double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
+    double cost = 0;         // expected, of a ray that meets the bounds: see accel::BuildSettings
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.
@@ -119,7 +121,10 @@ struct Scene {
     std::vector<Reference> references;
     HugeVector<Node> nodes;
     HugeVector<std::uint32_t> blocks;            // see Block
+    PrimitiveList list;                          // of small scenes, used beside the tree
+    bool is_larger_than_cache = false;           // so that batches of rays are better off waiting for memory by turns
     std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
+    std::vector<std::uint32_t> object_of;        // by number, in scenes of few primitives, where a search would show
 
     std::vector<MediumRecord> medium_shapes;
     std::vector<Medium> media;

@@ -11,16 +11,13 @@
 
 #include "kernels/exact_tests.h"
 #include "kernels/leaf_rays.h"
+#include "kernels/list_packet-inl.h"
 #include "kernels/node-inl.h"
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
-
-using RayLanes = hn::CappedTag<float, 16>;
-using RV = hn::Vec<RayLanes>;
-inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
 
 // The boxes that any ray of the packet may meet, eight at once, from the ranges of origins and directions: a plane at p
 // is met within (p - origin) * inverse, in intervals. What is outside is missed by all; the rest is left to the leaves.

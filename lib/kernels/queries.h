@@ -15,6 +15,7 @@ struct Closest {
     Hit best;  // index_matched as a foreign shape says
 
     double limit() const { return best.t; }
+    bool ended() const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
         if (hit.t < best.t || number < best.primitive) best = {{hit.t, number}, hit.u, hit.v, matched};
         return false;
@@ -29,6 +30,7 @@ struct Any {
     bool found = false;
 
     double limit() const { return t_max; }
+    bool ended() const { return found; }
     bool report(const PlanarHit&, std::uint64_t, bool, bool = false) { return found = true; }
 };
 

@@ -15,6 +15,7 @@
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 #include "kernels/sphere-inl.h"
+#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -44,6 +45,30 @@ public:
           certain_before_(below(box_ray_.upper(limn::smaller(query.limit(), kEndless)) - 2 * box_ray_.t_error)) {
         if constexpr (has_planar()) planar_.emplace(box_ray_, packed_error());
         if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
+    }
+
+    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at
+    // first empty and the root, are the caller's.
+    HWY_INLINE bool advance(Stack& stack, flat::Child& next) {
+        for (;;) {
+            if (!(next & flat::kLeaf)) {
+                next = node_test_.visit(scene_, next, bound_, stack);
+                if (next != flat::kNothing) {
+                    prefetch(scene_, next);
+                    return true;
+                }
+            } else if (next != flat::kNothing && leaf(next)) {
+                return false;
+            }
+            do {
+                if (stack.size == 0) {
+                    ask_pending();
+                    return false;
+                }
+                --stack.size;
+            } while (stack.near[stack.size] > bound_);
+            next = stack.child[stack.size];
+        }
     }
 
     // True if the query ended the search.
@@ -176,10 +201,46 @@ private:
     bool ask_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
             const Pending& hit = pending_[i];
-            if (hit.near <= above(bound_) && ask(hit.block, hit.block.header(), hit.lane)) return true;
+            if (!(hit.near <= above(bound_))) continue;
+            const flat::Block header = hit.block.header();
+            if (!settle(hit.block, header, hit.lane) && ask(hit.block, header, hit.lane)) return true;
         }
         pending_count_ = 0;
         return false;
+    }
+
+    // Whether a sure hit could be answered at once.
+    HWY_INLINE bool settle(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
+        PlanarHit hit;
+        std::uint64_t number = first_number_;
+        Decision decision = Decision::unsure;
+        if (has(PrimitiveKind::mesh) && header.kind == PrimitiveKind::mesh) {
+            const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
+            decision = settle_one<false>(frame_, search(), v.a, v.b, v.c, hit);
+            number += scene_.ranges[header.range].first_number + block.id(lane);
+        } else if (has(PrimitiveKind::sphere) && header.kind == PrimitiveKind::sphere) {
+            const flat::Reference& reference = scene_.references[block.id(lane)];
+            const PrimitiveRange& range = scene_.ranges[reference.range];
+            const flat::Sphere& s = scene_.spheres[range.first_row + reference.element];
+            number += range.first_number + reference.element;
+            decision = settle_one(frame_, search(), s.center, std::abs(s.radius), hit);
+        } else if (has_planar() && (header.kind == PrimitiveKind::triangle || header.kind == PrimitiveKind::quad)) {
+            const flat::Reference& reference = scene_.references[block.id(lane)];
+            const PrimitiveRange& range = scene_.ranges[reference.range];
+            number += range.first_number + reference.element;
+            if (header.kind == PrimitiveKind::quad) {
+                const flat::Quad& q = scene_.quads[range.first_row + reference.element];
+                decision = settle_one<true>(frame_, search(), q.corner, q.edge_u, q.edge_v, hit);
+            } else {
+                const flat::Triangle& t = scene_.triangles[range.first_row + reference.element];
+                decision = settle_one<false>(frame_, search(), t.a, t.b, t.c, hit);
+            }
+        }
+        if (decision == Decision::hit) {
+            query_.report(hit, number, false);
+            bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+        }
+        return decision != Decision::unsure;
     }
 
     // Exactly.

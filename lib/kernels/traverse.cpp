@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "accel/slab.h"
+#include "kernels/list_packet-inl.h"
+#include "kernels/list_ray-inl.h"
 #include "kernels/packet-inl.h"
 #include "kernels/traversal-inl.h"
+#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -29,15 +33,23 @@ constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = flat::kBuiltKinds;
 
+template <unsigned kKinds, class Query>
+HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
+                             std::uint64_t first_number, Query& query) {
+    BoxRay box;
+    set_up(ray, frame, group, box);
+    Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
+}
+
 template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
+    if constexpr (!Query::kEveryHit) {
+        if (id == GroupId::root && !scene.list.empty()) return search_list(scene, ray, frame, query);
+    }
     const flat::Group& group = flat::group_at(scene, id);
-    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-        BoxRay box;
-        set_up(ray, frame, group, box);
-        Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
-    };
+    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
+                         HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query); };
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
     if (covers(kMeshesAndAsked)) return run(std::integral_constant<unsigned, kMeshesAndAsked>{});
@@ -57,46 +69,161 @@ float packet_spread(const flat::Scene& scene) {
 }
 
 // Whether the rays go much the same way, so that they meet much the same boxes.
-bool are_alike(const BoxRay* rays, std::size_t count, float spread) {
-    const BoxRay& first = rays[0];
-    const unsigned axis = longest_axis(first.direction);
-    for (std::size_t i = 0; i < count; ++i) {
-        const BoxRay& ray = rays[i];
-        if (!ray.is_taken_as_it_is || ray.octant != first.octant || longest_axis(ray.direction) != axis) return false;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const float turn = ray.direction[a] * ray.inverse[axis] - first.direction[a] * first.inverse[axis];
-            if (!(std::abs(turn) < spread && std::abs(ray.high[a] - first.high[a]) < spread * first.extent))
-                return false;
+bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Group& root) {
+    const Ray& first = rays[0];
+    const double near = double{spread} * max_abs(first.direction), beside = double{spread} * root.extent;
+    for (std::size_t i = 1; i < count; ++i)
+        if (!(max_abs(rays[i].direction - first.direction) < near && max_abs(rays[i].origin - first.origin) < beside))
+            return false;
+    return true;
+}
+
+// Rays that go different ways, some at a time by turns: while what one needs comes from memory, others go on.
+template <class Query>
+class Interleaved {
+public:
+    explicit Interleaved(const flat::Scene& scene) : scene_(scene), root_(flat::group_at(scene, GroupId::root)) {}
+
+    HWY_INLINE void add(const Ray& ray, Query& query) {
+        if (root_.root == flat::kNothing) return;
+        while (active_ == kSlots) turn();
+        Slot& slot = slots_[order_[active_++]];
+        slot.frame.emplace(ray);
+        set_up(ray, *slot.frame, root_, slot.box);
+        slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query);
+        slot.stack.size = 0;
+        slot.next = root_.root;
+    }
+
+    void finish() {
+        while (active_ > 0) turn();
+    }
+
+private:
+    static constexpr std::size_t kSlots = 8;
+    using One = Traversal<kMeshes, Query>;
+    struct Slot {
+        std::optional<RayFrame> frame;
+        BoxRay box;
+        alignas(64) std::byte storage[sizeof(One)];
+        One* traversal;
+        Stack stack;
+        flat::Child next;
+    };
+
+    HWY_INLINE void turn() {
+        for (std::size_t i = 0; i < active_;) {
+            Slot& slot = slots_[order_[i]];
+            if (slot.traversal->advance(slot.stack, slot.next))
+                ++i;
+            else
+                std::swap(order_[i], order_[--active_]);
         }
     }
+
+    const flat::Scene& scene_;
+    const flat::Group& root_;
+    std::size_t active_ = 0;
+    std::array<std::uint8_t, kSlots> order_ = [] {
+        std::array<std::uint8_t, kSlots> all{};
+        for (std::size_t i = 0; i < kSlots; ++i) all[i] = static_cast<std::uint8_t>(i);
+        return all;
+    }();
+    std::array<Slot, kSlots> slots_;
+};
+
+// The exact answers for the winners of a list.
+void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count, const std::uint32_t* winners,
+                   Closest* queries) {
+    ManyWinners quads, triangles;
+    ManySphereWinners spheres;
+    const auto answer = [&](std::uint32_t r, Decision decision, const PlanarHit& hit) {
+        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
+        if (decision == Decision::hit) queries[r].report(hit, e.number, false);
+        if (decision == Decision::unsure) ask_listed(scene, e, rays[r], queries[r]);
+    };
+    const auto add = [&](const PrimitiveList::Entry& e, const RayFrame& frame, std::uint32_t r) {
+        const Search search{frame.ray.t_min, queries[r].limit()};
+        if (e.kind == PrimitiveKind::quad) {
+            const flat::Quad& q = scene.quads[e.row];
+            quads.add(frame, search, q.corner, q.edge_u, q.edge_v, r);
+            if (quads.is_full()) quads.settle<true>(answer);
+        } else if (e.kind == PrimitiveKind::sphere) {
+            spheres.add(frame, search, e.corner, e.radius, r);
+            if (spheres.is_full()) spheres.settle(answer);
+        } else {
+            const TriangleVertices t = triangle_listed(scene, e);
+            triangles.add(frame, search, t.a, t.b, t.c, r);
+            if (triangles.is_full()) triangles.settle<false>(answer);
+        }
+    };
+    for (std::uint32_t r = 0; r < count; ++r) {
+        if (winners[r] == ListPacket<Closest>::kNone) continue;
+        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
+        const RayFrame frame(rays[r]);
+        if (!e.is_instanced)
+            add(e, frame, r);
+        else
+            inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) {
+                if (is_usable(inner.ray)) add(e, inner, r);
+            });
+    }
+    quads.settle<true>(answer);
+    triangles.settle<false>(answer);
+    spheres.settle(answer);
+}
+void settle_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
+
+template <class Query>
+void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    HWY_ALIGN std::uint32_t winners[kMostRays + kPacket];
+    for (std::size_t first = 0; first < count; first += kPacket)
+        ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
+            .run();
+    settle_listed(scene, rays, count, winners, queries);
+}
+
+// False if the rays cannot be traced as a packet.
+template <class Query>
+bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    std::array<BoxRay, kPacket> boxes;
+    std::vector<RayFrame> frames;
+    frames.reserve(kPacket);
+    for (std::size_t i = 0; i < count; ++i) {
+        frames.emplace_back(rays[i]);
+        set_up(rays[i], frames[i], root, boxes[i]);
+        if (!boxes[i].is_taken_as_it_is || boxes[i].octant != boxes[0].octant ||
+            longest_axis(boxes[i].direction) != longest_axis(boxes[0].direction))
+            return false;
+    }
+    PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), count, queries).run();
     return true;
 }
 
 template <class Query>
 void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    if (!scene.list.empty()) return search_list(scene, rays, count, queries);
     const flat::Group& root = flat::group_at(scene, GroupId::root);
     if (scene.kinds != kMeshes) {
         for (std::size_t i = 0; i < count; ++i) search(scene, GroupId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
         return;
     }
-    std::array<BoxRay, kPacket> boxes;
     const float spread = packet_spread(scene);
-    std::vector<RayFrame> frames;
-    frames.reserve(kPacket);
+    HWY_ALIGN Interleaved<Query> interleaved(scene);
     for (std::size_t first = 0; first < count; first += kPacket) {
-        const std::size_t some = std::min(kPacket, count - first);
-        frames.clear();
-        for (std::size_t i = 0; i < some; ++i) {
-            frames.emplace_back(rays[first + i]);
-            set_up(rays[first + i], frames[i], root, boxes[i]);
-        }
-        if (some > 1 && are_alike(boxes.data(), some, spread)) {
-            PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), some, queries + first).run();
-        } else {
-            for (std::size_t i = 0; i < some; ++i)
-                Traversal<kMeshes, Query>(scene, root, boxes[i], frames[i], 0, queries[first + i]).run();
+        const std::size_t some = std::min(kPacket, count - first), end = first + some;
+        if (some > 1 && are_alike(rays + first, some, spread, root) &&
+            search_packet(scene, rays + first, some, queries + first))
+            continue;
+        for (std::size_t i = first; i < end; ++i) {
+            if (scene.is_larger_than_cache)
+                interleaved.add(rays[i], queries[i]);
+            else
+                search_group<kMeshes>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
         }
     }
+    interleaved.finish();
 }
 
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {

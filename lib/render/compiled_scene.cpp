@@ -35,7 +35,9 @@ namespace {
 
 RayHit complete(const flat::Scene& scene, const kernels::Hit& hit) {
     std::size_t object = 0;
-    if (scene.first_of_object.size() > 1) {
+    if (!scene.object_of.empty()) {
+        object = scene.object_of[hit.primitive];
+    } else if (scene.first_of_object.size() > 1) {
         const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
         object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
     }
@@ -67,16 +69,16 @@ bool find_any(const flat::Scene& scene, const Ray& ray) {
     return kernels::any_hit(scene, ray) || (!flat::media_of(scene).empty() && meets_boundary(scene, ray));
 }
 
-// answer(first, count) for every run of rays that can be used, at most kernels::kMostRays long; the number of the
-// others, whose answers stay a miss.
-template <class Answer>
-std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer) {
+// answer(first, count) for every run of rays that can be used, at most kernels::kMostRays long, and refuse(i) for each
+// of the others; how many those are.
+template <class Answer, class Refuse>
+std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer, const Refuse& refuse) {
     const FloatEnvironment environment;
     std::size_t unusable = 0;
     for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
         while (end < rays.size() && end - first < kernels::kMostRays && is_fit(rays[end])) ++end;
         if (end > first) answer(first, end - first);
-        if (end < rays.size() && !is_fit(rays[end])) ++end, ++unusable;
+        if (end < rays.size() && !is_fit(rays[end])) refuse(end++), ++unusable;
     }
     return unusable;
 }
@@ -110,28 +112,36 @@ bool CompiledScene::any_hit(const Ray& ray) const {
 
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
-    std::fill(hits.begin(), hits.end(), RayHit{});
+    const auto refuse = [&](std::size_t i) { hits[i] = {}; };
     if (!flat::media_of(*scene_).empty())
-        return answer_runs(rays, [&](std::size_t first, std::size_t count) {
-            for (std::size_t i = first; i < first + count; ++i)
-                hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
-        });
+        return answer_runs(
+            rays,
+            [&](std::size_t first, std::size_t count) {
+                for (std::size_t i = first; i < first + count; ++i)
+                    hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
+            },
+            refuse);
     std::array<kernels::Hit, kernels::kMostRays> found;
-    return answer_runs(rays, [&](std::size_t first, std::size_t count) {
-        kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
-        for (std::size_t i = 0; i < count; ++i)
-            if (found[i].primitive != flat::RawHit::kMiss) hits[first + i] = complete(*scene_, found[i]);
-    });
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            kernels::closest_hits(*scene_, rays.subspan(first, count), found.data());
+            for (std::size_t i = 0; i < count; ++i)
+                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(*scene_, found[i]);
+        },
+        refuse);
 }
 
 std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
     if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
-    std::fill(occluded.begin(), occluded.end(), std::uint8_t{0});
-    return answer_runs(rays, [&](std::size_t first, std::size_t count) {
-        if (flat::media_of(*scene_).empty())
-            return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
-        for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
-    });
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            if (flat::media_of(*scene_).empty())
+                return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
+            for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
+        },
+        [&](std::size_t i) { occluded[i] = 0; });
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {

@@ -1,0 +1,138 @@
+#include "bench/describe_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "limn/core/error.h"
+#include "limn/record_sink.h"
+
+namespace limn::bench {
+
+namespace {
+
+using app::Json;
+
+[[noreturn]] void refuse(const char* what) { throw Error(std::string("describe: the peers are not told of ") + what); }
+
+Json triple(const Point3& p) { return {p.x, p.y, p.z}; }
+Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json triple(const Color& c) { return {c.r, c.g, c.b}; }
+
+class Description {
+public:
+    explicit Description(const SceneRecords& records) : records_(records) {}
+
+    Json group(GroupId id, const Transform& place) const {
+        Json shapes = {
+            {"spheres", Json::array()}, {"quads", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}};
+        add_group(id, place, shapes);
+        return shapes;
+    }
+
+private:
+    void add_group(GroupId id, const Transform& place, Json& shapes) const {
+        for (const PrimitiveRange& range : records_.groups[static_cast<std::size_t>(id)].ranges) {
+            // One row is one primitive or, of a mesh, instance or medium, many.
+            const std::uint64_t rows =
+                range.kind == PrimitiveKind::sphere || range.kind == PrimitiveKind::quad ? range.count : 1;
+            for (std::uint64_t i = 0; i < rows; ++i) add_row(range.kind, range.first_row + i, place, shapes);
+        }
+    }
+
+    void add_row(PrimitiveKind kind, std::size_t row, const Transform& place, Json& shapes) const {
+        switch (kind) {
+            case PrimitiveKind::sphere: return shapes["spheres"].push_back(sphere(records_.spheres[row], place));
+            case PrimitiveKind::quad: return shapes["quads"].push_back(quad(records_.quads[row], place));
+            case PrimitiveKind::mesh: return shapes["meshes"].push_back(mesh(records_.meshes[row], place));
+            case PrimitiveKind::medium: return shapes["media"].push_back(medium(records_.media[row], place));
+            case PrimitiveKind::instance: {
+                const InstanceRecord& instance = records_.instances[row];
+                if (instance.moving) refuse("moving instances");
+                return add_group(instance.group, place * instance.world_from_object0, shapes);
+            }
+            case PrimitiveKind::moving_sphere: refuse("moving spheres");
+            case PrimitiveKind::triangle: refuse("single triangles");
+            case PrimitiveKind::foreign: refuse("shapes of other classes");
+        }
+    }
+
+    Json sphere(const SphereRecord& s, const Transform& place) const {
+        if (!(place == Transform{})) refuse("spheres within instances");
+        return {{"center", triple(s.center0)}, {"radius", s.radius}, {"material", material(s.material)}};
+    }
+
+    Json quad(const QuadRecord& q, const Transform& place) const {
+        return {{"corner", triple(transform_point(place, q.corner))},
+                {"edge_u", triple(transform_vector(place, q.edge_u))},
+                {"edge_v", triple(transform_vector(place, q.edge_v))},
+                {"material", material(q.material)}};
+    }
+
+    Json mesh(const MeshRecord& m, const Transform& place) const {
+        if (!m.arrays.normals.empty() || !m.arrays.material_slots.empty()) refuse("smooth or many-coloured meshes");
+        Json vertices = Json::array(), triangles = Json::array();
+        for (const Float3& v : m.arrays.vertices) vertices.push_back(triple(transform_point(place, {v.x, v.y, v.z})));
+        for (const Index3& t : m.arrays.triangles) triangles.push_back({t.a, t.b, t.c});
+        return {{"vertices", vertices}, {"triangles", triangles}, {"material", material(m.materials.at(0))}};
+    }
+
+    Json medium(const MediumRecord& m, const Transform& place) const {
+        const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
+        if (phase.kind != MaterialKind::isotropic) refuse("phase functions of other classes");
+        return {{"boundary", group(m.boundary, place)}, {"density", m.density}, {"albedo", texture(phase.texture)}};
+    }
+
+    Json material(MaterialId id) const {
+        const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
+        switch (m.kind) {
+            case MaterialKind::lambertian: return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
+            case MaterialKind::diffuse_light: return {{"kind", "light"}, {"color", texture(m.texture)}};
+            case MaterialKind::metal:
+                if (m.parameter != 0) refuse("metal that is not a mirror");
+                return {{"kind", "mirror"}, {"color", texture(m.texture)}};
+            case MaterialKind::dielectric:
+                if (m.fresnel != Fresnel::exact) refuse("Schlick's approximation");
+                return {{"kind", "glass"}, {"index", m.parameter}};
+            case MaterialKind::isotropic:
+            case MaterialKind::foreign: break;
+        }
+        refuse("materials of other classes");
+    }
+
+    // A colour, or the two of a checker.
+    Json texture(TextureId id) const {
+        const TextureRecord& t = records_.textures.at(static_cast<std::size_t>(id));
+        if (t.kind == TextureKind::solid) return triple(t.color);
+        if (t.kind != TextureKind::checker) refuse("noise and pictures");
+        return {{"cell", t.scale}, {"even", texture(t.even)}, {"odd", texture(t.odd)}};
+    }
+
+    const SceneRecords& records_;
+};
+
+Json describe_camera(const Camera& c) {
+    const double focus = c.focus_distance.value_or(length(c.look_at - c.look_from));
+    const double half_angle = c.aperture_angle * std::numbers::pi / 360;
+    return {{"look_from", triple(c.look_from)},
+            {"look_at", triple(c.look_at)},
+            {"up", triple(c.up)},
+            {"vertical_fov", c.vertical_fov},
+            {"focus_distance", focus},
+            {"lens_radius", focus * std::tan(half_angle)}};
+}
+
+}  // namespace
+
+Json describe_scene(const Figure& figure) {
+    RecordSink sink;
+    for (const auto& object : figure.scene.objects()) object->lower(sink);
+    Json json = {{"name", figure.name},
+                 {"max_depth", figure.settings.max_depth},
+                 {"camera", describe_camera(figure.camera)},
+                 {"background",
+                  {{"bottom", triple(figure.scene.background.bottom)}, {"top", triple(figure.scene.background.top)}}}};
+    json.update(Description(sink.records()).group(GroupId::root, Transform{}));
+    return json;
+}
+
+}  // namespace limn::bench

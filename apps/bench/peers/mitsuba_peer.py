@@ -1,0 +1,208 @@
+"""Scenes of the report in Mitsuba 3.
+
+Path tracing (`path`, `volpath` with media) with the multijitter sampler. Its area lights shine to one side: the other
+side is a second rectangle, chosen rarely where it only lights the wall behind. Textures of its own that are solid do
+not exist: the checker is a plug-in, which the LLVM variant compiles into its kernel.
+"""
+
+import os
+import re
+import time
+from pathlib import Path
+
+OLDEST_LLVM = 17  # 15 and 16 crash on some processors
+
+
+def find_llvm():
+    """The newest LLVM of Debian's packages libllvm17, libllvm18, ..."""
+    found = {}
+    for folder, pattern in (("/usr/lib", "*/libLLVM*.so*"), ("/usr/lib", "llvm-*/lib/libLLVM*.so*")):
+        for path in Path(folder).glob(pattern):
+            version = re.search(r"libLLVM(?:-|\.so\.)(\d+)", path.name)
+            if version and int(version[1]) >= OLDEST_LLVM:
+                found[int(version[1])] = path
+    return str(found[max(found)]) if found else None
+
+
+LLVM = os.environ.get("DRJIT_LIBLLVM_PATH") or find_llvm()
+if LLVM:
+    os.environ["DRJIT_LIBLLVM_PATH"] = LLVM
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from geometry import RARELY, has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image
+
+LANES = 1 << 24  # paths at once: more take more memory, and are not faster
+LIFT = 0.2  # of media: rays set out 0.05 beyond where they are at such coordinates, and miss what lies within
+
+
+def choose_variant():
+    if LLVM:
+        try:
+            mi.set_variant("llvm_ad_rgb")
+            dr.eval(mi.Float(1) + dr.opaque(mi.Float, 1))
+            return "llvm_ad_rgb"
+        except Exception as problem:
+            print(problem)
+    mi.set_variant("scalar_rgb")
+    return "scalar_rgb"
+
+
+def rgb(color):
+    return {"type": "rgb", "value": [float(c) for c in color]}
+
+
+def define_checker():
+    class SolidChecker(mi.Texture):
+        def __init__(self, props):
+            super().__init__(props)
+            self.cell = props["cell"]
+            self.even, self.odd = (mi.Color3f(*[props[f"{name}_{c}"] for c in "rgb"]) for name in ("even", "odd"))
+
+        def eval(self, si, active=True):
+            cells = mi.Vector3i(dr.floor(si.p / self.cell))
+            parity = (cells.x + cells.y + cells.z) & 1
+            return dr.select(parity == 0, self.even, self.odd)
+
+        def mean(self):
+            return mi.Float(0.5)
+
+        def is_spatially_varying(self):
+            return True
+
+    mi.register_texture("solid_checker", SolidChecker)
+
+
+def texture(color):
+    if not is_checker(color):
+        return rgb(color)
+    told = {"type": "solid_checker", "cell": color["cell"]}
+    for name in ("even", "odd"):
+        told.update({f"{name}_{c}": float(v) for c, v in zip("rgb", color[name])})
+    return told
+
+
+def bsdf(material):
+    kind = material["kind"]
+    if kind == "lambertian":
+        return {"type": "twosided", "inner": {"type": "diffuse", "reflectance": texture(material["color"])}}
+    if kind == "mirror":
+        return {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])}
+    if kind == "glass":
+        return {"type": "dielectric", "int_ior": float(material["index"]), "ext_ior": 1.0}
+    return {"type": "diffuse", "reflectance": rgb([0, 0, 0])}  # lamps
+
+
+def emitter(material, weight=1.0):
+    return {"type": "area", "radiance": rgb(material["color"]), "sampling_weight": weight}
+
+
+def rectangle(quad, turned=False, lift=0.0):
+    _, normal = quad_corners(quad)
+    u, v = np.array(quad["edge_u"]) / 2, np.array(quad["edge_v"]) / 2
+    center = np.array(quad["corner"]) + u + v
+    if turned:
+        u, normal, center = -u, -normal, center - lift * normal
+    matrix = np.eye(4)
+    matrix[:3, 0], matrix[:3, 1], matrix[:3, 2], matrix[:3, 3] = u, v, normal, center
+    return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
+
+
+def mesh(vertices, triangles, properties):
+    props = mi.Properties()
+    for name, value in properties.items():
+        props[name] = value
+    made = mi.Mesh("mesh", len(vertices), len(triangles), props=props, has_vertex_normals=False)
+    parameters = mi.traverse(made)
+    parameters["vertex_positions"] = vertices.ravel()
+    parameters["faces"] = triangles.ravel()
+    parameters.update()
+    return made
+
+
+class Peer:
+    name = "Mitsuba 3"
+    version = mi.__version__
+
+    def __init__(self):
+        self.variant = choose_variant()
+        mi.set_log_level(mi.LogLevel.Error)
+        self.settings = f"{self.variant}, path or volpath, multijitter"
+        if self.variant == "scalar_rgb":
+            self.settings += " (no LLVM of at least version 17 found: Debian's libllvm19)"
+        else:
+            dr.set_flag(dr.JitFlag.KernelHistory, True)
+            define_checker()
+
+    def open(self, scene):
+        if self.variant == "scalar_rgb" and any(is_checker(s["material"].get("color")) for s in scene.spheres):
+            raise ValueError("no solid checker in the scalar variant")
+        told = {"type": "scene"}
+        for i, sphere in enumerate(scene.spheres):
+            shape = {"type": "sphere", "center": sphere["center"], "radius": abs(sphere["radius"]),
+                     "flip_normals": sphere["radius"] < 0, "bsdf": bsdf(sphere["material"])}
+            if sphere["material"]["kind"] == "light":
+                shape["emitter"] = emitter(sphere["material"])
+            told[f"sphere{i}"] = shape
+        for i, quad in enumerate(scene.quads):
+            shape = {**rectangle(quad), "bsdf": bsdf(quad["material"])}
+            if quad["material"]["kind"] == "light":
+                behind = has_wall_behind(quad, scene.quads)
+                shape["emitter"] = emitter(quad["material"])
+                told[f"quad{i}b"] = {**rectangle(quad, turned=True, lift=1e-3), "bsdf": bsdf(quad["material"]),
+                                     "emitter": emitter(quad["material"], RARELY if behind else 1.0)}
+            told[f"quad{i}"] = shape
+        for i, m in enumerate(scene.meshes):
+            told[f"mesh{i}"] = mesh(m["vertices"], m["triangles"], {"bsdf": mi.load_dict(bsdf(m["material"]))})
+        for i, medium in enumerate(scene.media):
+            inside = mi.load_dict({"type": "homogeneous", "albedo": rgb(medium["albedo"]),
+                                   "sigma_t": float(medium["density"]), "phase": {"type": "isotropic"}})
+            boundary = quads_mesh(lifted(medium["boundary"]["quads"], LIFT))
+            told[f"medium{i}"] = mesh(*boundary, {"bsdf": mi.load_dict({"type": "null"}), "interior": inside})
+        if scene.has_gradient():
+            told["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(sky_image(scene.background))}
+        elif not scene.is_dark():
+            told["sky"] = {"type": "constant", "radiance": rgb(scene.background["top"])}
+        self.scene = mi.load_dict(told)
+        self.camera = scene.camera
+        # Roulette pays but where light has to pass glass.
+        self.integrator = {"type": "volpath" if scene.media else "path", "max_depth": scene.max_depth,
+                           "rr_depth": 100 if scene.has("glass") else 5}
+
+    def sensor(self, size):
+        c = self.camera
+        told = {"type": "thinlens" if c["lens_radius"] > 0 else "perspective", "fov": c["vertical_fov"],
+                "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e5,
+                "to_world": mi.ScalarTransform4f().look_at(c["look_from"], c["look_at"], c["up"]),
+                "film": {"type": "hdrfilm", "width": size, "height": size, "pixel_format": "rgb",
+                         "component_format": "float32", "rfilter": {"type": "box"}},
+                "sampler": {"type": "multijitter"}}
+        if c["lens_radius"] > 0:
+            told.update(aperture_radius=c["lens_radius"], focus_distance=c["focus_distance"])
+        return mi.load_dict(told)
+
+    def render(self, size, spp, seed, threads):
+        sensor, told = self.sensor(size), dict(self.integrator)
+        dr.set_thread_count(threads)
+        passes = 1
+        while self.variant != "scalar_rgb" and spp % (2 * passes) == 0 and spp // passes * size**2 > LANES:
+            passes *= 2
+        if passes > 1:
+            told["samples_per_pass"] = spp // passes
+        return self.measured(mi.load_dict(told), sensor, spp, seed)
+
+    def measured(self, integrator, sensor, spp, seed):
+        """Seconds of the LLVM variant are those of its kernels: recording and compiling them is apart."""
+        start = time.perf_counter()
+        if self.variant != "scalar_rgb":
+            dr.kernel_history_clear()
+        picture = mi.render(self.scene, sensor=sensor, integrator=integrator, spp=spp, seed=seed)
+        if self.variant == "scalar_rgb":
+            seconds = time.perf_counter() - start
+        else:
+            dr.eval(picture)
+            dr.sync_thread()
+            seconds = 1e-3 * sum(kernel["execution_time"] for kernel in dr.kernel_history())
+        return np.array(picture).reshape(sensor.film().size()[1], -1, 3), seconds, spp

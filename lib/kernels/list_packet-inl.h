@@ -1,0 +1,321 @@
+// Rays of any directions against all primitives of a small scene, a lane each. Per-target include guard, as Highway has
+// it.
+#if defined(LIMN_KERNELS_LIST_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_LIST_PACKET_INL_H
+#undef LIMN_KERNELS_LIST_PACKET_INL_H
+#else
+#define LIMN_KERNELS_LIST_PACKET_INL_H
+#endif
+
+#include "kernels/list-inl.h"
+#include "kernels/list_exact.h"
+#include "kernels/queries.h"
+#include "kernels/winners-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+using RayLanes = hn::CappedTag<float, 16>;
+using RV = hn::Vec<RayLanes>;
+using RM = hn::Mask<RayLanes>;
+inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
+
+// Query: Closest or Any<false>, one for each ray. As in Traversal, sure hits wait, the nearest alone is to be asked
+// exactly: it is left in `winners`, by entry.
+template <class Query>
+class ListPacket {
+public:
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    // All is kept by reference. \pre 0 < count <= kPacket; `winners` has room for kPacket
+    ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* winners)
+        : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), winners_(winners), count_(count) {
+        const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
+        for (std::size_t i = 0; i < kPacket; ++i) {
+            const Ray& ray = rays[i < count ? i : 0];
+            for (std::size_t a = 0; a < 3; ++a) {
+                origin_[a][i] = (&ray.origin.x)[a];
+                direction_[a][i] = (&ray.direction.x)[a];
+            }
+            t_min_[i] = ray.t_min, t_max_[i] = i < count ? queries[i].limit() : -kInfinity;
+        }
+        set_up(extent);
+    }
+
+    void run() {
+        const RayLanes d;
+        LaneRay<RayLanes> ray{hn::Load(d, o_[0]),         hn::Load(d, o_[1]), hn::Load(d, o_[2]),  hn::Load(d, d_[0]),
+                              hn::Load(d, d_[1]),         hn::Load(d, d_[2]), hn::Load(d, reach_), hn::Load(d, size_),
+                              hn::Load(d, inverse_size_), hn::Zero(d)};
+        if (list_.spheres != 0)
+            ray.inverse_squared = hn::Div(
+                hn::Set(d, 1.0f), hn::MulAdd(ray.dx, ray.dx, hn::MulAdd(ray.dy, ray.dy, hn::Mul(ray.dz, ray.dz))));
+        hn::Store(hn::Set(hn::RebindToUnsigned<RayLanes>(), kNone), hn::RebindToUnsigned<RayLanes>(), winners_);
+        const auto all = hn::FirstN(d, hn::Lanes(d)), none = hn::FirstN(d, 0);
+        for (std::uint32_t i = 0; i < list_.quads; ++i) {
+            planar(i, none, ray);
+            if (Query::kFirstHit && active_ == 0) break;
+        }
+        for (std::uint32_t i = list_.quads; i < list_.planars(); ++i) {
+            planar(i, all, ray);
+            if (Query::kFirstHit && active_ == 0) break;
+        }
+        for (std::uint32_t i = 0; i < list_.spheres; ++i) {
+            if (Query::kFirstHit && active_ == 0) break;
+            sphere(i, ray);
+        }
+        for (std::size_t r = 0; r < count_; ++r)
+            if ((odd_ >> r & 1) != 0) ask_all(r);
+    }
+
+private:
+    void set_up(float extent) {
+        const RayLanes d;
+        const auto ox = demoted(origin_[0]), oy = demoted(origin_[1]), oz = demoted(origin_[2]);
+        const auto dx = demoted(direction_[0]), dy = demoted(direction_[1]), dz = demoted(direction_[2]);
+        hn::Store(ox, d, o_[0]), hn::Store(oy, d, o_[1]), hn::Store(oz, d, o_[2]);
+        hn::Store(dx, d, d_[0]), hn::Store(dy, d, d_[1]), hn::Store(dz, d, d_[2]);
+        const auto start = max_abs(ox, oy, oz), size = max_abs(dx, dy, dz);
+        const auto reach = hn::Add(start, hn::Set(d, extent));
+        hn::Store(reach, d, reach_);
+        hn::Store(size, d, size_);
+        hn::Store(hn::Div(hn::Set(d, 1.0f), size), d, inverse_size_);
+        // No t that is met comes near these limits.
+        const auto most = hn::Set(d, 0x1p120f), least = hn::Neg(most);
+        const auto low = hn::Max(least, hn::Min(most, demoted(t_min_))),
+                   high = hn::Max(least, hn::Min(most, demoted(t_max_)));
+        const auto slack = hn::Set(d, 0x1p-22f);
+        const auto low_slack = hn::Mul(hn::Abs(low), slack), high_slack = hn::Mul(hn::Abs(high), slack);
+        hn::Store(hn::Sub(low, low_slack), d, possible_after_);
+        hn::Store(hn::Add(low, low_slack), d, certain_after_);
+        hn::Store(hn::Sub(high, high_slack), d, certain_before_);
+        hn::Store(hn::Add(high, high_slack), d, bound_);
+        const auto ordinary = hn::And(hn::And(hn::Gt(size, hn::Set(d, 0x1p-10f)), hn::Lt(size, hn::Set(d, 0x1p10f))),
+                                      hn::Lt(reach, hn::Set(d, 8 * extent)));
+        const std::uint32_t there = count_ == 32 ? ~0u : (1u << count_) - 1;
+        active_ = bits(d, ordinary) & there;
+        odd_ = there & ~active_;
+        leaving_ = bits(d, hn::Ge(low, hn::Zero(d)));
+    }
+
+    static RV demoted(const double* from) {
+        const RayLanes d;
+#if HWY_TARGET == HWY_SCALAR
+        return hn::Set(d, static_cast<float>(from[0]));
+#else
+        const hn::Half<RayLanes> dh;
+        const hn::Rebind<double, hn::Half<RayLanes> > dd;
+        return hn::Combine(d, hn::DemoteTo(dh, hn::Load(dd, from + kPacket / 2)), hn::DemoteTo(dh, hn::Load(dd, from)));
+#endif
+    }
+
+    HWY_INLINE void planar(std::uint32_t i, RM is_triangle, const LaneRay<RayLanes>& ray) {
+        const RayLanes d;
+        const float* rows = list_.planar.data() + i;
+        const std::size_t stride = list_.planar_stride;
+        const auto met = meet_listed(
+            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, is_triangle, ray);
+        const auto bound = hn::Load(d, bound_);
+        const auto outside =
+            hn::And(met.known, hn::Or(hn::Gt(met.near, bound), hn::Lt(met.far, hn::Load(d, possible_after_))));
+        std::uint32_t open = bits(d, hn::Not(hn::Or(met.missed, outside))) & active_;
+        if (open == 0) return;
+        const auto certainly = hn::And(met.certain, hn::And(hn::Gt(met.near, hn::Load(d, certain_after_)),
+                                                            hn::Lt(met.far, hn::Load(d, certain_before_))));
+        std::uint32_t certain = bits(d, certainly) & open;
+        if (certain != open) {
+            std::uint32_t unsure = open & ~certain;
+            // A ray leaves the surface that it starts on, and a shadow ray ends just before the light.
+            const std::uint32_t leaving =
+                unsure & leaving_ & bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d))));
+            if (leaving != 0) unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
+            const std::uint32_t inside = unsure & bits(d, met.certain);
+            if (inside != 0 && !list_.entries[i].is_instanced) unsure &= ~answer(i, inside);
+            for (; unsure != 0; unsure &= unsure - 1) ask(static_cast<std::size_t>(std::countr_zero(unsure)), i);
+            certain &= active_;
+        }
+        take(i, certain, met.near, met.far);
+    }
+
+    HWY_INLINE void sphere(std::uint32_t i, const LaneRay<RayLanes>& ray) {
+        const RayLanes d;
+        const float* rows = list_.round.data() + i;
+        const std::size_t stride = list_.sphere_stride;
+        const auto met = meet_sphere(
+            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, ray);
+        const auto certain_before = hn::Load(d, certain_before_), bound = hn::Load(d, bound_);
+        auto root =
+            first_root(d, met, hn::Load(d, possible_after_), hn::Load(d, certain_after_), certain_before, bound);
+        const std::uint32_t open = bits(d, hn::Not(root.missed)) & active_;
+        if (open == 0) return;
+        std::uint32_t certain = bits(d, root.certain) & open;
+        if (certain != open) {
+            const std::uint32_t number = list_.planars() + i;
+            const std::uint32_t ahead =
+                bits(d, hn::And(met.certain, hn::And(hn::Gt(met.near_last, hn::Load(d, certain_after_)),
+                                                     hn::Lt(met.far_last, certain_before))));
+            std::uint32_t inside = 0;
+            for (std::uint32_t unsure = open & ~certain; unsure != 0; unsure &= unsure - 1) {
+                const auto r = static_cast<std::size_t>(std::countr_zero(unsure));
+                const Side side = (leaving_ >> r & 1) != 0 ? side_of(list_.entries[number], rays_[r]) : Side::unknown;
+                if (side == Side::inside && (ahead >> r & 1) != 0)
+                    inside |= 1u << r;
+                else if (side != Side::leaving)
+                    ask(r, number);
+            }
+            const auto within = mask_of(inside);
+            root.near = hn::IfThenElse(within, met.near_last, root.near);
+            root.far = hn::IfThenElse(within, met.far_last, root.far);
+            certain = (certain | inside) & active_;
+        }
+        take(list_.planars() + i, certain, root.near, root.far);
+    }
+
+    // The sure hits of some lanes.
+    HWY_INLINE void take(std::uint32_t i, std::uint32_t certain, RV near, RV far) {
+        const RayLanes d;
+        if (certain == 0) return;
+        if constexpr (Query::kFirstHit) {
+            active_ &= ~certain;
+            for (; certain != 0; certain &= certain - 1) queries_[std::countr_zero(certain)].report({}, 0, false);
+        } else {
+            const auto new_bound = hn::Min(hn::Load(d, bound_), hn::MulAdd(hn::Abs(far), hn::Set(d, 0x1p-22f), far));
+            // Where the one before may still be the nearest it is asked now.
+            const auto has_winner = hn::Ne(hn::Load(hn::RebindToUnsigned<RayLanes>(), winners_),
+                                           hn::Set(hn::RebindToUnsigned<RayLanes>(), kNone));
+            const std::uint32_t waiting = bits(hn::RebindToUnsigned<RayLanes>(), has_winner);
+            const std::uint32_t both = certain & waiting & bits(d, hn::Le(hn::Load(d, near_), new_bound));
+            for (std::uint32_t lanes = both; lanes != 0; lanes &= lanes - 1) {
+                const auto r = static_cast<std::size_t>(std::countr_zero(lanes));
+                ask(r, winners_[r]);
+            }
+            const hn::RebindToUnsigned<RayLanes> du;
+            const auto taken = mask_of(certain);
+            hn::Store(hn::Min(hn::Load(d, bound_), hn::IfThenElse(taken, new_bound, hn::Load(d, bound_))), d, bound_);
+            hn::Store(hn::IfThenElse(taken, near, hn::Load(d, near_)), d, near_);
+            hn::Store(hn::IfThenElse(hn::RebindMask(du, taken), hn::Set(du, i), hn::Load(du, winners_)), du, winners_);
+        }
+    }
+
+    static RM mask_of(std::uint32_t lanes) {
+        const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes), static_cast<std::uint8_t>(lanes >> 8)};
+        return hn::LoadMaskBits(RayLanes(), bytes);
+    }
+
+    using Doubles = hn::CappedTag<double, 8>;
+
+    // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its answers together.
+    template <class Visit>
+    HWY_INLINE static std::uint32_t by_halves(std::uint32_t lanes, const Visit& visit) {
+        constexpr std::size_t kSome = hn::MaxLanes(Doubles());
+        std::uint32_t result = 0;
+        for (std::size_t h = 0; h < kPacket; h += kSome) {
+            const std::uint32_t here = lanes >> h & ((1u << kSome) - 1);
+            if (here != 0) result |= (visit(h, here) & here) << h;
+        }
+        return result;
+    }
+
+    // Those of the lanes whose origin the plane lies behind.
+    HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
+        const PlaneBehind plane(e);
+        return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
+            const Doubles d;
+            const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(against >> h)};
+            return bits(d, plane.is_behind(d, hn::Load(d, origin_[0] + h), hn::Load(d, origin_[1] + h),
+                                           hn::Load(d, origin_[2] + h), hn::LoadMaskBits(d, bytes)));
+        });
+    }
+
+    // Those of the lanes that the exact filter answers; a hit is reported.
+    HWY_NOINLINE std::uint32_t answer(std::uint32_t i, std::uint32_t lanes) {
+        const PrimitiveList::Entry& e = list_.entries[i];
+        return by_halves(lanes, [&](std::size_t h, std::uint32_t here) HWY_ATTR {
+            const Doubles d;
+            PlanarAnswers<Doubles> a;
+            if (e.kind == PrimitiveKind::quad) {
+                const flat::Quad& q = scene_.quads[e.row];
+                a = PlanarFilter<true, Doubles>::answer(d, question(h, q.corner, q.edge_u, q.edge_v));
+            } else {
+                const TriangleVertices t = triangle_listed(scene_, e);
+                a = PlanarFilter<false, Doubles>::answer(d, question(h, t.a, t.b, t.c));
+            }
+            HWY_ALIGN double t[8], u[8], v[8];
+            hn::Store(a.t, d, t), hn::Store(a.u, d, u), hn::Store(a.v, d, v);
+            const std::uint32_t hits = bits(d, a.hit);
+            for (std::uint32_t rest = hits & here; rest != 0; rest &= rest - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+                queries_[h + k].report({t[k], u[k], v[k]}, e.number, false);
+                note_limit(h + k);
+            }
+            return hits | bits(d, a.miss);
+        });
+    }
+
+    // Of one primitive and the rays from lane h on.
+    template <class A, class B>
+    HWY_INLINE PlanarQuestion<Doubles> question(std::size_t h, const A& a, const B& b, const B& c) const {
+        const Doubles d;
+        const auto load = [&](const double* row) HWY_ATTR { return hn::Load(d, row + h); };
+        const auto dx = load(direction_[0]), dy = load(direction_[1]), dz = load(direction_[2]);
+        // The longest axis, as ShearedRay chooses it.
+        const auto x = hn::Abs(dx), y = hn::Abs(dy);
+        const auto x_over_y = hn::Gt(x, y);
+        const auto z_longest = hn::Not(hn::Gt(hn::IfThenElse(x_over_y, x, y), hn::Abs(dz)));
+        using DV = hn::Vec<Doubles>;
+        const auto permute = [&](DV v0, DV v1, DV v2, DV* out) HWY_ATTR {
+            out[0] = hn::IfThenElse(z_longest, v0, hn::IfThenElse(x_over_y, v1, v2));
+            out[1] = hn::IfThenElse(z_longest, v1, hn::IfThenElse(x_over_y, v2, v0));
+            out[2] = hn::IfThenElse(z_longest, v2, hn::IfThenElse(x_over_y, v0, v1));
+        };
+        const auto permute_one = [&](double v0, double v1, double v2, DV* out)
+                                     HWY_ATTR { permute(hn::Set(d, v0), hn::Set(d, v1), hn::Set(d, v2), out); };
+        PlanarQuestion<Doubles> q;
+        permute(load(origin_[0]), load(origin_[1]), load(origin_[2]), q.origin);
+        permute(dx, dy, dz, q.direction);
+        permute_one(a.x, a.y, a.z, q.vertex);
+        permute_one(b.x, b.y, b.z, q.vertex + 3);
+        permute_one(c.x, c.y, c.z, q.vertex + 6);
+        q.origin_error = q.direction_error = hn::Zero(d);
+        q.t_min = load(t_min_), q.t_max = load(t_max_);
+        return q;
+    }
+
+    // After a report.
+    void note_limit(std::size_t r) {
+        const double limit = queries_[r].limit();
+        t_max_[r] = limit;
+        const float bound = above(static_cast<float>(limit));
+        if (bound < bound_[r]) bound_[r] = bound;
+        if (queries_[r].ended()) active_ &= ~(1u << r);
+    }
+
+    HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
+        ask_listed(scene_, list_.entries[i], rays_[r], queries_[r]);
+        note_limit(r);
+    }
+
+    HWY_NOINLINE void ask_all(std::size_t r) {
+        for (const PrimitiveList::Entry& e : list_.entries) {
+            ask_listed(scene_, e, rays_[r], queries_[r]);
+            if (Query::kFirstHit && queries_[r].ended()) return;
+        }
+    }
+
+    const flat::Scene& scene_;
+    const PrimitiveList& list_;
+    const Ray* rays_;
+    Query* queries_;
+    std::uint32_t* winners_;
+    std::size_t count_;
+    std::uint32_t active_ = 0, odd_ = 0, leaving_ = 0;  // by lane
+    HWY_ALIGN double origin_[3][kPacket], direction_[3][kPacket], t_min_[kPacket], t_max_[kPacket];
+    HWY_ALIGN float o_[3][kPacket], d_[3][kPacket], reach_[kPacket], size_[kPacket], inverse_size_[kPacket];
+    HWY_ALIGN float possible_after_[kPacket], certain_after_[kPacket], certain_before_[kPacket], bound_[kPacket],
+        near_[kPacket];
+};
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,168 @@
+// One ray against all primitives of a small scene, a primitive in each lane. Per-target include guard, as Highway has
+// it.
+#if defined(LIMN_KERNELS_LIST_RAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_LIST_RAY_INL_H
+#undef LIMN_KERNELS_LIST_RAY_INL_H
+#else
+#define LIMN_KERNELS_LIST_RAY_INL_H
+#endif
+
+#include "kernels/list_packet-inl.h"
+#include "kernels/winners-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+// PlaneBehind for one ray.
+HWY_INLINE bool is_behind(const PrimitiveList::Entry& e, const Point3& origin, bool against) {
+    const hn::CappedTag<double, 1> d;
+    return bits(d, PlaneBehind(e).is_behind(d, hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z),
+                                            hn::FirstN(d, against ? 1 : 0))) != 0;
+}
+
+// Whether a question to a primitive that is met inside its edges could be answered at once; a hit is reported.
+template <class Query>
+HWY_INLINE bool settle_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
+                              Query& query) {
+    if (e.is_instanced) return false;
+    const Search search{frame.ray.t_min, query.limit()};
+    PlanarHit hit;
+    Decision decision = Decision::unsure;
+    if (e.kind == PrimitiveKind::quad) {
+        const flat::Quad& q = scene.quads[e.row];
+        decision = settle_one<true>(frame, search, q.corner, q.edge_u, q.edge_v, hit);
+    } else if (e.kind == PrimitiveKind::sphere) {
+        decision = settle_one(frame, search, e.corner, e.radius, hit);
+    } else {
+        const TriangleVertices t = triangle_listed(scene, e);
+        decision = settle_one<false>(frame, search, t.a, t.b, t.c, hit);
+    }
+    if (decision == Decision::hit) query.report(hit, e.number, false);
+    return decision != Decision::unsure;
+}
+
+template <class Query>
+HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query) {
+    const RayLanes d;
+    const PrimitiveList& list = scene.list;
+    const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
+    const auto ox = static_cast<float>(ray.origin.x), oy = static_cast<float>(ray.origin.y),
+               oz = static_cast<float>(ray.origin.z);
+    const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y),
+               dz = static_cast<float>(ray.direction.z);
+    const auto largest = [](float a, float b, float c) {
+        const float x = std::abs(a), y = std::abs(b), z = std::abs(c), xy = x > y ? x : y;
+        return xy > z ? xy : z;
+    };
+    const float size = largest(dx, dy, dz), reach = largest(ox, oy, oz) + extent;
+    const bool ordinary = size > 0x1p-10f && size < 0x1p10f && reach < 8 * extent;
+    if (HWY_UNLIKELY(!ordinary)) {
+        for (const PrimitiveList::Entry& e : list.entries) {
+            ask_listed(scene, e, ray, query);
+            if (query.ended()) return;
+        }
+        return;
+    }
+    const LaneRay<RayLanes> lanes{hn::Set(d, ox),       hn::Set(d, oy),
+                                  hn::Set(d, oz),       hn::Set(d, dx),
+                                  hn::Set(d, dy),       hn::Set(d, dz),
+                                  hn::Set(d, reach),    hn::Set(d, size),
+                                  hn::Set(d, 1 / size), hn::Set(d, 1 / (dx * dx + dy * dy + dz * dz))};
+    constexpr float kMost = 0x1p120f;
+    const auto limited = [](double t) {
+        return static_cast<float>(t < -double{kMost} ? -double{kMost} : t > double{kMost} ? double{kMost} : t);
+    };
+    const float low = limited(ray.t_min), high = limited(query.limit());
+    const auto possible_after = hn::Set(d, below(low)), certain_after = hn::Set(d, above(low)),
+               certain_before = hn::Set(d, below(high));
+    float bound = above(high);
+    HWY_ALIGN float near[PrimitiveList::kMost + 2 * kPacket];
+    std::uint64_t waiting = 0;
+    for (std::size_t i = 0; i < list.planars(); i += hn::Lanes(d)) {
+        const float* rows = list.planar.data() + i;
+        const std::size_t stride = list.planar_stride;
+        const auto is_triangle = hn::Not(hn::FirstN(d, list.quads > i ? list.quads - i : 0));
+        const auto there = hn::FirstN(d, list.planars() - i);
+        const auto met = meet_listed(
+            d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, is_triangle, lanes);
+        const auto outside =
+            hn::And(met.known, hn::Or(hn::Gt(met.near, hn::Set(d, bound)), hn::Lt(met.far, possible_after)));
+        const auto open = hn::AndNot(hn::Or(met.missed, outside), there);
+        if (hn::AllFalse(d, open)) continue;
+        const auto certain = hn::And(hn::And(open, met.certain),
+                                     hn::And(hn::Gt(met.near, certain_after), hn::Lt(met.far, certain_before)));
+        const std::uint32_t certain_bits = bits(d, certain);
+        if constexpr (Query::kFirstHit) {
+            if (certain_bits != 0) {
+                query.report({}, 0, false);
+                return;
+            }
+        } else if (certain_bits != 0) {
+            hn::Store(met.near, d, near + i);
+            waiting |= std::uint64_t{certain_bits} << i;
+            const auto far_bound = hn::MulAdd(hn::Abs(met.far), hn::Set(d, 0x1p-22f), met.far);
+            const float least = hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(certain, far_bound, hn::Set(d, bound))));
+            if (least < bound) bound = least;
+        }
+        std::uint32_t unsure = bits(d, open) & ~certain_bits;
+        if (unsure != 0) {
+            hn::Store(met.near, d, near + i);
+            const std::uint32_t known = bits(d, met.known), inside = bits(d, met.certain);
+            const std::uint32_t leaving =
+                ray.t_min >= 0 ? bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d)))) : 0u;
+            const std::uint32_t against = bits(d, hn::Lt(met.along, hn::Zero(d)));
+            for (; unsure != 0; unsure &= unsure - 1) {
+                const auto k = static_cast<std::uint32_t>(std::countr_zero(unsure));
+                if ((known >> k & 1) != 0 && near[i + k] > bound) continue;
+                const PrimitiveList::Entry& e = list.entries[i + k];
+                if ((leaving >> k & 1) != 0 && is_behind(e, ray.origin, (against >> k & 1) != 0)) continue;
+                if ((inside >> k & 1) == 0 || !settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
+                if (query.ended()) return;
+                const float limit = above(limited(query.limit()));
+                if (limit < bound) bound = limit;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < list.spheres; i += hn::Lanes(d)) {
+        const float* rows = list.round.data() + i;
+        const std::size_t stride = list.sphere_stride, number = list.planars() + i;
+        const auto met = meet_sphere(
+            d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, lanes);
+        const auto root = first_root(d, met, possible_after, certain_after, certain_before, hn::Set(d, bound));
+        const auto open = hn::AndNot(root.missed, hn::FirstN(d, list.spheres - i));
+        if (hn::AllFalse(d, open)) continue;
+        const std::uint32_t certain_bits = bits(d, hn::And(open, root.certain));
+        if constexpr (Query::kFirstHit) {
+            if (certain_bits != 0) {
+                query.report({}, 0, false);
+                return;
+            }
+        } else if (certain_bits != 0) {
+            hn::StoreU(root.near, d, near + number);
+            waiting |= std::uint64_t{certain_bits} << number;
+            const auto far_bound = hn::MulAdd(hn::Abs(root.far), hn::Set(d, 0x1p-22f), root.far);
+            const float least = hn::GetLane(
+                hn::MinOfLanes(d, hn::IfThenElse(hn::And(open, root.certain), far_bound, hn::Set(d, bound))));
+            if (least < bound) bound = least;
+        }
+        for (std::uint32_t unsure = bits(d, open) & ~certain_bits; unsure != 0; unsure &= unsure - 1) {
+            const PrimitiveList::Entry& e = list.entries[number + static_cast<std::uint32_t>(std::countr_zero(unsure))];
+            if (ray.t_min >= 0 && side_of(e, ray) == Side::leaving) continue;
+            ask_listed(scene, e, ray, query);
+            if (query.ended()) return;
+            const float limit = above(limited(query.limit()));
+            if (limit < bound) bound = limit;
+        }
+    }
+    for (; waiting != 0; waiting &= waiting - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(waiting));
+        if (near[k] > bound) continue;
+        const PrimitiveList::Entry& e = list.entries[k];
+        if (!settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
+    }
+}
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
