@@ -5,6 +5,7 @@
 
 #include "kernels/traverse.h"
 #include "limn/scene/background.h"
+#include "render/direct_light.h"
 #include "render/light_sampling.h"
 #include "render/shading.h"
 #include "render/surface_at.h"
@@ -13,18 +14,14 @@ namespace limn::tracing {
 
 namespace {
 
-// Unlimited paths end by Russian roulette from this many segments on: earlier ones carry most of the light.
-constexpr int kRouletteStart = 4;
-// Even a path that loses nothing must end some day; at 0.999 the variance that this adds is not measurable.
+// Russian roulette: from this vertex on a path goes on with this many times its throughput as probability. Measured by
+// time times error on figures 1, 12, 13, 15, 16, against no roulette up to depth 10: 0.98, 0.93, 0.97, 0.73, 0.72. A
+// factor of 2 or 4 is within 5 % in each; without one (survival by throughput alone) figure 13 takes a third longer.
+constexpr int kRouletteStart = 2;
+constexpr double kSurvivalPerThroughput = 3;
+// Even a path that loses nothing must end some day where there is no limit; at 0.999 the variance that this adds is not
+// measurable.
 constexpr double kLargestSurvival = 0.999;
-
-// Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
-// 9.2.4), for the technique with density a against the one with density b.
-double power_heuristic(double a, double b) {
-    if (std::isinf(a)) return 1;
-    const double ratio = b / a;
-    return 1 / (1 + ratio * ratio);
-}
 
 }  // namespace
 
@@ -33,6 +30,7 @@ struct PathTracer::Vertex {
     Surface surface;
     Vec3 out;  // unit, back along the path
     std::uint64_t primitive = flat::RawHit::kMiss;
+    double passed = 1;  // share of the throughput that media on the way here have left
 };
 
 // Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
@@ -47,6 +45,13 @@ bool PathTracer::count(const Ray& ray) {
 // bend light are passed.
 PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
     vertex.out = -normalize(ray.direction);
+    vertex.passed = 1;
+    double depth = 0, choose = 0;
+    if (!flat::media_of(scene_).empty()) {
+        // 53 bits: up to 36.7 mean free paths.
+        depth = -std::log1p(-sampler.next());
+        choose = sampler.next();
+    }
     for (;;) {
         if (!count(ray)) return End::lost;
         const flat::RawHit hit = kernels::closest_hit(scene_, ray);
@@ -54,14 +59,16 @@ PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
             Ray flight = ray;
             flight.t_max = hit.t;
             media_.trace(scene_, flight);
-            const double random = sampler.next(), choose = sampler.next();
-            if (const std::optional<FreeFlight> event = media_.sample(random, choose)) {
+            const FreeFlight flown = media_.sample(depth, choose);
+            vertex.passed *= flown.weight;
+            if (flown.scatters) {
                 vertex.surface = {};
-                vertex.surface.position = ray.at(event->t);
-                vertex.surface.material = {static_cast<std::uint32_t>(event->phase), nullptr, nullptr};
+                vertex.surface.position = ray.at(flown.t);
+                vertex.surface.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
                 vertex.primitive = flat::RawHit::kMiss;
                 return End::vertex;
             }
+            depth -= flown.depth;
         }
         if (hit.primitive == flat::RawHit::kMiss) return End::background;
         const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
@@ -75,64 +82,62 @@ PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
 // The rendering equation by scattering: L = sum over path vertices of throughput * emission, where the throughput grows
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
+//
+// Each vertex draws the same numbers in the same order, whether it needs them or not, so that a dimension of the
+// sampler means the same in all paths of a scene.
 Color PathTracer::radiance(Ray ray, Sampler& sampler) {
     Color light, throughput{1, 1, 1};
     Vertex vertex;
-    Point3 previous = ray.origin;
+    Receiver previous;       // the vertex before, as lights saw it
     double scatter_pdf = 0;  // of the last direction; 0: specular or from the camera, no light sampling competes
     for (int segment = 1; segment <= max_depth_; ++segment) {
         const End end = advance(ray, vertex, sampler);
+        throughput = vertex.passed * throughput;
         if (end == End::background)
             light += throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(ray.direction);
-        if (end != End::vertex) break;
+        if (end != End::vertex || is_black(throughput)) break;
         if (vertex.primitive != flat::RawHit::kMiss) {
             const Color emission = emitted(scene_, vertex.surface);
             if (!is_black(emission)) {
-                const double light_pdf = sample_lights_ && scatter_pdf > 0
-                                             ? pdf_light(scene_, vertex.primitive, previous, vertex.surface, ray.time)
-                                             : 0;
+                const double light_pdf =
+                    sample_lights_ && scatter_pdf > 0
+                        ? pdf_light(scene_, previous, ray.time, vertex.primitive, vertex.surface.position)
+                        : 0;
                 light += throughput * emission * (light_pdf > 0 ? power_heuristic(scatter_pdf, light_pdf) : 1);
             }
         }
         if (segment == max_depth_) break;
-        if (sample_lights_ && can_be_evaluated(scene_, vertex.surface.material))
-            light += throughput * direct_light(vertex, ray.time, sampler);
-
-        const std::optional<ScatterSample> scattered =
-            sample_material(scene_, vertex.surface, vertex.out, sampler.next_3d());
+        if (sample_lights_) {
+            const LightNumbers numbers{sampler.next(), sampler.next_2d()};
+            previous = receiver_at(scene_, vertex.surface);
+            if (can_be_evaluated(scene_, vertex.surface.material))
+                light += throughput * direct_light(vertex, previous, ray.time, numbers);
+        }
+        const Random3 directions = sampler.next_3d();
+        const double roulette = sampler.next();
+        const std::optional<ScatterSample> scattered = sample_material(scene_, vertex.surface, vertex.out, directions);
         if (!scattered || is_black(scattered->weight)) break;
         throughput *= scattered->weight;
-        if (max_depth_ == kUnlimitedDepth && segment >= kRouletteStart) {
-            const double survival = std::min(max_component(throughput), kLargestSurvival);
-            if (!(sampler.next() < survival)) break;
+        const double survival = std::min(kSurvivalPerThroughput * max_component(throughput), kLargestSurvival);
+        if (roulette_ && segment >= kRouletteStart && (survival < kLargestSurvival || max_depth_ == kUnlimitedDepth)) {
+            if (!(roulette < survival)) break;
             throughput = throughput / survival;
         }
         scatter_pdf = scattered->pdf;
-        previous = vertex.surface.position;
         ray = vertex.surface.spawn_ray(scattered->direction, ray.time);
     }
     return light;
 }
 
-// f |cos| * emission * transmittance / pdf for one direction towards a light, weighted against finding it by
-// scattering.
-Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampler) {
-    const double pick = sampler.next();
-    const Uv uv = sampler.next_2d();
-    const std::optional<LightSample> s = sample_light(scene_, vertex.surface.position, time, pick, uv.u, uv.v);
-    if (!s) return {};
-    const ScatterValue f = material_value(scene_, vertex.surface, vertex.out, s->direction);
-    if (is_black(f.value)) return {};
-    const Color emission = emitted(scene_, s->point);
-    if (is_black(emission)) return {};
-    const Ray shadow = vertex.surface.spawn_ray_to(s->point, time);
-    if (!count(shadow) || kernels::is_occluded(scene_, shadow)) return {};
-    double transmittance = 1;
-    if (!flat::media_of(scene_).empty()) {
-        media_.trace(scene_, shadow);
-        transmittance = media_.transmittance();
-    }
-    return f.value * emission * (transmittance * power_heuristic(s->pdf, f.pdf) / s->pdf);
+// One direction towards a light.
+Color PathTracer::direct_light(const Vertex& vertex, const Receiver& receiver, double time,
+                               const LightNumbers& numbers) {
+    const std::optional<DirectLight> direct =
+        prepare_direct_light(scene_, vertex.surface, receiver, vertex.out, time, numbers);
+    if (!direct || !count(direct->shadow) || kernels::is_occluded(scene_, direct->shadow)) return {};
+    if (flat::media_of(scene_).empty()) return direct->light;
+    media_.trace(scene_, direct->shadow);
+    return direct->light * media_.transmittance();
 }
 
 }  // namespace limn::tracing
