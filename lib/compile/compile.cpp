@@ -187,9 +187,11 @@ std::size_t memory_of(const flat::Scene& s) {
     std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
                       bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
                       bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) +
-                      bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights) +
-                      bytes(s.materials) + bytes(s.textures) + bytes(s.kept) + bytes(s.list.entries) +
-                      bytes(s.list.planar) + bytes(s.list.round);
+                      bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights.own) +
+                      bytes(s.lights.places) + bytes(s.lights.refs) + bytes(s.lights.nodes) +
+                      bytes(s.lights.by_number) + bytes(s.lights.strength_before) + bytes(s.lights.guide) +
+                      bytes(s.lights.instances) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept) +
+                      bytes(s.list.entries) + bytes(s.list.planar) + bytes(s.list.round);
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +

@@ -91,6 +91,7 @@ private:
         medium.first_instance = static_cast<std::uint32_t>(scene_.medium_instances.size());
         medium.instance_count = static_cast<std::uint32_t>(path_.size());
         medium.first_number = number;
+        medium.scattered = largest_albedo(scene_.medium_shapes[shape].phase);
         medium.bounds = flat::group_at(scene_, scene_.medium_shapes[shape].boundary).bounds;
         for (auto row = path_.rbegin(); row != path_.rend(); ++row) {
             const flat::Instance& instance = scene_.instances[*row];
@@ -98,6 +99,13 @@ private:
         }
         scene_.medium_instances.insert(scene_.medium_instances.end(), path_.begin(), path_.end());
         scene_.media.push_back(medium);
+    }
+
+    double largest_albedo(MaterialId phase) const {
+        if (phase == MaterialId::none) return 1;
+        const MaterialRecord& m = scene_.materials[static_cast<std::size_t>(phase)];
+        if (m.kind != MaterialKind::isotropic || !flat::is_plain(scene_, phase)) return 1;
+        return std::min(1.0, max_component(scene_.textures[static_cast<std::size_t>(m.texture)].color));
     }
 
     flat::Scene& scene_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/light_tree.h"
 #include "compile/reach.h"
 #include "core/hit_error.h"
 #include "core/mesh_triangle.h"
@@ -50,13 +51,23 @@ std::optional<double> uniform_scale(const Transform& m) {
     return off <= 1e-12 * s ? std::optional(std::sqrt(s)) : std::nullopt;
 }
 
-// Right angles but for rounding.
-bool is_rectangle(const flat::Light& light) {
-    return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
-}
-
 // Of an emitter in instances of instances of instances more copies than these are left to scattering.
 constexpr std::size_t kMaxLights = std::size_t{1} << 22;
+// Of moving instances around an emitter: where it may be is known from all combinations of their ends.
+constexpr int kMostMoving = 4;
+
+// The way from a group to the scene: the composed matrices at both ends of the shutter, and what they were composed of.
+struct Seen {
+    Transform at0, at1;
+    std::vector<std::uint32_t> instances;  // rows, outermost first
+    int moving = 0;                        // of these
+    bool straight = true;                  // none of these turns or stretches while it moves
+};
+
+bool same_but_for_translation(const Transform& a, Transform b) {
+    for (std::size_t i = 0; i < 3; ++i) b.rows[i][3] = a.rows[i][3];
+    return a == b;
+}
 
 class LightCollector {
 public:
@@ -66,18 +77,13 @@ public:
             brightness_.push_back(is_sampled ? typical_brightness(scene, m.texture) : 0);
         }
         emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
-        visit(GroupId::root, 0, Transform{});
-        weigh();
+        visit(GroupId::root, 0, {});
+        build_light_tree(std::move(items_), scene.lights);
     }
 
 private:
     double brightness(MaterialId id) const {
         return id == MaterialId::none ? 0 : brightness_[static_cast<std::size_t>(id)];
-    }
-
-    bool is_solid(MaterialId id) const {
-        const TextureId texture = scene_.materials[static_cast<std::size_t>(id)].texture;
-        return scene_.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
     }
 
     bool any_emits(const PrimitiveRange& range) const {
@@ -90,97 +96,173 @@ private:
         return false;
     }
 
-    void visit(GroupId id, std::uint64_t first_number, const Transform& world_from_group) {
-        if (!emits_[static_cast<std::size_t>(id)] || scene_.lights.size() >= kMaxLights) return;
+    void visit(GroupId id, std::uint64_t first_number, const Seen& seen) {
+        if (!emits_[static_cast<std::size_t>(id)] || items_.size() >= kMaxLights) return;
         const flat::Group group = flat::group_at(scene_, id);
         for (std::uint32_t i = 0; i < group.range_count; ++i) {
-            const PrimitiveRange range = scene_.ranges[group.first_range + i];
+            const std::uint32_t row = group.first_range + i;
+            const PrimitiveRange range = scene_.ranges[row];
             const std::uint64_t number = first_number + range.first_number;
-            if (range.kind == PrimitiveKind::instance) {
-                const flat::Instance& instance = scene_.instances[range.first_row];
-                if (!instance.moving) visit(instance.group, number, world_from_group * instance.world_from_object0);
-            } else if (range.kind != PrimitiveKind::medium && any_emits(range)) {
-                for (std::uint64_t e = 0; e < range.count; ++e) add(range, e, number + e, world_from_group);
+            if (range.kind == PrimitiveKind::instance)
+                enter(range.first_row, number, seen);
+            else if (range.kind != PrimitiveKind::medium && any_emits(range))
+                add(row, number, seen);
+        }
+    }
+
+    void enter(std::uint32_t row, std::uint64_t number, Seen seen) {
+        const flat::Instance& instance = scene_.instances[row];
+        const Transform& m0 = instance.world_from_object0;
+        const Transform& m1 = instance.moving ? instance.world_from_object1 : m0;
+        seen.at0 = seen.at0 * m0, seen.at1 = seen.at1 * m1;
+        seen.instances.push_back(row);
+        if (instance.moving) {
+            if (++seen.moving > kMostMoving) return;
+            seen.straight = seen.straight && same_but_for_translation(m0, m1);
+        }
+        visit(instance.group, number, seen);
+    }
+
+    // The lights of one range, seen through instances.
+    void add(std::uint32_t row, std::uint64_t number, const Seen& seen) {
+        const PrimitiveRange& range = scene_.ranges[row];
+        const bool planar = range.kind == PrimitiveKind::mesh || range.kind == PrimitiveKind::triangle ||
+                            range.kind == PrimitiveKind::quad;
+        const Transform inv = inverse(seen.at0);
+        const bool placed = planar && (seen.moving > 0 || range.kind == PrimitiveKind::mesh);
+        const auto place = static_cast<std::uint32_t>(scene_.lights.places.size());
+        std::size_t found = items_.size();
+        for (std::uint64_t e = 0; e < range.count && items_.size() < kMaxLights; ++e) {
+            if (!(brightness(material_of(scene_, range, e)) > 0)) continue;
+            LightItem item;
+            item.number = number + e;
+            if (planar) {
+                if (range.kind == PrimitiveKind::mesh &&
+                    is_degenerate(triangle_vertices(scene_.meshes[range.first_row].arrays, e)))
+                    continue;
+                flat::Light light = planar_light(scene_, range, e, seen.at0, inv);
+                light.number = item.number;
+                if (!(length_squared(cross(light.edge_u, light.edge_v)) > 0)) continue;
+                item.bounds = seen.moving > 0 ? bounds_of_moving(range, e, seen) : bounds_of_planar(light);
+                if (placed)
+                    item.ref = {place, static_cast<std::uint32_t>(e)};
+                else
+                    item.ref = own(light);
+            } else {
+                const std::optional<flat::Light> light = sphere(range, e, item.number, seen, inv);
+                if (!light) continue;
+                item.bounds = bounds_of_sphere(*light);
+                item.ref = own(*light);
             }
+            items_.push_back(item);
         }
+        if (placed && items_.size() > found) add_place(row, number, seen, inv);
     }
 
-    void add(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number, const Transform& m) {
-        flat::Light light;
-        light.number = number;
-        light.material = material_of(scene_, range, element);
-        if (!(brightness(light.material) > 0)) return;
+    flat::LightRef own(const flat::Light& light) {
+        scene_.lights.own.push_back(light);
+        return {flat::LightRef::kOwn, static_cast<std::uint32_t>(scene_.lights.own.size() - 1)};
+    }
+
+    void add_place(std::uint32_t row, std::uint64_t number, const Seen& seen, const Transform& inv) {
+        flat::LightPlace place;
+        place.range = row;
+        place.first_number = number;
+        if (seen.moving > 0) {
+            std::vector<std::uint32_t>& instances = scene_.lights.instances;
+            place.first_instance = static_cast<std::uint32_t>(instances.size());
+            place.instance_count = static_cast<std::uint32_t>(seen.instances.size());
+            instances.insert(instances.end(), seen.instances.begin(), seen.instances.end());
+        }
+        place.transformed = !(seen.at0 == Transform{});
+        place.world_from_object = seen.at0;
+        place.object_from_world = inv;
+        scene_.lights.places.push_back(place);
+    }
+
+    // Nothing where the instances bend it, or turn it while it moves.
+    std::optional<flat::Light> sphere(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number,
+                                      const Seen& seen, const Transform& inv) const {
         const auto row = range.first_row + element;
-        const Transform inv = inverse(m);
-        const auto sphere = [&](const Point3& center, const Vec3& motion, double radius) {
-            const std::optional<double> scale = uniform_scale(m);
-            // Texture coordinates belong to the object's own axes and side.
-            const bool own_axes = m == Transform{} && radius > 0;
-            if (!scale || (!own_axes && !is_solid(light.material))) return false;
-            light.kind = flat::LightKind::sphere;
-            light.origin = transform_point(m, center);
-            light.edge_u = transform_vector(m, motion);
-            light.radius = *scale * std::abs(radius);
-            const double reach = std::max(max_abs(light.origin), max_abs(light.origin + light.edge_u)) + light.radius;
-            const double own_reach = std::max(max_abs(center), max_abs(center + motion));
-            light.position_error = transformed_error(m, inv, Point3{reach, reach, reach},
-                                                     along_every_axis(gamma(16) * (own_reach + std::abs(radius))));
-            return true;
-        };
-        const auto planar = [&](flat::LightKind kind, const Point3& origin, const Vec3& u, const Vec3& v) {
-            light.kind = kind;
-            light.origin = transform_point(m, origin);
-            light.edge_u = transform_vector(m, u);
-            light.edge_v = transform_vector(m, v);
-            const double reach = max_abs(light.origin) + max_abs(light.edge_u) + max_abs(light.edge_v);
-            light.position_error = transformed_error(m, inv, Point3{reach, reach, reach}, planar_error(origin, u, v));
-            return length_squared(cross(light.edge_u, light.edge_v)) > 0;
-        };
-        bool usable = false;
+        SphereRecord s;
         if (range.kind == PrimitiveKind::sphere) {
-            const flat::Sphere& s = scene_.spheres[row];
-            usable = sphere(s.center, {}, s.radius);
-        } else if (range.kind == PrimitiveKind::moving_sphere) {
-            const flat::MovingSphere& s = scene_.moving_spheres[row];
-            usable = sphere(s.center0, s.center1 - s.center0, s.radius);
-        } else if (range.kind == PrimitiveKind::quad) {
-            const flat::Quad& q = scene_.quads[row];
-            usable = planar(flat::LightKind::parallelogram, q.corner, q.edge_u, q.edge_v);
-            if (is_rectangle(light)) light.kind = flat::LightKind::rectangle;
-        } else if (range.kind == PrimitiveKind::triangle) {
-            const flat::Triangle& t = scene_.triangles[row];
-            usable = planar(flat::LightKind::triangle, t.a, t.b - t.a, t.c - t.a);
+            const flat::Sphere& still = scene_.spheres[row];
+            s = {still.center, still.center, still.radius, still.material};
         } else {
-            const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
-            usable = !is_degenerate(v) && planar(flat::LightKind::triangle, v.a, v.b - v.a, v.c - v.a);
+            s = scene_.moving_spheres[row];
         }
-        if (usable) scene_.lights.push_back(light);
+        const std::optional<double> scale = uniform_scale(seen.at0);
+        // Texture coordinates belong to the object's own axes and side.
+        const bool plain = flat::is_plain(scene_, s.material);
+        const bool own_axes = seen.at0 == Transform{} && s.radius > 0;
+        if (!scale || !seen.straight || (!own_axes && !plain)) return std::nullopt;
+        flat::Light light;
+        light.kind = flat::LightKind::sphere;
+        light.number = number;
+        light.material = s.material;
+        light.textured = !plain;
+        light.origin = transform_point(seen.at0, s.center0);
+        light.edge_u = transform_point(seen.at1, s.center1) - light.origin;
+        light.radius = *scale * std::abs(s.radius);
+        const double reach = std::max(max_abs(light.origin), max_abs(light.origin + light.edge_u)) + light.radius;
+        const double own_reach = std::max(max_abs(s.center0), max_abs(s.center1));
+        light.position_error = transformed_error(seen.at0, inv, Point3{reach, reach, reach},
+                                                 along_every_axis(gamma(16) * (own_reach + std::abs(s.radius))));
+        return light;
     }
 
-    static double area(const flat::Light& light) {
-        if (light.kind == flat::LightKind::sphere) return 4 * kPi * light.radius * light.radius;
-        const double parallelogram = length(cross(light.edge_u, light.edge_v));
-        return light.kind == flat::LightKind::triangle ? parallelogram / 2 : parallelogram;
+    LightBounds bounds_of_sphere(const flat::Light& light) const {
+        LightBounds bounds;
+        for (const Point3& c : {light.origin, light.origin + light.edge_u})
+            for (const double r : {-light.radius, light.radius}) bounds.box.extend(c + along_every_axis(r));
+        bounds.axis = {0, 0, 1};
+        bounds.cos_spread = flat::kNoNormals;
+        bounds.strength = brightness(light.material) * kPi * light.radius * light.radius;
+        return bounds;
     }
 
-    // Half by power, half alike: power alone starves a weak light in the places that it is closest to.
-    void weigh() {
-        double total = 0;
-        for (const flat::Light& light : scene_.lights) total += brightness(light.material) * area(light);
-        const auto count = static_cast<double>(scene_.lights.size());
-        double below = 0;
-        for (flat::Light& light : scene_.lights) {
-            const double share = brightness(light.material) * area(light) / total;
-            light.pick = std::isfinite(share) ? (share + 1 / count) / 2 : 1 / count;
-            light.pick_below = below;
-            below += light.pick;
+    LightBounds bounds_of_planar(const flat::Light& light) const {
+        LightBounds bounds;
+        extend(bounds.box, light);
+        const Vec3 normal = cross(light.edge_u, light.edge_v);
+        bounds.axis = normalize(normal);
+        bounds.cos_spread = is_finite(bounds.axis) ? 1 : 0;
+        bounds.strength =
+            brightness(light.material) * length(normal) * (light.kind == flat::LightKind::triangle ? 0.5 : 1);
+        return bounds;
+    }
+
+    // A point's place under a product of matrices, each linear in time, lies in the hull of its places for all
+    // combinations of their ends (the product's Bernstein form has no negative weights).
+    LightBounds bounds_of_moving(const PrimitiveRange& range, std::uint64_t element, const Seen& seen) const {
+        LightBounds bounds;
+        bounds.axis = {0, 0, 1};
+        for (unsigned ends = 0; ends < 1u << seen.moving; ++ends) {
+            Transform m;
+            unsigned moving = 0;
+            for (const std::uint32_t row : seen.instances) {
+                const flat::Instance& instance = scene_.instances[row];
+                const bool last = instance.moving && (ends >> moving++ & 1) != 0;
+                m = m * (last ? instance.world_from_object1 : instance.world_from_object0);
+            }
+            const LightBounds end = bounds_of_planar(planar_light(scene_, range, element, m, inverse(m)));
+            bounds.box.extend(end.box);
+            bounds.strength += end.strength / (1u << seen.moving);
         }
-        for (flat::Light& light : scene_.lights) light.pick /= below, light.pick_below /= below;
+        return bounds;
+    }
+
+    static void extend(Box& box, const flat::Light& light) {
+        box.extend(light.origin);
+        box.extend(light.origin + light.edge_u);
+        box.extend(light.origin + light.edge_v);
+        if (light.kind != flat::LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
     }
 
     flat::Scene& scene_;
     std::vector<double> brightness_;  // by material; 0: does not emit
     std::vector<bool> emits_;         // by group
+    std::vector<LightItem> items_;
 };
 
 }  // namespace

@@ -4,35 +4,23 @@
 #include <cmath>
 
 #include "core/float_environment.h"
+#include "core/spawn.h"
 
 namespace limn {
 
-namespace {
-
-// A share of the way that no shape fits into: the error of t that filters reckon with, with room.
-constexpr double kShadowEnd = 0x1p-40;
-
-}  // namespace
-
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
     const FloatEnvironment environment;
-    const double distance = dot(abs(Vec3(normal)), error);
-    const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);
-    Point3 origin = position + offset;
-    for (std::size_t a = 0; a < 3; ++a) {  // the sum is rounded, perhaps back towards the surface
-        if (offset[a] > 0) origin[a] = std::nextafter(origin[a], kInfinity);
-        if (offset[a] < 0) origin[a] = std::nextafter(origin[a], -kInfinity);
-    }
-    return origin;
+    return offset_along(position, error, normal, direction);
 }
 
 Ray Surface::spawn_ray(const Vec3& direction, double time) const {
-    return {offset_origin(position, position_error, normal, direction), direction, 0, kInfinity, time};
+    const FloatEnvironment environment;
+    return leave(*this, direction, time);
 }
 
 Ray Surface::spawn_ray_to(const Point3& target, double time) const {
     const FloatEnvironment environment;
-    const Point3 origin = offset_origin(position, position_error, normal, target - position);
+    const Point3 origin = offset_along(position, position_error, normal, target - position);
     const Vec3 direction = target - origin;
     // A point that was computed lies off its surface by some units in the last place of its largest coordinate; seen
     // at a grazing angle (here: down to 1/8) this is as much more along the ray.
@@ -43,10 +31,7 @@ Ray Surface::spawn_ray_to(const Point3& target, double time) const {
 
 Ray Surface::spawn_ray_to(const Surface& target, double time) const {
     const FloatEnvironment environment;
-    const Point3 from = offset_origin(position, position_error, normal, target.position - position);
-    const Point3 to = offset_origin(target.position, target.position_error, target.normal, from - target.position);
-    // The direction is rounded, and what lies at the end is told apart from obstacles by the filters' t.
-    return {from, to - from, 0, 1 - kShadowEnd, time};
+    return leave_for(*this, target, time);
 }
 
 }  // namespace limn

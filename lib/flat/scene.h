@@ -11,6 +11,7 @@
 #include "core/mesh_triangle.h"
 #include "core/ray_frame.h"
 #include "flat/features.h"
+#include "flat/lights.h"
 #include "flat/list.h"
 #include "flat/tree.h"
 #include "limn/core/box.h"
@@ -81,21 +82,7 @@ struct Medium {
     std::uint32_t instance_count = 0;
     std::uint64_t first_number = 0;  // of its boundary's primitives, in the scene
     Box bounds;                      // in world space
-};
-
-enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
-
-// An emitter that can be sampled, in world space.
-struct Light {
-    LightKind kind = LightKind::triangle;
-    MaterialId material = MaterialId::none;
-    std::uint64_t number = 0;  // of its primitive
-    Point3 origin;             // a triangle's first vertex, a quad's corner, a sphere's centre at time 0
-    Vec3 edge_u, edge_v;       // of triangle and quad; of a sphere edge_u is the motion of its centre
-    double radius = 0;
-    Vec3 position_error;    // of points computed on it
-    double pick = 0;        // probability with which it is chosen
-    double pick_below = 0;  // sum of the probabilities before it
+    double scattered = 1;            // share of the extinction that may scatter: the largest albedo, 1 where unknown
 };
 
 struct Features {
@@ -129,7 +116,7 @@ struct Scene {
     std::vector<MediumRecord> medium_shapes;
     std::vector<Medium> media;
     std::vector<std::uint32_t> medium_instances;
-    std::vector<Light> lights;  // sorted by number
+    LightTable lights;
 
     std::vector<MaterialRecord> materials;
     std::vector<TextureRecord> textures;

@@ -326,6 +326,11 @@ bool is_occluded(const flat::Scene& scene, const Ray& ray) {
     return query.found;
 }
 
+void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
+    if (!scene.features.foreign_shapes) return any_hits(scene, rays, found);
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = is_occluded(scene, rays[i]) ? 1 : 0;
+}
+
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray) {
     Hit hit;
     if (!meets_bounds(medium, ray)) return hit;

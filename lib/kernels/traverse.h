@@ -28,6 +28,8 @@ void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t*
 
 // Whether something stops light on the way: a foreign shape that says its boundary is index-matched does not.
 bool is_occluded(const flat::Scene& scene, const Ray& ray);
+// The same for each of up to kMostRays rays.
+void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
 
 // The same for the boundary of a medium.
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);

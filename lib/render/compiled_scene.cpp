@@ -146,7 +146,7 @@ std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uin
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
     const FloatEnvironment environment;
-    return tracing::surface_at(*scene_, ray, {hit.t, hit.primitive}).surface;
+    return tracing::surface_at(*scene_, ray, {{hit.t, hit.primitive}, hit.u, hit.v}).surface;
 }
 
 const std::string& CompiledScene::features() const { return scene_->feature_names; }

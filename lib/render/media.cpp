@@ -67,8 +67,9 @@ void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium
 void MediaAlongRay::add_interval(double from, double to, double extinction, std::uint32_t medium) {
     to = std::min(to, t_max_);
     if (!(from < to)) return;
-    steps_.push_back({from, extinction, medium});
-    steps_.push_back({to, -extinction, medium});
+    const double scattering = extinction * scene_->media[medium].scattered;
+    steps_.push_back({from, extinction, scattering, medium});
+    steps_.push_back({to, -extinction, -scattering, medium});
 }
 
 // Of a stretch of the ray without crossings, from another ray that starts in its middle. That one meets no edges: it
@@ -84,53 +85,68 @@ bool MediaAlongRay::is_inside(const flat::Scene& scene, std::uint32_t medium, co
 
 template <class Visit>
 void MediaAlongRay::for_each_stretch(const Visit& visit) const {
-    double extinction = 0, t = 0;
-    int inside = 0;
+    double extinction = 0, scattering = 0, t = 0;
+    int inside = 0, scatterers = 0;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-        if (inside > 0 && !visit(i, t, extinction)) return;
-        t = steps_[i].t;
-        inside += steps_[i].extinction > 0 ? 1 : -1;
-        extinction = inside == 0 ? 0 : extinction + steps_[i].extinction;  // no remainder of rounding outside
+        if (inside > 0 && !visit(i, t, extinction, scattering)) return;
+        const Step& step = steps_[i];
+        t = step.t;
+        inside += step.extinction > 0 ? 1 : -1;
+        scatterers += step.scattering > 0 ? 1 : step.scattering < 0 ? -1 : 0;
+        // No remainder of rounding outside.
+        extinction = inside == 0 ? 0 : extinction + step.extinction;
+        scattering = scatterers == 0 ? 0 : scattering + step.scattering;
     }
 }
 
 double MediaAlongRay::transmittance() const {
     double depth = 0;
-    for_each_stretch([&](std::size_t end, double t, double extinction) {
+    for_each_stretch([&](std::size_t end, double t, double extinction, double) {
         depth += extinction * ((steps_[end].t - t) * speed_);
         return true;
     });
     return std::exp(-depth);
 }
 
-// Of the media entered and not yet left before step `end`, one in proportion to its extinction.
+// Of the media entered and not yet left before step `end`, one in proportion to its scattering.
 const MediaAlongRay::Step& MediaAlongRay::choose_medium(std::size_t end, double pick) const {
     const auto last = steps_.begin() + static_cast<std::ptrdiff_t>(end);
     const Step* chosen = nullptr;
     for (auto entered = steps_.begin(); entered != last; ++entered) {
-        if (entered->extinction < 0) continue;
+        if (!(entered->scattering > 0)) continue;
         const bool left = std::any_of(entered + 1, last,
                                       [&](const Step& s) { return s.medium == entered->medium && s.extinction < 0; });
         if (left) continue;
         chosen = &*entered;
-        if ((pick -= entered->extinction) < 0) break;
+        if ((pick -= entered->scattering) < 0) break;
     }
     return *chosen;
 }
 
-std::optional<FreeFlight> MediaAlongRay::sample(double random, double choose) const {
-    double depth = -std::log1p(-random);  // 53 bits: up to 36.7 mean free paths
-    std::optional<FreeFlight> flight;
-    for_each_stretch([&](std::size_t end, double t, double extinction) {
-        const double stretch = extinction * ((steps_[end].t - t) * speed_);
-        if (stretch > depth) {
-            const Step& medium = choose_medium(end, choose * extinction);
-            flight = {t + depth / extinction / speed_, scene_->medium_shapes[scene_->media[medium.medium].shape].phase};
+// With extinction e = s + a, of which s is drawn for: light that comes from d on has the weight exp(-e d), and reaches
+// there with probability exp(-s d), which leaves exp(-a d). At an event the albedo is multiplied by e exp(-e d) and the
+// density is s exp(-s d). s is e times the largest albedo of any colour, so that no weight exceeds 1.
+FreeFlight MediaAlongRay::sample(double depth, double choose) const {
+    FreeFlight flight;
+    double absorbed = 0;
+    for_each_stretch([&](std::size_t end, double t, double extinction, double scattering) {
+        const double way = (steps_[end].t - t) * speed_;
+        const double absorption = std::max(0.0, extinction - scattering);
+        if (scattering * way > depth - flight.depth) {
+            const double before = (depth - flight.depth) / scattering;
+            const Step& medium = choose_medium(end, choose * scattering);
+            flight.scatters = true;
+            flight.t = t + before / speed_;
+            flight.phase = scene_->medium_shapes[scene_->media[medium.medium].shape].phase;
+            absorbed += absorption * before;
+            flight.weight = medium.extinction / medium.scattering;
             return false;
         }
-        depth -= stretch;
+        flight.depth += scattering * way;
+        absorbed += absorption * way;
         return true;
     });
+    if (absorbed > 0) flight.weight *= std::exp(-absorbed);
     return flight;
 }
 

@@ -10,10 +10,13 @@
 
 namespace limn::tracing {
 
-// The next interaction with a medium.
+// How far a path gets through media.
 struct FreeFlight {
-    double t;
-    MaterialId phase;
+    bool scatters = false;
+    double t = 0;                         // where it scatters, and by which phase function
+    MaterialId phase = MaterialId::none;  //
+    double depth = 0;                     // optical depth in scattering up to the end, if it does not
+    double weight = 1;                    // what the throughput is multiplied by
 };
 
 // Extinction along one ray, a step function of t. It is worked out anew for each ray from the crossings of all
@@ -30,9 +33,10 @@ public:
     // exp(-integral of the extinction) up to t_max.
     double transmittance() const;
 
-    // The distance of free flight by inversion of its distribution, through all media at once; `choose` in [0, 1) picks
-    // the medium in proportion to its extinction there. Nothing if it is longer than t_max.
-    std::optional<FreeFlight> sample(double random, double choose) const;
+    // The flight to the next scattering, through all media at once, which lies where the optical depth in scattering
+    // reaches `depth`, exponentially distributed; `choose` in [0, 1) picks the medium in proportion to its scattering
+    // there. What is absorbed does not end the flight but makes it count less.
+    FreeFlight sample(double depth, double choose) const;
 
     // Where one or more faces of a boundary are met; if they disagree about the way, it may be crossed there or
     // touched.
@@ -44,13 +48,14 @@ public:
 private:
     struct Step {
         double t;
-        double extinction;  // change, per world unit of length
+        double extinction, scattering;  // change, per world unit of length
         std::uint32_t medium;
     };
     void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);
     void add_interval(double from, double to, double extinction, std::uint32_t medium);
     bool is_inside(const flat::Scene& scene, std::uint32_t medium, const Ray& ray, double from, double to);
-    // visit(end, t, extinction) for each stretch inside media, from t to step `end`, until it returns false.
+    // visit(end, t, extinction, scattering) for each stretch inside media, from t to step `end`, until it returns
+    // false.
     template <class Visit>
     void for_each_stretch(const Visit& visit) const;
     const Step& choose_medium(std::size_t end, double pick) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/traverse.h"
+#include "core/spawn.h"
 #include "limn/scene/background.h"
 #include "render/light_sampling.h"
 #include "render/shading.h"
@@ -13,18 +13,14 @@ namespace limn::tracing {
 
 namespace {
 
-// Unlimited paths end by Russian roulette from this many segments on: earlier ones carry most of the light.
-constexpr int kRouletteStart = 4;
-// Even a path that loses nothing must end some day; at 0.999 the variance that this adds is not measurable.
+// Russian roulette: from this vertex on a path goes on with this many times its throughput as probability. Measured by
+// time times error on figures 1, 12, 13, 15, 16, against no roulette up to depth 10: 0.98, 0.93, 0.97, 0.73, 0.72. A
+// factor of 2 or 4 is within 5 % in each; without one (survival by throughput alone) figure 13 takes a third longer.
+constexpr int kRouletteStart = 2;
+constexpr double kSurvivalPerThroughput = 3;
+// Even a path that loses nothing must end some day where there is no limit; at 0.999 the variance that this adds is not
+// measurable.
 constexpr double kLargestSurvival = 0.999;
-
-// Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
-// 9.2.4), for the technique with density a against the one with density b.
-double power_heuristic(double a, double b) {
-    if (std::isinf(a)) return 1;
-    const double ratio = b / a;
-    return 1 / (1 + ratio * ratio);
-}
 
 }  // namespace
 
@@ -43,101 +39,157 @@ bool PathTracer::count(const Ray& ray) {
     return false;
 }
 
-// Follows the ray to the next surface or scattering in a medium, out of the scene, or nowhere. Boundaries that do not
-// bend light are passed.
-PathTracer::End PathTracer::advance(Ray ray, Vertex& vertex, Sampler& sampler) {
-    vertex.out = -normalize(ray.direction);
-    for (;;) {
-        if (!count(ray)) return End::lost;
-        const flat::RawHit hit = kernels::closest_hit(scene_, ray);
-        if (!flat::media_of(scene_).empty()) {
-            Ray flight = ray;
-            flight.t_max = hit.t;
-            media_.trace(scene_, flight);
-            const Uv random = sampler.next_2d();
-            if (const std::optional<FreeFlight> event = media_.sample(random.u, random.v)) {
-                vertex.surface = {};
-                vertex.surface.position = ray.at(event->t);
-                vertex.surface.material = {static_cast<std::uint32_t>(event->phase), nullptr, nullptr};
-                vertex.primitive = flat::RawHit::kMiss;
-                return End::vertex;
-            }
-        }
-        if (hit.primitive == flat::RawHit::kMiss) return End::background;
-        const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
-        vertex.surface = at.surface;
-        vertex.primitive = hit.primitive;
-        if (!at.index_matched) return End::vertex;
-        ray = at.surface.spawn_ray(ray.direction, ray.time);
-    }
-}
-
 // The rendering equation by scattering: L = sum over path vertices of throughput * emission, where the throughput grows
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
-Color PathTracer::radiance(Ray ray, Sampler& sampler) {
-    Color light, throughput{1, 1, 1};
-    Vertex vertex;
-    Point3 previous = ray.origin;
-    double scatter_pdf = 0;  // of the last direction; 0: specular or from the camera, no light sampling competes
-    for (int segment = 1; segment <= max_depth_; ++segment) {
-        sampler.seek(segment, Use::flight);
-        const End end = advance(ray, vertex, sampler);
-        if (end == End::background)
-            light += throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(ray.direction);
-        if (end != End::vertex) break;
-        if (vertex.primitive != flat::RawHit::kMiss) {
-            const Color emission = emitted(scene_, vertex.surface);
-            if (!is_black(emission)) {
-                const double light_pdf = sample_lights_ && scatter_pdf > 0
-                                             ? pdf_light(scene_, vertex.primitive, previous, vertex.surface, ray.time)
-                                             : 0;
-                light += throughput * emission * (light_pdf > 0 ? power_heuristic(scatter_pdf, light_pdf) : 1);
-            }
-        }
-        if (segment == max_depth_) break;
-        if (sample_lights_ && can_be_evaluated(scene_, vertex.surface.material)) {
-            sampler.seek(segment, Use::light);
-            light += throughput * direct_light(vertex, ray.time, sampler);
-        }
-
-        sampler.seek(segment, Use::scattering);
-        const std::optional<ScatterSample> scattered =
-            sample_material(scene_, vertex.surface, vertex.out, sampler.next_3d());
-        if (!scattered || is_black(scattered->weight)) break;
-        throughput *= scattered->weight;
-        if (max_depth_ == kUnlimitedDepth && segment >= kRouletteStart) {
-            const double survival = std::min(max_component(throughput), kLargestSurvival);
-            sampler.seek(segment, Use::roulette);
-            if (!(sampler.next() < survival)) break;
-            throughput = throughput / survival;
-        }
-        scatter_pdf = scattered->pdf;
-        previous = vertex.surface.position;
-        ray = vertex.surface.spawn_ray(scattered->direction, ray.time);
+void PathTracer::trace(std::span<Path> paths) {
+    heads_.clear();
+    for (Path& path : paths) {
+        path.radiance = {};
+        heads_.push_back({.path = &path, .ray = path.ray});
+        if (!begin(heads_.back())) heads_.pop_back();
     }
-    return light;
+    while (!heads_.empty()) {
+        find_hits();
+        shadows_.clear();
+        traced_.clear();
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < heads_.size(); ++i) {
+            if (!follow(heads_[i], hits_[i])) continue;
+            if (kept != i) heads_[kept] = heads_[i];
+            ++kept;
+        }
+        heads_.resize(kept);
+        add_direct_light();
+    }
 }
 
-// f |cos| * emission * transmittance / pdf for one direction towards a light, weighted against finding it by
-// scattering.
-Color PathTracer::direct_light(const Vertex& vertex, double time, Sampler& sampler) {
-    // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
-    const Random3 pick = sampler.next_3d();
-    const std::optional<LightSample> s = sample_light(scene_, vertex.surface.position, time, pick.x, pick.y, pick.z);
-    if (!s) return {};
-    const ScatterValue f = material_value(scene_, vertex.surface, vertex.out, s->direction);
-    if (is_black(f.value)) return {};
-    const Color emission = emitted(scene_, s->point);
-    if (is_black(emission)) return {};
-    const Ray shadow = vertex.surface.spawn_ray_to(s->point, time);
-    if (!count(shadow) || kernels::is_occluded(scene_, shadow)) return {};
-    double transmittance = 1;
+// A new segment.
+bool PathTracer::begin(Head& head) {
     if (!flat::media_of(scene_).empty()) {
-        media_.trace(scene_, shadow);
-        transmittance = media_.transmittance();
+        head.path->sampler.seek(head.segment, Use::flight);
+        const Uv random = head.path->sampler.next_2d();
+        head.depth = -std::log1p(-random.u);  // 53 bits: up to 36.7 mean free paths
+        head.choose = random.v;
     }
-    return f.value * emission * (transmittance * power_heuristic(s->pdf, f.pdf) / s->pdf);
+    return count(head.ray);
+}
+
+void PathTracer::find_hits() {
+    traced_.clear();
+    for (const Head& head : heads_) traced_.push_back(head.ray);
+    hits_.resize(traced_.size());
+    for (std::size_t i = 0; i < traced_.size(); i += kernels::kMostRays) {
+        const std::size_t some = std::min(kernels::kMostRays, traced_.size() - i);
+        kernels::closest_hits(scene_, std::span(traced_).subspan(i, some), &hits_[i]);
+    }
+}
+
+// False if the path ends.
+bool PathTracer::follow(Head& head, const kernels::Hit& hit) {
+    Vertex vertex;
+    switch (meet(head, hit, vertex)) {
+        case End::vertex: return shade(head, vertex) && scatter(head, vertex);
+        case End::passes: return count(head.ray);
+        case End::background: break;
+    }
+    head.path->radiance +=
+        head.throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(head.ray.direction);
+    return false;
+}
+
+// The next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
+PathTracer::End PathTracer::meet(Head& head, const kernels::Hit& hit, Vertex& vertex) {
+    const Ray& ray = head.ray;
+    vertex.out = -normalize(ray.direction);
+    if (!flat::media_of(scene_).empty()) {
+        Ray flight = ray;
+        flight.t_max = hit.t;
+        media_.trace(scene_, flight);
+        const FreeFlight flown = media_.sample(head.depth, head.choose);
+        head.throughput = flown.weight * head.throughput;
+        if (flown.scatters) {
+            vertex.surface.position = ray.at(flown.t);
+            vertex.surface.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
+            return End::vertex;
+        }
+        head.depth -= flown.depth;
+    }
+    if (hit.primitive == flat::RawHit::kMiss) return End::background;
+    const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
+    vertex.surface = at.surface;
+    vertex.primitive = hit.primitive;
+    if (!at.index_matched) return End::vertex;
+    head.ray = leave(at.surface, ray.direction, ray.time);
+    return End::passes;
+}
+
+// Light that the vertex emits, and a shadow ray for light that comes to it straight from an emitter.
+bool PathTracer::shade(Head& head, const Vertex& vertex) {
+    if (is_black(head.throughput)) return false;
+    const double time = head.ray.time;
+    if (vertex.primitive != flat::RawHit::kMiss) {
+        const Color emission = emitted(scene_, vertex.surface);
+        if (!is_black(emission)) {
+            const double light_pdf =
+                sample_lights_ && head.scatter_pdf > 0
+                    ? pdf_light(scene_, head.previous, time, vertex.primitive, vertex.surface.position)
+                    : 0;
+            const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
+            head.path->radiance += head.throughput * emission * weight;
+        }
+    }
+    if (head.segment == max_depth_) return false;
+    if (!sample_lights_) return true;
+    head.previous = receiver_at(scene_, vertex.surface);
+    if (!can_be_evaluated(scene_, vertex.surface.material)) return true;
+    // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
+    head.path->sampler.seek(head.segment, Use::light);
+    const Random3 random = head.path->sampler.next_3d();
+    const auto direct =
+        prepare_direct_light(scene_, vertex.surface, head.previous, vertex.out, time, {random.x, {random.y, random.z}});
+    if (direct && count(direct->shadow)) {
+        shadows_.push_back({head.path, head.throughput * direct->light});
+        traced_.push_back(direct->shadow);
+    }
+    return true;
+}
+
+// The next segment.
+bool PathTracer::scatter(Head& head, const Vertex& vertex) {
+    Sampler& sampler = head.path->sampler;
+    sampler.seek(head.segment, Use::scattering);
+    const std::optional<ScatterSample> scattered =
+        sample_material(scene_, vertex.surface, vertex.out, sampler.next_3d());
+    if (!scattered || is_black(scattered->weight)) return false;
+    head.throughput *= scattered->weight;
+    const double survival = std::min(kSurvivalPerThroughput * max_component(head.throughput), kLargestSurvival);
+    if (roulette_ && head.segment >= kRouletteStart && (survival < kLargestSurvival || max_depth_ == kUnlimitedDepth)) {
+        sampler.seek(head.segment, Use::roulette);
+        if (!(sampler.next() < survival)) return false;
+        head.throughput = head.throughput / survival;
+    }
+    head.scatter_pdf = scattered->pdf;
+    head.ray = leave(vertex.surface, scattered->direction, head.ray.time);
+    ++head.segment;
+    return begin(head);
+}
+
+void PathTracer::add_direct_light() {
+    occluded_.resize(traced_.size());
+    for (std::size_t i = 0; i < traced_.size(); i += kernels::kMostRays) {
+        const std::size_t some = std::min(kernels::kMostRays, traced_.size() - i);
+        kernels::are_occluded(scene_, std::span(traced_).subspan(i, some), &occluded_[i]);
+    }
+    for (std::size_t i = 0; i < shadows_.size(); ++i) {
+        if (occluded_[i] != 0) continue;
+        Color light = shadows_[i].light;
+        if (!flat::media_of(scene_).empty()) {
+            media_.trace(scene_, traced_[i]);
+            light = light * media_.transmittance();
+        }
+        shadows_[i].path->radiance += light;
+    }
 }
 
 }  // namespace limn::tracing

@@ -20,8 +20,9 @@ namespace limn {
 
 namespace {
 
-constexpr int kTile = 16;         // pixels a side: some thousand paths, enough work to hide the cost of a task
-constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
+constexpr int kTile = 16;            // pixels a side: some thousand paths, enough work to hide the cost of a task
+constexpr int kLargestPass = 64;     // samples a pixel between two chances to stop with an even picture
+constexpr std::size_t kBatch = 512;  // paths traced together: their state fits the second cache
 constexpr int kMaxSide = 1 << 20;
 constexpr int kMaxThreads = 1024;
 
@@ -128,24 +129,37 @@ private:
         tracing::PathTracer tracer(scene_, settings_.max_depth, settings_.estimator);
         std::uint64_t nonfinite = 0, samples = 0;
         const int right = std::min(left + kTile, settings_.width), bottom = std::min(top + kTile, settings_.height);
+        std::vector<tracing::Path> paths;
+        std::vector<std::pair<int, int>> pixels;
+        const auto flush = [&] {
+            tracer.trace(paths);
+            for (std::size_t i = 0; i < paths.size(); ++i)
+                nonfinite += film_.add(pixels[i].first, pixels[i].second, paths[i].radiance) ? 0 : 1;
+            samples += paths.size();
+            paths.clear(), pixels.clear();
+        };
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x)
-                for (auto i = film_.samples(x, y); i < static_cast<std::uint32_t>(target); ++i, ++samples)
-                    nonfinite += film_.add(x, y, sample(x, y, i, tracer)) ? 0 : 1;
+                for (auto i = film_.samples(x, y); i < static_cast<std::uint32_t>(target); ++i) {
+                    paths.push_back(camera_path(x, y, i));
+                    pixels.emplace_back(x, y);
+                    if (paths.size() == kBatch) flush();
+                }
+        flush();
         rays_ += tracer.rays();
         unusable_rays_ += tracer.unusable_rays();
         nonfinite_ += nonfinite;
         samples_done_ += samples;
     }
 
-    Color sample(int x, int y, std::uint64_t i, tracing::PathTracer& tracer) const {
+    tracing::Path camera_path(int x, int y, std::uint64_t i) const {
         const auto pixel =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) + static_cast<std::uint64_t>(x);
         tracing::Sampler sampler(settings_.seed, pixel, i, settings_.sampler);
         // Drawn whether needed or not, so that each dimension keeps its meaning.
         const auto [in_x, in_y, lens_u, lens_v, in_shutter] = sampler.next_5d();
         const double dx = settings_.antialias ? in_x : 0.5, dy = settings_.antialias ? in_y : 0.5;
-        return tracer.radiance(camera_.ray(x + dx, y + dy, lens_u, lens_v, in_shutter), sampler);
+        return {camera_.ray(x + dx, y + dy, lens_u, lens_v, in_shutter), sampler};
     }
 
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

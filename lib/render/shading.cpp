@@ -119,4 +119,17 @@ bool can_be_evaluated(const flat::Scene& scene, const MaterialRef& material) {
     return false;
 }
 
+bool scatters_back_only(const flat::Scene& scene, const MaterialRef& material) {
+    if (material.id == MaterialRef::kNone) return true;
+    switch (kind_of(scene, material)) {
+        case MaterialKind::lambertian:
+        case MaterialKind::metal:
+        case MaterialKind::diffuse_light: return true;
+        case MaterialKind::dielectric:
+        case MaterialKind::isotropic:
+        case MaterialKind::foreign: break;
+    }
+    return false;
+}
+
 }  // namespace limn::tracing

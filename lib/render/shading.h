@@ -19,4 +19,8 @@ ScatterValue material_value(const flat::Scene& scene, const Surface& s, const Ve
 // False for materials whose value is zero for every pair of directions: lights need not be sampled for them.
 bool can_be_evaluated(const flat::Scene& scene, const MaterialRef& material);
 
+// Whether the value is zero wherever the two directions are on different sides of the geometric surface. False in
+// media, which have no sides.
+bool scatters_back_only(const flat::Scene& scene, const MaterialRef& material);
+
 }  // namespace limn::tracing

@@ -1,12 +1,10 @@
 #include "render/surface_at.h"
 
 #include "core/hit_error.h"
-#include "core/intersect_quad.h"
-#include "core/intersect_triangle.h"
 #include "core/mesh_triangle.h"
 #include "core/plane_normal.h"
+#include "core/sheared_ray.h"
 #include "core/sphere_uv.h"
-#include "kernels/traverse.h"
 
 namespace limn::tracing {
 
@@ -33,8 +31,6 @@ LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t
     return hit;
 }
 
-constexpr Search kAnywhere{-kInfinity, kInfinity};
-
 LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Normal3& normal,
                   const PlanarHit& planar) {
     LocalHit hit;
@@ -46,21 +42,12 @@ LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, 
     return hit;
 }
 
-LocalHit on_triangle(const TriangleVertices& v, const RayFrame& frame, PlanarHit& planar) {
-    planar = {};
-    intersect_triangle(v.a, v.b, v.c, ShearedRay(frame), kAnywhere, planar);
+LocalHit on_triangle(const TriangleVertices& v, const PlanarHit& planar) {
     return on_plane(v.a, v.b - v.a, v.c - v.a, triangle_normal(v.a, v.b, v.c), planar);
 }
 
-LocalHit on_quad(const flat::Quad& q, const RayFrame& frame) {
-    PlanarHit planar{};
-    intersect_quad(q.corner, q.edge_u, q.edge_v, ShearedRay(frame), kAnywhere, planar);
-    return on_plane(q.corner, q.edge_u, q.edge_v, quad_normal(q.edge_u, q.edge_v), planar);
-}
-
-LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const RayFrame& frame) {
-    PlanarHit planar;
-    LocalHit hit = on_triangle(triangle_of(scene, mesh, element), frame, planar);
+LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const PlanarHit& planar) {
+    LocalHit hit = on_triangle(triangle_of(scene, mesh, element), planar);
     if (!mesh.places.empty()) return hit;
     if constexpr (flat::kHasSmoothNormals)
         hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
@@ -87,7 +74,8 @@ LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t)
     return hit;
 }
 
-LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const RayFrame& frame, double t,
+// `found`: by the search, which works out u and v too.
+LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const RayFrame& frame, const PlanarHit& found,
                       bool with_uv) {
     const Ray& ray = frame.ray;
     const PrimitiveRange& range = scene.ranges[place.range];
@@ -95,21 +83,23 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
     switch (range.kind) {
         case PrimitiveKind::sphere: {
             const flat::Sphere& s = scene.spheres[row];
-            return on_sphere(s.center, s.radius, ray, t, with_uv);
+            return on_sphere(s.center, s.radius, ray, found.t, with_uv);
         }
         case PrimitiveKind::moving_sphere: {
             const flat::MovingSphere& s = scene.moving_spheres[row];
-            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, t, with_uv);
+            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, found.t, with_uv);
         }
         case PrimitiveKind::triangle: {
             const flat::Triangle& triangle = scene.triangles[row];
-            PlanarHit planar;
-            return on_triangle({triangle.a, triangle.b, triangle.c}, frame, planar);
+            return on_triangle({triangle.a, triangle.b, triangle.c}, found);
         }
-        case PrimitiveKind::quad: return on_quad(scene.quads[row], frame);
-        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, frame);
+        case PrimitiveKind::quad: {
+            const flat::Quad& q = scene.quads[row];
+            return on_plane(q.corner, q.edge_u, q.edge_v, quad_normal(q.edge_u, q.edge_v), found);
+        }
+        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found);
         case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], frame, t);
+            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], frame, found.t);
             break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
@@ -133,15 +123,15 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
 
 // Below `level` of the instances around it; `front`: whether the ray meets the outward side.
 LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
-                double t, bool with_uv, bool& front) {
+                const PlanarHit& found, bool with_uv, bool& front) {
     if (!flat::kHasInstances || level == place.depth) {
-        const LocalHit hit = on_primitive(scene, place, frame, t, with_uv);
+        const LocalHit hit = on_primitive(scene, place, frame, found, with_uv);
         front = dot(hit.normal, frame.ray.direction) < 0;  // here, where the normal is not transformed
         return hit;
     }
     const flat::Instance& instance = scene.instances[place.instances[level]];
     LocalHit hit = kernels::inside(instance, frame, [&](const RayFrame& inner) {
-        return hit_at(scene, place, level + 1, inner, t, with_uv, front);
+        return hit_at(scene, place, level + 1, inner, found, with_uv, front);
     });
     leave_instance(instance, frame.ray.time, hit);
     return hit;
@@ -149,10 +139,10 @@ LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_
 
 }  // namespace
 
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& raw, bool with_uv) {
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& raw, bool with_uv) {
     const flat::Place place = flat::locate(scene, raw.primitive);
     bool front = true;
-    LocalHit hit = hit_at(scene, place, 0, RayFrame(ray), raw.t, with_uv, front);
+    LocalHit hit = hit_at(scene, place, 0, RayFrame(ray), {raw.t, raw.u, raw.v}, with_uv, front);
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind != PrimitiveKind::foreign)
         hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "flat/scene.h"
+#include "kernels/traverse.h"
 #include "limn/core/ray.h"
 #include "limn/core/surface.h"
 
 namespace limn::tracing {
 
-// The second step of a hit, made once for the winner: it is intersected again in its own space, and the point taken
-// outward through the instances.
+// The second step of a hit, made once for the winner: its point in the primitive's own space, taken outward through the
+// instances.
 struct SurfaceHit {
     Surface surface;
     double u = 0, v = 0;         // RayHit::u, v
@@ -16,6 +17,6 @@ struct SurfaceHit {
 
 // \pre `hit` was found for `ray` in `scene`
 // \param with_uv false leaves out a sphere's texture coordinates, which cost more than the rest of it
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const flat::RawHit& hit, bool with_uv = true);
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& hit, bool with_uv = true);
 
 }  // namespace limn::tracing

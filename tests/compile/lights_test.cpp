@@ -30,8 +30,15 @@ Object unit_quad(const MaterialPtr& m) {
 }
 Object seen(const Object& object, const Transform& m) { return std::make_shared<Instance>(object, m); }
 
-std::vector<Light> lights_of(const std::vector<Object>& objects) {
-    return compiler::flatten(zoo_of("lamps", objects).scene).lights;
+// In the order of their primitives' numbers, as they are at a time.
+std::vector<Light> lights_of(const std::vector<Object>& objects, double time = 0) {
+    const flat::Scene scene = compiler::flatten(zoo_of("lamps", objects).scene);
+    std::vector<Light> lights;
+    for (const flat::LightNumber& n : scene.lights.by_number) {
+        lights.push_back(flat::light_at(scene, n.rank, time));
+        CHECK(lights.back().number == n.number);
+    }
+    return lights;
 }
 
 TexturePtr solid(double value) { return std::make_shared<SolidColor>(Color{value, value, value}); }
@@ -112,9 +119,51 @@ TEST_CASE("Lights: a group that was described before the one that holds it is fo
     CHECK(lights_of({seen(around, Transform::translate({0, 0, 7})), around, plain}).size() == 3);
 }
 
-TEST_CASE("Lights: what an instance moves, or bends from a sphere, is left to scattering", "[compile][lights]") {
+TEST_CASE("Lights: under moving instances they are where the matrices of each time put them", "[compile][lights]") {
+    const Transform turned = Transform::rotate({1, 2, 3}, 70) * Transform::scale(1, 2, 0.5);
+    MeshData cube = cube_mesh();
+    const Object moved = std::make_shared<Instance>(
+        std::make_shared<HittableList>(std::vector<Object>{
+            unit_quad(white_lamp()), std::make_shared<Mesh>(cube, white_lamp()),
+            std::make_shared<Triangle>(Point3{0, 0, 0}, Point3{0, 0, 2}, Point3{3, 0, 0}, white_lamp())}),
+        Transform::translate({1, 0, 0}), turned);
+    const Object outer =
+        std::make_shared<Instance>(seen(moved, Transform::rotate_y(30)), Transform{}, Transform::translate({0, 7, 0}));
+    for (const double time : {0.0, 0.25, 1.0}) {
+        const Transform m = Transform::translate({0, 7 * time, 0}) * Transform::rotate_y(30) *
+                            interpolate(Transform::translate({1, 0, 0}), turned, time);
+        const auto lights = lights_of({outer}, time);
+        REQUIRE(lights.size() == 14);
+        const auto check = [&](const Light& light, const Point3& a, const Vec3& u, const Vec3& v) {
+            CHECK(length(light.origin - transform_point(m, a)) <= 1e-13);
+            CHECK(length(light.edge_u - transform_vector(m, u)) <= 1e-13);
+            CHECK(length(light.edge_v - transform_vector(m, v)) <= 1e-13);
+        };
+        check(lights[0], {1, 2, 3}, {1, 0, 0}, {0, 1, 0});
+        const Index3 t = cube.triangles[7];
+        const Point3 a = vertex(cube, t.a);
+        check(lights[8], a, vertex(cube, t.b) - a, vertex(cube, t.c) - a);
+        check(lights[13], {0, 0, 0}, {0, 0, 2}, {3, 0, 0});
+    }
+}
+
+TEST_CASE("Lights: a ball that instances only push about is one, moving in a straight line", "[compile][lights]") {
+    const Object ball = std::make_shared<Sphere>(Point3{1, 2, 3}, Point3{2, 2, 3}, 2.0, white_lamp());
+    const Transform still = Transform::rotate_z(90) * Transform::scale(3, 3, 3),
+                    later = Transform::translate({5, 0, 0}) * still;
+    const Object moved = std::make_shared<Instance>(ball, still, later);
+    const auto lights = lights_of({std::make_shared<Instance>(moved, Transform{}, Transform::translate({0, 0, 4}))});
+    REQUIRE(lights.size() == 1);
+    CHECK(length(lights[0].origin - Point3{-6, 3, 9}) <= 1e-14);
+    CHECK(length(lights[0].edge_u - Vec3{5, 3, 4}) <= 1e-14);
+    CHECK(lights[0].radius == Approx(6).epsilon(1e-15));
+}
+
+TEST_CASE("Lights: a ball that an instance bends, or turns or stretches as it moves, is left to scattering",
+          "[compile][lights]") {
     const Object quad = unit_quad(white_lamp()), ball = std::make_shared<Sphere>(Point3{}, 1.0, white_lamp());
-    CHECK(lights_of({std::make_shared<Instance>(quad, Transform{}, Transform::translate({1, 0, 0}))}).empty());
+    CHECK(lights_of({std::make_shared<Instance>(ball, Transform{}, Transform::rotate_y(10))}).empty());
+    CHECK(lights_of({std::make_shared<Instance>(ball, Transform{}, Transform::scale(2, 2, 2))}).empty());
     Transform sheared;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -163,32 +212,30 @@ TEST_CASE("Lights: black lamps, the inside of media and what a user's own class 
     CHECK(lights_of({std::make_shared<Stranger>(unit_quad(white_lamp()))}).empty());
 }
 
-TEST_CASE("Lights: one is picked half by its power, half alike, and the chances add up to 1", "[compile][lights]") {
+TEST_CASE("Lights: one is as strong as its radiance times its area, or the disc that a ball is seen as, of all",
+          "[compile][lights]") {
     const auto quad = [](double side, const MaterialPtr& m) {
         return std::make_shared<Quad>(Point3{}, Vec3{side, 0, 0}, Vec3{0, 1, 0}, m);
     };
-    const auto picks = [](const std::vector<Object>& objects) {
-        std::vector<double> chances;
-        double below = 0;
-        for (const Light& light : lights_of(objects)) {
-            CHECK(light.pick_below == Approx(below).margin(1e-15));
-            below += light.pick;
-            chances.push_back(light.pick);
-        }
-        CHECK(below == Approx(1));
-        return chances;
+    // By number.
+    const auto strengths = [](const std::vector<Object>& objects) {
+        const flat::LightTable lights = compiler::flatten(zoo_of("lamps", objects).scene).lights;
+        const std::vector<double>& before = lights.strength_before;
+        REQUIRE(before.size() == objects.size() + 1);
+        CHECK(before.front() == 0);
+        CHECK(before.back() == Approx(1));
+        std::vector<double> shares;
+        for (const flat::LightNumber& n : lights.by_number) shares.push_back(before[n.rank + 1] - before[n.rank]);
+        return shares;
     };
-    const auto share = [&](const Object& of, const Object& against) {  // its share of the power of both
-        return 2 * picks({of, against}).at(0) - 0.5;
-    };
-    CHECK(picks({quad(1, white_lamp())}) == std::vector<double>{1});
+    const auto share = [&](const Object& of, const Object& against) { return strengths({of, against}).at(0); };
+    CHECK(strengths({quad(1, white_lamp())}) == std::vector<double>{1});
     CHECK(share(quad(1, white_lamp()), quad(3, white_lamp())) == Approx(0.25));
     CHECK(share(quad(1, lamp(Color{1, 3, 2})), quad(1, white_lamp())) == Approx(0.75));
-    // Areas: a triangle is half of its parallelogram, a sphere 4 pi r^2.
     const Object half = std::make_shared<Triangle>(Point3{}, Point3{2, 0, 0}, Point3{0, 3, 0}, white_lamp());
     CHECK(share(half, quad(1, white_lamp())) == Approx(0.75));
-    const Object ball = std::make_shared<Sphere>(Point3{}, 0.5, white_lamp());
-    CHECK(share(ball, quad(kPi / 3, white_lamp())) == Approx(0.75));
+    const Object ball = std::make_shared<Sphere>(Point3{}, 2.0, white_lamp());
+    CHECK(share(ball, quad(4 * kPi / 3, white_lamp())) == Approx(0.75));
     CHECK(share(std::make_shared<Quad>(Point3{}, Vec3{1, 0, 0}, Vec3{5, 3, 0}, white_lamp()), quad(1, white_lamp())) ==
           Approx(0.75));
     // Textures count by what they show on average.
@@ -201,9 +248,10 @@ TEST_CASE("Lights: one is picked half by its power, half alike, and the chances 
                                     TexturePtr(std::make_shared<Turbulence>(1, 1, Color{1, 6, 2})),
                                     TexturePtr(std::make_shared<Marble>(1, 1, Color{1, 2, 6}))})
         CHECK(share(quad(1, lamp(noise)), quad(1, white_lamp())) == Approx(0.75));
-    // A power beyond what double holds leaves every other lamp its even part.
-    const std::vector<double> beyond = picks({quad(1e200, lamp(Color{1e200, 0, 0})), quad(1, white_lamp())});
-    CHECK((beyond.at(0) == Approx(2.0 / 3) && beyond.at(1) == Approx(1.0 / 3)));
+    // Strengths beyond what double holds leave every lamp an even part, and the weakest one is not forgotten.
+    const std::vector<double> beyond = strengths({quad(1e200, lamp(Color{1e200, 0, 0})), quad(1, white_lamp())});
+    CHECK((beyond.at(0) == Approx(0.5) && beyond.at(1) == Approx(0.5)));
+    CHECK(share(quad(1, lamp(Color{1e-30, 0, 0})), quad(1, white_lamp())) == Approx(5e-7));
 }
 
 TEST_CASE("Lights: points computed on one lie within its error bound of the true emitter", "[compile][lights]") {

@@ -148,8 +148,8 @@ struct Depths {
         const double found = -std::log(media.transmittance());
         if (!(std::abs(found - depth) <= allowed)) return tally.fault(ray, "depth " + std::to_string(found - depth));
         const double drawn = -std::log1p(-random);
-        const std::optional<FreeFlight> flight = media.sample(random, 0.5);
-        if (std::abs(drawn - depth) > allowed && flight.has_value() != (drawn < depth))
+        const FreeFlight flight = media.sample(drawn, 0.5);
+        if (std::abs(drawn - depth) > allowed && flight.scatters != (drawn < depth))
             tally.fault(ray, "flight of depth " + std::to_string(drawn));
     }
 };
@@ -244,14 +244,14 @@ TEST_CASE("Media: extinctions that add up beyond the largest double stop all lig
                 }
                 CHECK(media.transmittance() == 0);
                 for (const double random : {0.0, 0.5, 1 - 0x1p-53}) {
-                    const std::optional<FreeFlight> flight = media.sample(random, random);
-                    REQUIRE(flight.has_value());
-                    CHECK(flight->t == Approx(1 / speed).epsilon(1e-12));
+                    const FreeFlight flight = media.sample(-std::log1p(-random), random);
+                    REQUIRE(flight.scatters);
+                    CHECK(flight.t == Approx(1 / speed).epsilon(1e-12));
                 }
             }
             media.trace(scene.flat(), {.origin = {0, 2, 0}, .direction = {speed, 0, 0}});
             CHECK(media.transmittance() == 1);
-            CHECK_FALSE(media.sample(1 - 0x1p-53, 0.5).has_value());
+            CHECK_FALSE(media.sample(53 * std::log(2.0), 0.5).scatters);
         }
     }
 }

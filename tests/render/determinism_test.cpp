@@ -34,11 +34,12 @@ RenderSettings settings_of(std::uint64_t seed, int threads) {
     return s;
 }
 
-// A sky seen through smoke that passes one half: every sample is a coin, every pixel the mean of `samples` of them.
+// A sky seen through fog that scatters one half away, for good: every sample is a coin, every pixel the mean of
+// `samples` of them.
 std::vector<double> coins(std::uint64_t seed, int side, int samples) {
     static const CompiledScene scene = compile_with(
         sky(1),
-        {std::make_shared<ConstantMedium>(make_box({-9, -9, 0}, {9, 9, 1}, grey(1)), std::log(2.0), Color{0, 0, 0})});
+        {std::make_shared<ConstantMedium>(make_box({-9, -9, 0}, {9, 9, 1}, grey(1)), std::log(2.0), Color{1, 1, 1})});
     RenderSettings s = square(side, samples, 1);
     s.seed = seed;
     const Image image = render(scene, camera_at({0, 0, 1000}, {0, 0, 0}, 1e-3), s).image;

@@ -16,11 +16,12 @@ namespace {
 // A medium from x0 to x1, wide enough to hold every ray below.
 struct Slab {
     double x0, x1, density;
+    double albedo = 0;  // of one colour; the others have half of it
 };
 
-Object medium_of(const Slab& s, double albedo = 0) {
+Object medium_of(const Slab& s) {
     return std::make_shared<ConstantMedium>(make_box({s.x0, -100, -100}, {s.x1, 100, 100}, nullptr), s.density,
-                                            Color{albedo, albedo, albedo});
+                                            Color{s.albedo / 2, s.albedo, s.albedo / 2});
 }
 
 struct Case {
@@ -32,12 +33,17 @@ struct Case {
     double begin() const { return ray.origin.x + ray.t_min * ray.direction.x; }
     double end() const { return ray.t_max == kInfinity ? kInfinity : ray.origin.x + ray.t_max * ray.direction.x; }
 
-    // Optical depth from the ray's begin to x.
-    double depth_to(double x) const {
+    // Optical depth from the ray's begin to x, in scattering and in all.
+    struct Depth {
+        double scattering = 0, all = 0;
+    };
+    Depth depth_to(double x) const {
         const double slant = length(ray.direction) / ray.direction.x;
-        double depth = 0;
-        for (const Slab& s : slabs)
-            depth += s.density * slant * std::max(0.0, std::min({x, s.x1, end()}) - std::max(begin(), s.x0));
+        Depth depth;
+        for (const Slab& s : slabs) {
+            const double part = s.density * slant * std::max(0.0, std::min({x, s.x1, end()}) - std::max(begin(), s.x0));
+            depth.scattering += s.albedo * part, depth.all += part;
+        }
         return depth;
     }
 };
@@ -49,8 +55,9 @@ Case random_case(std::uint64_t seed) {
     std::vector<Object> objects;
     for (std::size_t i = 0; i < 1 + random.index(4); ++i) {
         const double x0 = random.uniform(0, 4);
-        slabs.push_back({x0, x0 + random.uniform(0.1, 4), random.uniform(0.1, 0.8)});
-        objects.push_back(medium_of(slabs.back(), 0.1 * static_cast<double>(i + 1)));
+        const double albedo = random.chance(0.2) ? 0 : random.uniform(0.3, 1);
+        slabs.push_back({x0, x0 + random.uniform(0.1, 4), random.uniform(0.1, 1.2), albedo});
+        objects.push_back(medium_of(slabs.back()));
     }
     Ray ray{.origin = {random.uniform(-2, 6), random.uniform(-1, 1), random.uniform(-1, 1)},
             .direction = random.log_uniform(0.1, 10) * Vec3{1, random.uniform(-1, 1), random.uniform(-1, 1)}};
@@ -66,45 +73,57 @@ TEST_CASE("Media along a ray: the transmittance is exp(- the sum of density time
         const Case c = random_case(seed);
         MediaAlongRay media;
         media.trace(c.scene.flat(), c.ray);
-        const double truth = std::exp(-c.depth_to(kInfinity));
+        const double truth = std::exp(-c.depth_to(kInfinity).all);
         RC_ASSERT(std::abs(media.transmittance() - truth) <= 1e-12);
         media.trace(c.scene.flat(), c.ray);  // as often as one likes
         RC_ASSERT(std::abs(media.transmittance() - truth) <= 1e-12);
     });
 }
 
-TEST_CASE("Media along a ray: a flight ends at the optical depth -log(1 - random), or not at all", "[render][media]") {
-    holds([](std::uint64_t seed) {
-        const Case c = random_case(seed);
-        MediaAlongRay media;
-        media.trace(c.scene.flat(), c.ray);
-        Random random(seed + 1);
-        for (int i = 0; i < 5; ++i) {
-            const double u = random.uniform(), depth = -std::log1p(-u), all = c.depth_to(kInfinity);
-            const std::optional<FreeFlight> flight = media.sample(u, random.uniform());
-            if (std::abs(depth - all) < 1e-9) continue;
-            RC_ASSERT(flight.has_value() == (depth < all));
-            if (!flight) continue;
-            RC_ASSERT(flight->t > c.ray.t_min && flight->t <= c.ray.t_max);
-            RC_ASSERT(std::abs(c.depth_to(c.ray.origin.x + flight->t * c.ray.direction.x) - depth) <= 1e-9);
-        }
-    });
-}
-
-TEST_CASE("Media along a ray: of the media at the end of a flight each is chosen by its share of the extinction there",
+TEST_CASE("Media along a ray: a flight ends at the optical depth in scattering that was asked for, or not at all",
           "[render][media]") {
     holds([](std::uint64_t seed) {
         const Case c = random_case(seed);
         MediaAlongRay media;
         media.trace(c.scene.flat(), c.ray);
         Random random(seed + 1);
-        const double u = random.uniform();
-        if (!media.sample(u, 0)) RC_DISCARD("no flight ends");
+        for (int i = 0; i < 5; ++i) {
+            const double depth = -std::log(1 - random.uniform());
+            const Case::Depth all = c.depth_to(kInfinity);
+            const FreeFlight flight = media.sample(depth, random.uniform());
+            if (std::abs(depth - all.scattering) < 1e-9) continue;
+            RC_ASSERT(flight.scatters == (depth < all.scattering));
+            if (!flight.scatters) {
+                RC_ASSERT(std::abs(flight.depth - all.scattering) <= 1e-9);
+                RC_ASSERT(std::abs(flight.weight - std::exp(all.scattering - all.all)) <= 1e-9);
+                continue;
+            }
+            RC_ASSERT(flight.t > c.ray.t_min && flight.t <= c.ray.t_max);
+            const Case::Depth there = c.depth_to(c.ray.origin.x + flight.t * c.ray.direction.x);
+            RC_ASSERT(std::abs(there.scattering - depth) <= 1e-9);
+            // The medium's extinction over its scattering, which the albedo makes good.
+            double albedo = 0;
+            for (std::size_t k = 0; k < c.slabs.size(); ++k)
+                if (c.scene.flat().medium_shapes[k].phase == flight.phase) albedo = c.slabs[k].albedo;
+            RC_ASSERT(std::abs(flight.weight * albedo - std::exp(there.scattering - there.all)) <= 1e-8);
+        }
+    });
+}
+
+TEST_CASE("Media along a ray: of the media at the end of a flight each is chosen by its share of the scattering there",
+          "[render][media]") {
+    holds([](std::uint64_t seed) {
+        const Case c = random_case(seed);
+        MediaAlongRay media;
+        media.trace(c.scene.flat(), c.ray);
+        Random random(seed + 1);
+        const double depth = random.uniform();
+        if (!media.sample(depth, 0).scatters) RC_DISCARD("no flight ends");
         constexpr int kChoices = 200;
         std::map<MaterialId, int> counts;
         double t = 0;
         for (int i = 0; i < kChoices; ++i) {
-            const FreeFlight flight = *media.sample(u, (i + 0.5) / kChoices);
+            const FreeFlight flight = media.sample(depth, (i + 0.5) / kChoices);
             RC_ASSERT(i == 0 || flight.t == t);
             t = flight.t;
             ++counts[flight.phase];
@@ -113,11 +132,11 @@ TEST_CASE("Media along a ray: of the media at the end of a flight each is chosen
         double total = 0;
         for (const Slab& s : c.slabs) {
             if (std::min(std::abs(x - s.x0), std::abs(x - s.x1)) < 1e-9) RC_DISCARD("at a boundary");
-            if (x > s.x0 && x < s.x1) total += s.density;
+            if (x > s.x0 && x < s.x1) total += s.density * s.albedo;
         }
         for (std::size_t i = 0; i < c.slabs.size(); ++i) {
             const Slab& s = c.slabs[i];
-            const double share = x > s.x0 && x < s.x1 ? s.density / total : 0;
+            const double share = x > s.x0 && x < s.x1 ? s.density * s.albedo / total : 0;
             const MaterialId phase = c.scene.flat().medium_shapes[i].phase;
             RC_ASSERT(std::abs(counts[phase] - kChoices * share) <= 1);
         }
@@ -168,10 +187,10 @@ TEST_CASE("Media along a ray: what rounding leaves of extinctions does not fill 
 }
 
 TEST_CASE("Media along a ray: one without extinction changes nothing", "[render][media]") {
-    const CompiledScene scene = compile_with(sky(0), {medium_of({1, 2, 0}), medium_of({1.5, 3, 2}, 0.5)});
+    const CompiledScene scene = compile_with(sky(0), {medium_of({1, 2, 0}), medium_of({1.5, 3, 2, 0.5})});
     MediaAlongRay media;
     media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {1, 0, 0}});
     CHECK(media.transmittance() == Approx(std::exp(-3)).epsilon(1e-13));
     for (const double choose : {0.0, 0.5, 1 - 0x1p-53})
-        CHECK(media.sample(0.5, choose)->phase == scene.flat().medium_shapes[1].phase);
+        CHECK(media.sample(0.5, choose).phase == scene.flat().medium_shapes[1].phase);
 }

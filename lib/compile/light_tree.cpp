@@ -1,0 +1,210 @@
+// A binary tree of lights, split where both halves are small, look the same way and shine alike: Conty Estevez and
+// Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, Proc. ACM Comput. Graph. Interact. Tech.
+// 1(2), 2018, whose cost is the product of area, orientation measure and strength.
+#include "compile/light_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "limn/core/math.h"
+
+namespace limn::compiler {
+
+namespace {
+
+constexpr std::size_t kBins = 12;
+// Deeper than any sensible tree; from here on halves have as many lights, so that recursion ends.
+constexpr int kDeepest = 48;
+// Neighbours as near to each other as they are large are not worth a node each: what is gained by telling them apart
+// is lost by the way down. Four are a factor of four in density at worst.
+constexpr std::size_t kMostInLeaf = 4;
+constexpr double kWidestLeaf = 3, kLeafCosine = 0.9;
+// The least share of all strength: one that gets less could vanish in the sums.
+constexpr double kLeastShare = 1e-6;
+
+struct Cone {
+    Vec3 axis;
+    double cos_spread;
+};
+
+// The smallest cone of lines around two.
+Cone merge(Cone a, Cone b) {
+    if (a.cos_spread == flat::kNoNormals && b.cos_spread == flat::kNoNormals) return a;
+    if (a.cos_spread <= 0 || b.cos_spread <= 0) return {a.axis, 0};
+    if (dot(a.axis, b.axis) < 0) b.axis = -b.axis;
+    const double spread_a = std::acos(a.cos_spread), spread_b = std::acos(b.cos_spread);
+    const double between = std::atan2(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
+    if (between + spread_b <= spread_a) return a;
+    if (between + spread_a <= spread_b) return b;
+    const double spread = (spread_a + between + spread_b) / 2;
+    if (spread >= kPi / 2) return {a.axis, 0};
+    const double turn = spread - spread_a;  // from a towards b
+    const Vec3 aside = normalize(cross(cross(a.axis, b.axis), a.axis));
+    if (!is_finite(aside)) return {a.axis, std::cos(spread)};
+    return {normalize(std::cos(turn) * a.axis + std::sin(turn) * aside), std::cos(spread)};
+}
+
+LightBounds merge(const LightBounds& a, const LightBounds& b) {
+    if (a.box.is_empty()) return b;
+    if (b.box.is_empty()) return a;
+    const Cone cone = merge(Cone{a.axis, a.cos_spread}, Cone{b.axis, b.cos_spread});
+    return {merge(a.box, b.box), cone.axis, cone.cos_spread, a.strength + b.strength};
+}
+
+// The integral over all directions, each weighed by the largest cosine that any normal within the cone makes with it.
+double orientation_measure(double cos_spread) {
+    if (cos_spread == flat::kNoNormals) return 4 * kPi;
+    const double spread = std::acos(cos_spread), sine = std::sin(spread);
+    const double reach = std::min(spread + kPi / 2, kPi);
+    return 2 * kPi * (1 - cos_spread) +
+           kPi / 2 * (2 * reach * sine - std::cos(spread - 2 * reach) - 2 * spread * sine + cos_spread);
+}
+
+double cost(const LightBounds& b) {
+    return b.box.is_empty() ? 0 : b.strength * orientation_measure(b.cos_spread) * surface_area(b.box);
+}
+
+class Builder {
+public:
+    Builder(std::span<LightItem> items, flat::LightTable& table) : items_(items), table_(table) {}
+
+    void build(std::size_t begin, std::size_t end, int depth) {
+        LightBounds all;
+        double largest = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            all = merge(all, items_[i].bounds);
+            largest = std::max(largest, length(items_[i].bounds.box.diagonal()));
+        }
+        const std::size_t node = table_.nodes.size();
+        table_.nodes.push_back(packed(all, end));
+        const std::size_t count = end - begin;
+        const bool compact = count <= kMostInLeaf && length(all.box.diagonal()) <= kWidestLeaf * largest &&
+                             all.cos_spread >= kLeafCosine;
+        // A pair of lights alone in the scene is told apart for the price of two nodes.
+        if (count == 1 || (compact && items_.size() > kMostInLeaf)) return;
+        const std::size_t middle = split(begin, end, all, depth);
+        build(begin, middle, depth + 1);
+        table_.nodes[node].right = static_cast<std::uint32_t>(table_.nodes.size());
+        build(middle, end, depth + 1);
+    }
+
+private:
+    static double center(const LightItem& item, std::size_t axis) { return item.bounds.box.center()[axis]; }
+
+    // Sorts the lights into two halves and returns where the second begins.
+    std::size_t split(std::size_t begin, std::size_t end, const LightBounds& all, int depth) {
+        Box centers;
+        for (std::size_t i = begin; i < end; ++i) centers.extend(items_[i].bounds.box.center());
+        const Vec3 extent = centers.diagonal(), size = all.box.diagonal();
+        double best = std::numeric_limits<double>::infinity();
+        std::size_t best_axis = 0, best_bin = 0;
+        for (std::size_t axis = 0; axis < 3 && depth < kDeepest; ++axis) {
+            if (!(extent[axis] > 0) || !std::isfinite(extent[axis])) continue;
+            std::array<LightBounds, kBins> bins;
+            for (std::size_t i = begin; i < end; ++i) {
+                LightBounds& bin = bins[bin_of(items_[i], axis, centers)];
+                bin = merge(bin, items_[i].bounds);
+            }
+            std::array<double, kBins> below{};
+            LightBounds sum;
+            for (std::size_t b = 0; b + 1 < kBins; ++b) sum = merge(sum, bins[b]), below[b] = cost(sum);
+            sum = {};
+            // Thin slabs are to be cut across.
+            const double thin = max_abs(size) / size[axis];
+            for (std::size_t b = kBins - 1; b > 0; --b) {
+                sum = merge(sum, bins[b]);
+                const double c = thin * (below[b - 1] + cost(sum));
+                if (c < best && below[b - 1] > 0 && !sum.box.is_empty()) best = c, best_axis = axis, best_bin = b;
+            }
+        }
+        const auto first = items_.begin() + static_cast<std::ptrdiff_t>(begin),
+                   last = items_.begin() + static_cast<std::ptrdiff_t>(end);
+        auto middle = first;
+        if (best_bin > 0)
+            middle = std::partition(first, last,
+                                    [&](const LightItem& item) { return bin_of(item, best_axis, centers) < best_bin; });
+        if (middle == first || middle == last) {
+            // All in one place, or in one line, whose boxes have no area: halves along the longest side.
+            const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+            middle = first + (last - first) / 2;
+            std::nth_element(first, middle, last, [&](const LightItem& a, const LightItem& b) {
+                const double x = center(a, axis), y = center(b, axis);
+                return x != y ? x < y : a.number < b.number;
+            });
+        }
+        return static_cast<std::size_t>(middle - items_.begin());
+    }
+
+    static std::size_t bin_of(const LightItem& item, std::size_t axis, const Box& centers) {
+        const double from = centers.lower[axis], to = centers.upper[axis];
+        const double fraction = (center(item, axis) - from) / (to - from);
+        return std::min(static_cast<std::size_t>(std::max(0.0, fraction) * kBins), kBins - 1);
+    }
+
+    // The ball around the box and the cone, a little wider than what rounding to float may take away.
+    static flat::LightNode packed(const LightBounds& b, std::size_t end) {
+        flat::LightNode node{};
+        Vec3 off;
+        for (std::size_t a = 0; a < 3; ++a) {
+            node.center[a] = static_cast<float>(b.box.center()[a]);
+            node.axis[a] = static_cast<float>(b.axis[a]);
+            off[a] = std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
+        }
+        const float wide = static_cast<float>(length(off) * (1 + 1e-6));
+        node.radius = std::nextafter(wide, std::numeric_limits<float>::infinity());
+        const double spread = std::acos(std::max(0.0, b.cos_spread)) + 1e-6;
+        const bool any = spread >= kPi / 2;
+        node.cos_spread = any ? 0 : static_cast<float>(std::cos(spread));
+        node.sin_spread = any ? 1 : static_cast<float>(std::sin(spread));
+        if (b.cos_spread == flat::kNoNormals) node.cos_spread = flat::kNoNormals;
+        node.strength = static_cast<float>(b.strength);
+        node.end = static_cast<std::uint32_t>(end);
+        return node;
+    }
+
+    std::span<LightItem> items_;
+    flat::LightTable& table_;
+};
+
+// Shares of the whole; all alike if they cannot be told.
+void normalize_strengths(std::vector<LightItem>& items) {
+    double total = 0;
+    for (const LightItem& item : items) total += item.bounds.strength;
+    const double count = static_cast<double>(items.size());
+    double sum = 0;
+    for (LightItem& item : items) {
+        double& share = item.bounds.strength;
+        share = std::isfinite(total) && total > 0 ? std::max(share / total, kLeastShare / count) : 1 / count;
+        sum += share;
+    }
+    for (LightItem& item : items) item.bounds.strength /= sum;
+}
+
+}  // namespace
+
+void build_light_tree(std::vector<LightItem> items, flat::LightTable& table) {
+    if (items.empty()) return;
+    normalize_strengths(items);
+    if (items.size() > 1) Builder(items, table).build(0, items.size(), 0);
+    double before = 0;
+    for (const LightItem& item : items) {
+        table.by_number.push_back({item.number, static_cast<std::uint32_t>(table.refs.size())});
+        table.refs.push_back(item.ref);
+        table.strength_before.push_back(before);
+        before += item.bounds.strength;
+    }
+    table.strength_before.push_back(before);
+    std::uint32_t rank = 0;
+    for (std::size_t k = 0; k <= items.size(); ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(items.size());
+        while (rank + 1 < items.size() && table.strength_before[rank + 1] <= share) ++rank;
+        table.guide.push_back(rank);
+    }
+    std::sort(table.by_number.begin(), table.by_number.end(),
+              [](const flat::LightNumber& a, const flat::LightNumber& b) { return a.number < b.number; });
+}
+
+}  // namespace limn::compiler

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "flat/scene.h"
+#include "limn/core/box.h"
+
+namespace limn::compiler {
+
+// What is known of a light, or of several, when one is chosen. `axis` and the cosine of `spread` bound the directions
+// of the planes' normals and their opposites.
+struct LightBounds {
+    Box box;                // over the whole shutter
+    Vec3 axis;              // unit
+    double cos_spread = 0;  // 0: any normals; flat::kNoNormals: of spheres alone
+    double strength = 0;    // radiance times area, or of the disc that a sphere is seen as
+};
+
+struct LightItem {
+    flat::LightRef ref;
+    std::uint64_t number = 0;  // of its primitive
+    LightBounds bounds;
+};
+
+// Fills the table's ranks and nodes; places and own lights are there already. The strengths are made to add up to 1.
+void build_light_tree(std::vector<LightItem> items, flat::LightTable& table);
+
+}  // namespace limn::compiler

@@ -1,0 +1,89 @@
+#include "flat/lights.h"
+
+#include <cmath>
+
+#include "core/hit_error.h"
+#include "flat/scene.h"
+
+namespace limn::flat {
+
+namespace {
+
+// Right angles but for rounding.
+bool is_rectangle(const Light& light) {
+    return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
+}
+
+// Sets the corner and edges of a planar shape as they are described.
+void describe(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
+    const auto triangle = [&](const Point3& a, const Point3& b, const Point3& c) {
+        light.origin = a, light.edge_u = b - a, light.edge_v = c - a;
+        light.kind = LightKind::triangle;
+    };
+    if (range.kind == PrimitiveKind::mesh) {
+        const TriangleVertices v = triangle_of(scene, scene.meshes[range.first_row], element);
+        triangle(v.a, v.b, v.c);
+    } else if (range.kind == PrimitiveKind::triangle) {
+        const Triangle& t = scene.triangles[range.first_row + element];
+        triangle(t.a, t.b, t.c);
+    } else {
+        const Quad& q = scene.quads[range.first_row + element];
+        light.origin = q.corner, light.edge_u = q.edge_u, light.edge_v = q.edge_v;
+        light.kind = LightKind::parallelogram;
+    }
+}
+
+void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
+    if (light.kind == LightKind::parallelogram && is_rectangle(light)) light.kind = LightKind::rectangle;
+    light.material = material_of(scene, range, element);
+    light.textured = !is_plain(scene, light.material);
+}
+
+}  // namespace
+
+bool is_plain(const Scene& scene, MaterialId material) {
+    const TextureId texture = scene.materials[static_cast<std::size_t>(material)].texture;
+    return scene.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
+}
+
+Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,
+                   const Transform& inverse_of_m) {
+    Light light;
+    describe(scene, range, element, light);
+    const Vec3 error = planar_error(light.origin, light.edge_u, light.edge_v);
+    light.origin = transform_point(m, light.origin);
+    light.edge_u = transform_vector(m, light.edge_u);
+    light.edge_v = transform_vector(m, light.edge_v);
+    const double reach = max_abs(light.origin) + max_abs(light.edge_u) + max_abs(light.edge_v);
+    light.position_error = transformed_error(m, inverse_of_m, Point3{reach, reach, reach}, error);
+    finish(scene, range, element, light);
+    return light;
+}
+
+Light light_at(const Scene& scene, std::size_t rank, double time) {
+    const LightTable& table = scene.lights;
+    const LightRef ref = table.refs[rank];
+    if (ref.place == LightRef::kOwn) return table.own[ref.element];
+    const LightPlace& place = table.places[ref.place];
+    const PrimitiveRange& range = scene.ranges[place.range];
+    Light light;
+    if (place.instance_count > 0) {
+        Transform m;
+        for (std::uint32_t i = 0; i < place.instance_count; ++i) {
+            const Instance& instance = scene.instances[table.instances[place.first_instance + i]];
+            m = m * (instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
+                                     : instance.world_from_object0);
+        }
+        light = planar_light(scene, range, ref.element, m, inverse(m));
+    } else if (place.transformed) {
+        light = planar_light(scene, range, ref.element, place.world_from_object, place.object_from_world);
+    } else {
+        describe(scene, range, ref.element, light);
+        light.position_error = planar_error(light.origin, light.edge_u, light.edge_v);
+        finish(scene, range, ref.element, light);
+    }
+    light.number = place.first_number + ref.element;
+    return light;
+}
+
+}  // namespace limn::flat

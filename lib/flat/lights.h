@@ -1,0 +1,91 @@
+// Emitters that can be sampled, and the tree by which one of many is chosen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "limn/core/transform.h"
+#include "limn/core/vec.h"
+#include "limn/records.h"
+
+namespace limn::flat {
+
+enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
+
+// An emitter in world space.
+struct Light {
+    LightKind kind = LightKind::triangle;
+    bool textured = false;  // its radiance is not the same everywhere
+    MaterialId material = MaterialId::none;
+    std::uint64_t number = 0;  // of its primitive
+    Point3 origin;             // a triangle's first vertex, a quad's corner, a sphere's centre at time 0
+    Vec3 edge_u, edge_v;       // of triangle and quad; of a sphere edge_u is the motion of its centre
+    double radius = 0;
+    Vec3 position_error;  // of points computed on it
+};
+
+// Emitters of one range where instances put it, whose numbers are those of the range: triangles of a mesh, and planar
+// shapes that instances move.
+struct LightPlace {
+    std::uint32_t range = 0;           // row of Scene::ranges
+    std::uint32_t first_instance = 0;  // in LightTable::instances; outermost first
+    std::uint32_t instance_count = 0;  // 0 where nothing moves: then the matrices count
+    bool transformed = false;          // the matrices are not the identity
+    std::uint64_t first_number = 0;
+    Transform world_from_object, object_from_world;
+};
+
+struct LightRef {
+    static constexpr std::uint32_t kOwn = 0xffffffff;  // a place: `element` is a row of LightTable::own
+    std::uint32_t place = kOwn;
+    std::uint32_t element = 0;
+};
+
+// Of spheres, which look alike from everywhere, in place of the cosine of the spread.
+inline constexpr float kNoNormals = -1;
+
+// Some lights, in a ball, and the directions of their planes' normals, in a cone around an axis and its opposite.
+// The ball is rounded outward; the cone's sine is never 0.
+struct LightNode {
+    float center[3], radius;
+    float axis[3];
+    float cos_spread, sin_spread;  // of the cone's angle, at most a right one, where normals go anywhere; or kNoNormals
+    float strength;                // sum of radiance times area, or of the disc that a sphere is seen as; in all 1
+    std::uint32_t end;             // of its lights' ranks; they begin where those of the node to the left end
+    std::uint32_t right;           // its second child, the first one being the next node; 0 in a leaf
+};
+static_assert(sizeof(LightNode) == 48);
+
+struct LightNumber {
+    std::uint64_t number;  // of the primitive
+    std::uint32_t rank;
+};
+
+// Lights are known by their rank: their place in the order of the tree's leaves.
+struct LightTable {
+    std::vector<Light> own;
+    std::vector<LightPlace> places;
+    std::vector<std::uint32_t> instances;  // rows of Scene::instances
+    std::vector<LightRef> refs;            // by rank
+    std::vector<double> strength_before;   // sums of the strengths by rank, from 0 to 1; one more than there are lights
+    std::vector<std::uint32_t> guide;    // [k]: the last rank with strength_before at most k / size(), k = 0 ... size()
+    std::vector<LightNode> nodes;        // none for a single light
+    std::vector<LightNumber> by_number;  // ascending
+
+    std::size_t size() const { return refs.size(); }
+    bool empty() const { return refs.empty(); }
+};
+
+struct Scene;
+
+// Whether a material's texture is the same everywhere.
+bool is_plain(const Scene& scene, MaterialId material);
+
+// \pre rank < scene.lights.size()
+Light light_at(const Scene& scene, std::size_t rank, double time);
+
+// A planar one of a place under a matrix. \pre range is of meshes, triangles or quads
+Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,
+                   const Transform& inverse_of_m);
+
+}  // namespace limn::flat

@@ -1,0 +1,131 @@
+// The importance of a node and the way down by it: Conty Estevez and Kulla, Importance Sampling of Many Lights with
+// Adaptive Tree Splitting, Proc. ACM Comput. Graph. Interact. Tech. 1(2), 2018; cosines of sums of angles in place of
+// the angles as in Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., section 12.6.3. Ours: the way down
+// ends where all lights below are as good as alike.
+#include "render/light_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limn::tracing {
+
+namespace {
+
+using flat::LightNode;
+using flat::LightTable;
+
+// What rounding may do to the cosine by which a ball is behind the receiver: its sine is the root of a difference.
+constexpr double kSlack = 1e-6;
+// The lights of a node are alike where it is farther than this many radii, their normals have at least this cosine with
+// a common axis (or they are spheres) and its middle is before the receiver. Measured in the Cornell box: with 1e4
+// triangles as its lamp 3 takes a third less time per error than going down to the leaves; 1.5 to 5 are the same within
+// 2 %, with 200 balls too.
+constexpr double kAlikeSquared = 3.0 * 3.0, kAlikeSpread = 0.9;
+
+struct Importance {
+    double value;
+    bool alike;
+};
+
+// strength |cos at the light| cos at the receiver / distance^2, with the largest cosines that any light in the ball can
+// have. Zero only if the whole ball is behind the receiver.
+Importance importance_of(const LightNode& node, const Receiver& receiver) {
+    const Vec3 way = Point3{node.center[0], node.center[1], node.center[2]} - receiver.position;
+    const double d2 = length_squared(way), r2 = double{node.radius} * double{node.radius};
+    if (!std::isfinite(d2 + r2)) return {node.strength, false};  // beyond the range of float
+    if (!(d2 > r2))
+        return {node.strength / std::max(r2, 1e-300), false};  // within the ball light may come from anywhere
+    const double over_d = 1 / std::sqrt(d2);
+    // Of the angle that the ball's radius is seen under.
+    const double sin_ball = double{node.radius} * over_d, cos_ball = std::sqrt(1 - sin_ball * sin_ball);
+    double value = node.strength * (over_d * over_d);
+    const double cos_spread = node.cos_spread;
+    bool alike = kAlikeSquared * r2 <= d2 && (cos_spread >= kAlikeSpread || cos_spread == flat::kNoNormals);
+
+    // At the light: the angle between the way and the nearest normal is theta - spread - ball, at least 0.
+    if (cos_spread > 0) {
+        const double sin_spread = node.sin_spread;
+        const double cos_near = cos_spread * cos_ball - sin_spread * sin_ball;
+        const double cosine = std::abs(node.axis[0] * way.x + node.axis[1] * way.y + node.axis[2] * way.z) * over_d;
+        if (cosine < cos_near) {
+            const double sin_near = sin_spread * cos_ball + cos_spread * sin_ball;
+            value *= cosine * cos_near + std::sqrt(1 - cosine * cosine) * sin_near;
+        }
+    }
+    if (receiver.normal == Vec3{}) return {value, alike};
+    const double cosine = std::clamp(dot(receiver.normal, way) * over_d, -1.0, 1.0);
+    if (cosine >= cos_ball) return {value, alike};
+    const double most = cosine * cos_ball + std::sqrt(1 - cosine * cosine) * sin_ball;
+    if (most < -kSlack) return {0, true};
+    return {value * std::max(most, kSlack), alike && cosine >= 0};
+}
+
+// Where a way down stands: a node, its lights' ranks and the probability of having come there.
+struct Walk {
+    std::uint32_t node = 0;
+    std::size_t begin = 0;
+    double probability = 1;
+};
+
+// Goes down from the root until the lights are alike, and to the left wherever left(node, share, begin) says so; share
+// is the left node's probability. False if there are no lights on the receiver's side.
+template <class Left>
+bool descend(const LightTable& lights, const Receiver& receiver, Walk& at, const Left& left) {
+    Importance here = importance_of(lights.nodes[0], receiver);
+    if (here.value == 0) return false;
+    for (;;) {
+        const std::uint32_t right = lights.nodes[at.node].right;
+        if (right == 0 || here.alike) return true;
+        const Importance a = importance_of(lights.nodes[at.node + 1], receiver),
+                         b = importance_of(lights.nodes[right], receiver);
+        const double sum = a.value + b.value;
+        if (!(sum > 0)) return false;
+        const double share = a.value / sum;
+        if (left(lights.nodes[at.node + 1], share)) {
+            at.node += 1, at.probability *= share;
+            here = a;
+        } else {
+            at.begin = lights.nodes[at.node + 1].end;
+            at.node = right, at.probability *= 1 - share;
+            here = b;
+        }
+    }
+}
+
+}  // namespace
+
+std::optional<LightChoice> choose_light(const LightTable& lights, const Receiver& receiver, double pick) {
+    if (lights.nodes.empty()) return LightChoice{0, 1};
+    Walk at;
+    const bool found = descend(lights, receiver, at, [&](const LightNode&, double share) {
+        const bool left = pick < share;
+        // What is left of the number is as good as a new one.
+        pick = std::min(left ? pick / share : (pick - share) / (1 - share), 1 - 0x1p-53);
+        return left;
+    });
+    if (!found) return std::nullopt;
+    const auto first = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(at.begin);
+    const auto last = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(lights.nodes[at.node].end);
+    if (last - first == 1) return LightChoice{at.begin, at.probability};
+    const double strength = *last - *first, wanted = *first + pick * strength;
+    // The guide narrows the search.
+    const auto place =
+        std::min(static_cast<std::size_t>(wanted * static_cast<double>(lights.size())), lights.size() - 1);
+    const auto from = std::max(first, lights.strength_before.begin() + lights.guide[place]) + 1;
+    const auto to = std::min(last, lights.strength_before.begin() + lights.guide[place + 1] + 1);
+    const auto after = from < to ? std::upper_bound(from, to, wanted) : from < last ? from : last;
+    return LightChoice{static_cast<std::size_t>(after - 1 - lights.strength_before.begin()),
+                       at.probability * ((*after - *(after - 1)) / strength)};
+}
+
+double probability_of(const LightTable& lights, const Receiver& receiver, std::size_t rank) {
+    if (lights.nodes.empty()) return 1;
+    Walk at;
+    if (!descend(lights, receiver, at, [&](const LightNode& left, double) { return rank < left.end; })) return 0;
+    const std::size_t end = lights.nodes[at.node].end;
+    if (end - at.begin == 1) return at.probability;
+    const std::vector<double>& before = lights.strength_before;
+    return at.probability * (before[rank + 1] - before[rank]) / (before[end] - before[at.begin]);
+}
+
+}  // namespace limn::tracing
