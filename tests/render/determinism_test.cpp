@@ -3,6 +3,7 @@
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
 #include "limn/texture/perlin.h"
+#include "render/path.h"
 #include "support/pictures.h"
 
 using namespace limn;
@@ -64,6 +65,33 @@ std::vector<double> shifted(const std::vector<double>& a, std::size_t by) {
 }
 
 }  // namespace
+
+TEST_CASE("Determinism: a path is the same alone and among any number of others", "[render][determinism]") {
+    const CompiledScene scene = busy_scene();
+    const CameraRays camera(kView, 40, 40);
+    const auto path_of = [&](std::uint64_t i) {
+        return tracing::Path{camera.ray(static_cast<double>(i % 40) + 0.3, static_cast<double>(i / 40) + 0.6, 0, 0, 0.4),
+                             tracing::Sampler(3, i, 1)};
+    };
+    std::vector<Color> alone;
+    for (std::uint64_t i = 0; i < 1600; ++i) {
+        tracing::PathTracer tracer(scene.flat(), 8, Estimator::path);
+        tracing::Path path = path_of(i);
+        tracer.trace({&path, 1});
+        alone.push_back(path.radiance);
+    }
+    for (const std::size_t together : {2, 17, 300, 1600}) {
+        tracing::PathTracer tracer(scene.flat(), 8, Estimator::path);
+        std::size_t differing = 0;
+        for (std::size_t first = 0; first < alone.size(); first += together) {
+            std::vector<tracing::Path> paths;
+            for (std::size_t i = first; i < std::min(first + together, alone.size()); ++i) paths.push_back(path_of(i));
+            tracer.trace(paths);
+            for (std::size_t i = 0; i < paths.size(); ++i) differing += paths[i].radiance != alone[first + i];
+        }
+        CHECK(differing == 0);
+    }
+}
 
 TEST_CASE("Determinism: the pixels are the same on 1, 2, 3 and 7 threads, in every run", "[render][determinism]") {
     const CompiledScene scene = busy_scene();
