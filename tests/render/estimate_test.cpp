@@ -59,7 +59,7 @@ TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does no
     const int side = 40;
     const Subject subjects[] = {smoke_ball(side), lit_floor(side)};
     for (const Subject& s : subjects) {
-        for (const int samples : {64, 256}) {
+        for (const int samples : {64}) {
             double estimates = 0, errors = 0;
             int covered = 0;
             for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -86,7 +86,7 @@ TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does no
 TEST_CASE("Error estimate: four times as many independent samples give a quarter of it", "[render][estimate]") {
     const Subject s = smoke_ball(32);
     double last = 0;
-    for (const int samples : {64, 256, 1024}) {
+    for (const int samples : {64, 256}) {
         double sum = 0;
         for (std::uint64_t seed = 0; seed < 5; ++seed) {
             RenderSettings settings = square(32, samples, 1);
@@ -138,7 +138,7 @@ TEST_CASE("Error estimate: the largest share of a sample tells of rare bright li
 
 TEST_CASE("Error estimate: a render to an error keeps its promise 95 times in 100, and takes little more than it must",
           "[render][estimate]") {
-    const int side = 24, stops = std::getenv("LIMN_FULL") ? 2000 : 50;
+    const int side = 24, stops = std::getenv("LIMN_FULL") ? 2000 : 30;
     const Subject subject = smoke_ball(side);
     for (const auto& [sampler, target] : {std::pair{SamplerKind::sobol, 6e-4}, {SamplerKind::independent, 8e-3}}) {
         int kept = 0;
