@@ -118,6 +118,8 @@ case $command in
         # Mitsuba is slow without; not every Debian has it.
         ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}" "${others[@]}"
+        # Unless a part alone was asked for.
+        [[ ${#others[@]} -gt 0 ]] || /usr/bin/python3 apps/bench/promise.py "${full[@]}"
         ;;
     accuracy)
         install_missing libembree-dev python3 python3-matplotlib python3-numpy

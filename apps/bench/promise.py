@@ -1,20 +1,20 @@
-"""What `--error` promises and what the samplers give, measured: the last chapters of docs/speed-against-error.md.
+"""What `--error` promises and what the samplers give, measured: the last chapter of docs/speed-against-error.md.
 
-Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run by ./build.sh convergence [--full]
-after the rest of the report has been written.
+Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run by ./build.sh convergence [--full].
 """
 
 import argparse
+import datetime
 import json
 import math
 import subprocess
 
-from machine import ROOT
+from machine import ROOT, commit, processor
+from paper import write_generated
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/convergence"
 REPORT = ROOT / "docs/speed-against-error.md"
-HEADING = "## What `--error` promises"
 TITLES = {"cornell": "Cornell box", "bouncing": "bouncing spheres", "glass": "glass", "smoke": "smoke",
           "fireflies": "fireflies"}
 
@@ -26,7 +26,8 @@ def measure(program, out, *options):
 
 def promise_lines(rows):
     stops, kept = sum(r["stops"] for r in rows), sum(r["kept"] for r in rows)
-    lines = [HEADING, "",
+    lines = ["Written by `./build.sh convergence`; do not edit. "
+             f"{datetime.date.today()}, commit {commit()}, {processor()}.", "",
              f"Each scene is rendered to a target with {rows[0]['stops']} seeds, {rows[0]['size']}x{rows[0]['size']} pixels, and each "
              "picture is compared with a reference in two halves whose mean has at most a thirtieth of that error. Kept: the "
              "true relMSE is at or under the target. The overshoot is in samples, over the fewest (by bisection) at which "
@@ -50,7 +51,7 @@ def slope(variance):
 
 def rate_lines(rows):
     samples = list(rows[0]["variance"])
-    lines = ["## How fast pixels converge", "",
+    lines = ["### How fast pixels converge", "",
              f"The relative variance of single pixels, over {rows[0]['seeds']} seeds, by the number of samples, and the slope of its "
              "logarithm. The four replicates, which the error estimate needs, are part of it: they cost an even sequence a "
              "factor of two at edges (slope -1.5), sixteen where it is smooth (slope -3).", "",
@@ -68,8 +69,7 @@ def main():
     RAW.mkdir(parents=True, exist_ok=True)
     rates = measure("limn_sampler_rates", RAW / "sampler_rates.json")
     promises = measure("limn_promise", RAW / "promise.json", "--folder", RAW / "promise", *seeds)
-    text = REPORT.read_text() if REPORT.exists() else "# Speed against error\n\n"
-    REPORT.write_text(text.split(HEADING)[0].rstrip() + "\n\n" + "\n".join(promise_lines(promises) + rate_lines(rates)))
+    write_generated(REPORT, "\n".join(promise_lines(promises) + rate_lines(rates)), "promise")
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ double relative_variance(const Pixel& pixel, const CompiledScene& scene, Sampler
 int run(int argc, char** argv) {
     CLI::App cli("Measures how fast single pixels converge with either sampler.", "limn_sampler_rates");
     std::string json;
-    int seeds = 64;
+    int seeds = 100;
     cli.add_option("--seeds", seeds, "Pictures for each variance")->check(CLI::Range(2, 100'000));
     cli.add_option("--json", json, "Where the result goes; - is standard output")->required();
     if (!app::parse_arguments(cli, argc, argv)) return app::kDone;

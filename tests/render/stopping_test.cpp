@@ -87,7 +87,7 @@ TEST_CASE("Stopping: a time limit ends a render soon after it, with an estimate,
     RenderSettings settings = square(32, 1, 3);
     for (const double limit : {1e-9, 0.1}) {
         settings.time_limit = limit;
-        settings.max_samples_per_pixel = 1 << 20;  // would take minutes
+        settings.max_samples_per_pixel = 1 << 14;  // would take seconds
         const RenderResult r = render(lit_floor(), kEye, settings);
         CHECK(r.report.stopped_by == StoppedBy::time);
         CHECK(r.report.complete);
