@@ -144,22 +144,19 @@ private:
         return std::min(static_cast<std::size_t>(std::max(0.0, fraction) * kBins), kBins - 1);
     }
 
-    // The ball around the box and the cone, a little wider than what rounding to float may take away.
     static flat::LightNode packed(const LightBounds& b, std::size_t end) {
+        constexpr float kInf = std::numeric_limits<float>::infinity();
         flat::LightNode node{};
-        Vec3 off;
         for (std::size_t a = 0; a < 3; ++a) {
             node.center[a] = static_cast<float>(b.box.center()[a]);
             node.axis[a] = static_cast<float>(b.axis[a]);
-            off[a] = std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
+            // From the centre as rounded; a little more, for points that are computed at other times.
+            const double off =
+                std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
+            const double most = std::max(std::abs(b.box.upper[a]), std::abs(b.box.lower[a]));
+            node.half[a] = std::nextafter(static_cast<float>(off + 1e-12 * most), kInf);
         }
-        const float wide = static_cast<float>(length(off) * (1 + 1e-6));
-        node.radius = std::nextafter(wide, std::numeric_limits<float>::infinity());
-        const double spread = std::acos(std::max(0.0, b.cos_spread)) + 1e-6;
-        const bool any = spread >= kPi / 2;
-        node.cos_spread = any ? 0 : static_cast<float>(std::cos(spread));
-        node.sin_spread = any ? 1 : static_cast<float>(std::sin(spread));
-        if (b.cos_spread == flat::kNoNormals) node.cos_spread = flat::kNoNormals;
+        node.cos_spread = static_cast<float>(b.cos_spread);
         node.strength = static_cast<float>(b.strength);
         node.end = static_cast<std::uint32_t>(end);
         return node;

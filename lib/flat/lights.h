@@ -44,17 +44,17 @@ struct LightRef {
 // Of spheres, which look alike from everywhere, in place of the cosine of the spread.
 inline constexpr float kNoNormals = -1;
 
-// Some lights, in a ball, and the directions of their planes' normals, in a cone around an axis and its opposite.
-// The ball is rounded outward; the cone's sine is never 0.
+// Some lights, in a box, and the directions of their planes' normals, in a cone around an axis and its opposite. The
+// box is rounded outward.
 struct LightNode {
-    float center[3], radius;
+    float center[3], half[3];  // half of the box's sides
     float axis[3];
-    float cos_spread, sin_spread;  // of the cone's angle, at most a right one, where normals go anywhere; or kNoNormals
-    float strength;                // sum of radiance times area, or of the disc that a sphere is seen as; in all 1
-    std::uint32_t end;             // of its lights' ranks; they begin where those of the node to the left end
-    std::uint32_t right;           // its second child, the first one being the next node; 0 in a leaf
+    float cos_spread;     // of the cone's angle, at most a right one, where normals go anywhere; or kNoNormals
+    float strength;       // sum of radiance times area, or of the disc that a sphere is seen as; in all 1
+    std::uint32_t end;    // of its lights' ranks; they begin where those of the node to the left end
+    std::uint32_t right;  // its second child, the first one being the next node; 0 in a leaf
 };
-static_assert(sizeof(LightNode) == 48);
+static_assert(sizeof(LightNode) == 52);
 
 struct LightNumber {
     std::uint64_t number;  // of the primitive

@@ -66,7 +66,7 @@ bool sample_flat(const flat::Scene& scene, const Light& light, const Point3& fro
     s.point.position = drawn->position;
     s.pdf = drawn->pdf;
     s.direction = normalize(way);
-    const Normal3 normal(normalize(cross(light.edge_u, light.edge_v)));
+    const Normal3 normal(normalize(drawn->normal));
     s.point.normal = dot(normal, way) > 0 ? -normal : normal;
     if (!light.textured) return true;
     s.point.uv = weights;

@@ -36,13 +36,9 @@ bool is_far(const Light& light, const Point3& from) {
     return kFarSquared * radius2 <= length_squared(light.origin + diagonal / 2 - from);
 }
 
-bool is_edge_on(const Light& light, const Point3& from) {
-    return dot(cross(light.edge_u, light.edge_v), light.origin - from) == 0;
-}
-
-// Density per solid angle of a point drawn uniformly by area; 0 if the plane is seen edge-on.
-double pdf_by_area(const Light& light, const Vec3& way) {
-    const Vec3 scaled_normal = cross(light.edge_u, light.edge_v);  // its length is the quad's area
+// Density per solid angle of a point drawn uniformly by area; 0 if the plane is seen edge-on. \param scaled_normal as
+// long as a quad's area
+double pdf_by_area(const Light& light, const Vec3& scaled_normal, const Vec3& way) {
     const double projected = std::abs(dot(scaled_normal, way)) * (light.kind == LightKind::triangle ? 0.5 : 1);
     const double distance_squared = length_squared(way);
     return projected > 0 ? distance_squared * std::sqrt(distance_squared) / projected : 0;
@@ -79,8 +75,9 @@ Uv weights_of(const Light& light, const Point3& from, const Vec3& direction) {
 }  // namespace
 
 std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from, double u, double v) {
-    if (is_edge_on(light, from)) return std::nullopt;
     PlanarSample s;
+    s.normal = cross(light.edge_u, light.edge_v);
+    if (dot(s.normal, light.origin - from) == 0) return std::nullopt;  // edge-on
     double solid_angle = 0;
     if (!is_far(light, from)) {
         switch (light.kind) {
@@ -113,14 +110,15 @@ std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from
     const bool by_area = !(solid_angle >= kSmallSolidAngle);
     if (by_area) s.weights = light.kind == LightKind::triangle ? sample_uniform_triangle(u, v) : Uv{u, v};
     s.position = light.origin + (s.weights.u * light.edge_u + s.weights.v * light.edge_v);
-    s.pdf = by_area ? pdf_by_area(light, s.position - from) : 1 / solid_angle;
+    s.pdf = by_area ? pdf_by_area(light, s.normal, s.position - from) : 1 / solid_angle;
     if (!(s.pdf > 0)) return std::nullopt;
     return s;
 }
 
 double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
-    if (is_edge_on(light, from)) return 0;
-    if (is_far(light, from)) return pdf_by_area(light, way);
+    const Vec3 normal = cross(light.edge_u, light.edge_v);
+    if (dot(normal, light.origin - from) == 0) return 0;
+    if (is_far(light, from)) return pdf_by_area(light, normal, way);
     double solid_angle = 0;
     switch (light.kind) {
         case LightKind::rectangle:
@@ -133,7 +131,7 @@ double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
         case LightKind::parallelogram: solid_angle = Halves(light, from).solid_angle(); break;
         case LightKind::sphere: break;
     }
-    return solid_angle >= kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, way);
+    return solid_angle >= kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, normal, way);
 }
 
 }  // namespace limn::tracing

@@ -11,6 +11,7 @@ namespace limn::tracing {
 struct PlanarSample {
     Uv weights;  // of the light's two edges
     Point3 position;
+    Vec3 normal;     // of any length
     double pdf = 0;  // per solid angle
 };
 
