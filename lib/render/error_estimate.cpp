@@ -264,10 +264,10 @@ ErrorEstimate estimate_error(const Film& film, PixelMaps* maps) {
     return e;
 }
 
-// Steps of 5 % near the target. Further away one may jump to where the error would be if it fell with the square of the
+// Steps of 3 % near the target. Further away one may jump to where the error would be if it fell with the square of the
 // samples: faster than any picture's does, so that the target is not jumped over, and never by more than a quarter.
 int next_check(int samples, double upper, double target) {
-    constexpr double kSmallestGrowth = 1.05, kLargestGrowth = 1.25;
+    constexpr double kSmallestGrowth = 1.03, kLargestGrowth = 1.25;
     const double growth = std::clamp(std::sqrt(upper / target), kSmallestGrowth, kLargestGrowth);
     const double next = std::min(samples * growth, static_cast<double>(std::numeric_limits<int>::max() - kReplicates));
     return std::max(static_cast<int>(next) / kReplicates * kReplicates, samples + kReplicates);

@@ -156,7 +156,7 @@ TEST_CASE("Error estimate: a render to an error keeps its promise 95 times in 10
         }
         CAPTURE(kept);
         CHECK(kept >= stops * 0.95 - 4.5 * std::sqrt(stops * 0.95 * 0.05));
-        // 576 pixels know their error to 13 %, at 95 %; checks are 5 % apart. Even points make this scene's error fall
+        // 576 pixels know their error to 13 %, at 95 %; checks are 3 % apart. Even points make this scene's error fall
         // in steps, at powers of two.
         if (sampler == SamplerKind::sobol) continue;
         std::nth_element(margins.begin(), margins.begin() + stops / 2, margins.end());
