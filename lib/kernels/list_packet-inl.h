@@ -7,10 +7,10 @@
 #define LIMN_KERNELS_LIST_PACKET_INL_H
 #endif
 
+#include "kernels/exact_filters-inl.h"
 #include "kernels/list-inl.h"
 #include "kernels/list_exact.h"
 #include "kernels/queries.h"
-#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {

@@ -7,8 +7,8 @@
 #define LIMN_KERNELS_LIST_RAY_INL_H
 #endif
 
+#include "kernels/exact_filters-inl.h"
 #include "kernels/list_packet-inl.h"
-#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {

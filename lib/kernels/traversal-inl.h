@@ -10,12 +10,12 @@
 
 #include "core/sphere_uv.h"
 #include "kernels/box_ray-inl.h"
+#include "kernels/exact_filters-inl.h"
 #include "kernels/exact_tests.h"
 #include "kernels/node-inl.h"
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 #include "kernels/sphere-inl.h"
-#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
