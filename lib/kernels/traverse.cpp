@@ -33,6 +33,18 @@ constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = flat::kBuiltKinds;
 
+// visit(the smallest of the sets that has all kinds of the scene).
+template <class Visit>
+HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
+    const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
+    if (covers(kMeshes)) return visit(std::integral_constant<unsigned, kMeshes>{});
+    if (covers(kMeshesAndAsked)) return visit(std::integral_constant<unsigned, kMeshesAndAsked>{});
+    if (covers(kFlat)) return visit(std::integral_constant<unsigned, kFlat>{});
+    if (covers(kSpheres)) return visit(std::integral_constant<unsigned, kSpheres>{});
+    if (covers(kStill)) return visit(std::integral_constant<unsigned, kStill>{});
+    visit(std::integral_constant<unsigned, kAll>{});
+}
+
 template <unsigned kKinds, class Query>
 HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
                              std::uint64_t first_number, Query& query) {
@@ -48,15 +60,8 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
         if (id == GroupId::root && !scene.list.empty()) return search_list(scene, ray, frame, query);
     }
     const flat::Group& group = flat::group_at(scene, id);
-    const auto run = [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
-                         HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query); };
-    const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
-    if (covers(kMeshes)) return run(std::integral_constant<unsigned, kMeshes>{});
-    if (covers(kMeshesAndAsked)) return run(std::integral_constant<unsigned, kMeshesAndAsked>{});
-    if (covers(kFlat)) return run(std::integral_constant<unsigned, kFlat>{});
-    if (covers(kSpheres)) return run(std::integral_constant<unsigned, kSpheres>{});
-    if (covers(kStill)) return run(std::integral_constant<unsigned, kStill>{});
-    run(std::integral_constant<unsigned, kAll>{});
+    with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
+                          HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query); });
 }
 
 constexpr float kPacketTriangles = 4;
@@ -206,8 +211,10 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
     if (!scene.list.empty()) return search_list(scene, rays, count, queries);
     const flat::Group& root = flat::group_at(scene, GroupId::root);
     if (scene.kinds != kMeshes) {
-        for (std::size_t i = 0; i < count; ++i) search(scene, GroupId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
-        return;
+        return with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+            for (std::size_t i = 0; i < count; ++i)
+                search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+        });
     }
     const float spread = packet_spread(scene);
     HWY_ALIGN Interleaved<Query> interleaved(scene);
