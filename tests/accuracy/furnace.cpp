@@ -18,7 +18,7 @@ namespace {
 using MaterialPtr = std::shared_ptr<const Material>;
 using Object = std::shared_ptr<const Hittable>;
 
-constexpr int kDeep = 1000;  // nothing that matters is cut, and nothing ends by roulette
+constexpr int kDeep = 1000;  // nothing that matters is cut; and by the naive estimator nothing ends by roulette
 constexpr int kDepths[] = {4, 10, 50, kDeep, kUnlimitedDepth};
 constexpr int kSize = 32, kSeeds = 8, kDeepSeeds = 2;  // deep paths take long and hardly vary
 
@@ -28,6 +28,7 @@ Cell deviation(const CompiledScene& scene, const Camera& camera, int samples, in
     settings.width = settings.height = kSize;
     settings.samples_per_pixel = samples;
     settings.max_depth = depth;
+    if (depth == kDeep) settings.estimator = Estimator::naive;
     const int seeds = depth == kDeep ? kDeepSeeds : kSeeds;
     double sum = 0, squares = 0;
     for (int i = 0; i < seeds; ++i) {
