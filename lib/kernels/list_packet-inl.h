@@ -65,7 +65,7 @@ public:
             sphere(i, ray);
         }
         for (std::size_t r = 0; r < count_; ++r)
-            if ((odd_ >> r & 1) != 0) ask_all(r);
+            if ((odd_ >> r & 1) != 0) ask_all_listed(scene_, rays_[r], queries_[r]);
     }
 
 private:
@@ -92,7 +92,7 @@ private:
         hn::Store(hn::Add(high, high_slack), d, bound_);
         const auto ordinary = hn::And(hn::And(hn::Gt(size, hn::Set(d, 0x1p-10f)), hn::Lt(size, hn::Set(d, 0x1p10f))),
                                       hn::Lt(reach, hn::Set(d, 8 * extent)));
-        const std::uint32_t there = count_ == 32 ? ~0u : (1u << count_) - 1;
+        const std::uint32_t there = (1u << count_) - 1;
         active_ = bits(d, ordinary) & there;
         odd_ = there & ~active_;
         leaving_ = bits(d, hn::Ge(low, hn::Zero(d)));
@@ -293,13 +293,6 @@ private:
     HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
         ask_listed(scene_, list_.entries[i], rays_[r], queries_[r]);
         note_limit(r);
-    }
-
-    HWY_NOINLINE void ask_all(std::size_t r) {
-        for (const PrimitiveList::Entry& e : list_.entries) {
-            ask_listed(scene_, e, rays_[r], queries_[r]);
-            if (Query::kFirstHit && queries_[r].ended()) return;
-        }
     }
 
     const flat::Scene& scene_;

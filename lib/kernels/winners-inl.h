@@ -22,12 +22,8 @@ public:
     template <class A, class B>
     HWY_INLINE void add(const RayFrame& frame, const Search& search, const A& a, const B& b, const B& c,
                         std::uint32_t tag) {
-        add(frame.ray, frame.origin_error, frame.direction_error, search, a, b, c, tag);
-    }
-    template <class A, class B>
-    HWY_INLINE void add(const Ray& ray, double origin_error, double direction_error, const Search& search, const A& a,
-                        const B& b, const B& c, std::uint32_t tag) {
         const std::size_t i = size_++;
+        const Ray& ray = frame.ray;
         const PermutedAxes axes(ray.direction);
         const double* const o = &ray.origin.x;
         const double* const d = &ray.direction.x;
@@ -38,7 +34,7 @@ public:
             vertex_[3 + k][i] = (&b.x)[axes.of[k]];
             vertex_[6 + k][i] = (&c.x)[axes.of[k]];
         }
-        origin_error_[i] = origin_error, direction_error_[i] = direction_error;
+        origin_error_[i] = frame.origin_error, direction_error_[i] = frame.direction_error;
         t_min_[i] = search.t_min, t_max_[i] = search.t_max;
         tag_[i] = tag;
     }
