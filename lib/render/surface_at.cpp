@@ -15,7 +15,6 @@ struct LocalHit {
     Point3 position;
     Vec3 position_error;
     Normal3 normal, shading_normal;
-    double u = 0, v = 0;
     Uv uv;
     MaterialRef material;
     bool index_matched = false;
@@ -37,7 +36,6 @@ LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, 
     hit.position = corner + (planar.u * edge_u + planar.v * edge_v);
     hit.position_error = planar_error(corner, edge_u, edge_v);
     hit.normal = hit.shading_normal = normal;
-    hit.u = planar.u, hit.v = planar.v;
     hit.uv = {planar.u, planar.v};
     return hit;
 }
@@ -67,7 +65,6 @@ LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t)
     hit.position_error = ray_error(ray, foreign.t) + foreign.position_error;
     hit.normal = foreign.normal;
     hit.shading_normal = foreign.shading_normal == Normal3{} ? foreign.normal : foreign.shading_normal;
-    hit.u = foreign.u, hit.v = foreign.v;
     hit.uv = foreign.uv;
     hit.material = foreign.material;
     hit.index_matched = foreign.index_matched;
@@ -148,7 +145,6 @@ SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::H
         hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));
 
     SurfaceHit out;
-    out.u = hit.u, out.v = hit.v;
     out.index_matched = place.index_matched || hit.index_matched;
     Surface& s = out.surface;
     s.position = hit.position;

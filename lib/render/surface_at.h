@@ -11,7 +11,6 @@ namespace limn::tracing {
 // instances.
 struct SurfaceHit {
     Surface surface;
-    double u = 0, v = 0;         // RayHit::u, v
     bool index_matched = false;  // the boundary of a medium, or a foreign shape that says so
 };
 
