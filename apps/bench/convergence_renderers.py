@@ -20,13 +20,17 @@ RAW = ROOT / "build/convergence"
 VENV = ROOT / "build/peers"
 PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and what they are called on PyPI
 
+# An error that is never reached: as many samples as are asked for in the mean, but more where it is noisier.
+NEVER = "--error=1e-300"
+
 # What each ingredient gives: every step with the options that leave out what the later ones add. Options that the
 # program does not have are left out, and so are steps that are then the same as a later one.
 LADDER = (
     ("limn-naive", "limn, scattering alone", ["--estimator=naive", "--sampler=independent"]),
     ("limn-light", "limn, + lamps sampled, both weighted", ["--sampler=independent"]),
     ("limn-sobol", "limn, + Sobol points", ["--batch=1"]),
-    ("limn", "limn", []),
+    ("limn-uniform", "limn, + paths in batches", []),
+    ("limn", "limn", [NEVER]),
 )
 
 

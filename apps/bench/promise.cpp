@@ -1,6 +1,7 @@
 #include "bench/promise.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "figures.h"
 #include "scene_parts.h"
@@ -90,12 +91,12 @@ Stop stop_of(const Promise& promise, const Reference& reference, std::uint64_t s
               .error = error_of(r.image),
               .seconds = r.report.render_seconds};
     if (!look_for_fewest || stop.error > promise.target) return stop;
-    settings.error.reset();
+    settings.error = std::numeric_limits<double>::min();  // never reached: a render of so many samples, spread as above
     int low = 0, high = static_cast<int>(stop.samples);  // in multiples of 4; low is too few
     while (high - low > std::max(4, high / 50)) {
-        settings.samples_per_pixel = (low + high) / 8 * 4;
+        settings.max_samples_per_pixel = (low + high) / 8 * 4;
         const Image image = render(promise.scene, promise.camera, settings).image;
-        (error_of(image) <= promise.target ? high : low) = settings.samples_per_pixel;
+        (error_of(image) <= promise.target ? high : low) = settings.max_samples_per_pixel;
     }
     stop.fewest = high;
     return stop;

@@ -37,6 +37,7 @@ void add_numbers(CLI::App& app, RenderOptions& o) {
     add(app, "--time-limit", "SECONDS",
         "Render no longer than that, with --error until the first of both; --spp is then the most",
         [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
+    app.add_flag("--uniform", o.uniform, "With --error or --time-limit: as many samples in each pixel");
     add(app, "--seed", "N", "Another seed gives other noise, the same seed the same picture",
         [&o](const std::string& s) {
             o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
@@ -162,6 +163,7 @@ void apply(const RenderOptions& o, Figure& figure) {
     replace(settings.max_samples_per_pixel, o.samples_per_pixel);
     if (o.error) settings.error = o.error;
     if (o.time_limit) settings.time_limit = o.time_limit;
+    if (o.uniform) settings.uniform = true;
     replace(settings.seed, o.seed);
     replace(settings.threads, o.threads);
     replace(settings.max_depth, o.max_depth);

@@ -33,6 +33,7 @@ struct RenderOptions {
     std::optional<SamplerKind> sampler;
     CameraOptions camera;
     std::vector<std::string> channels;  ///< that an EXR gets beside its colours
+    bool uniform = false;
     bool no_antialias = false;
     bool half = false;
     bool quiet = false;

@@ -14,6 +14,7 @@
 #include "render/film.h"
 #include "render/parallel.h"
 #include "render/path.h"
+#include "render/sample_rates.h"
 #include "render/sampler.h"
 
 namespace limn {
@@ -53,6 +54,7 @@ public:
           settings_(settings),
           most_samples_(settings.error || settings.time_limit ? settings.max_samples_per_pixel
                                                               : settings.samples_per_pixel),
+          adaptive_((settings.error || settings.time_limit) && !settings.uniform),
           film_(settings.width, settings.height) {}
 
     void run() {
@@ -62,9 +64,11 @@ public:
         int done = 0, check = settings_.error ? tracing::kFirstCheck : most_samples_;
         for (int pass = tracing::kReplicates; done < most_samples_ && !ended();
              pass = std::min(2 * pass, kLargestPass)) {
-            const int target = done + std::min(pass, std::min(check, most_samples_) - done);
-            render_pass(target);
-            done = target;
+            const int stop = adaptive_ && done < tracing::kPilot ? tracing::kPilot : check;
+            done = std::min({done + pass, stop, most_samples_});
+            if (adaptive_ && rates_.empty() && done > tracing::kPilot) rates_ = tracing::sample_rates(film_);
+            if (!rates_.empty()) plan_ = tracing::plan_samples(film_, rates_, done);
+            render_pass(done);
             if (done == check && settings_.error && !ended()) check = check_error(done);
         }
         finished_ = true;
@@ -88,7 +92,8 @@ public:
         r.report.nonfinite_samples = nonfinite_;
         r.report.unusable_rays = unusable_rays_;
         r.report.features = scene.features();
-        r.report.memory_bytes = scene.stats().memory_bytes + film_.memory_bytes();
+        r.report.memory_bytes = scene.stats().memory_bytes + film_.memory_bytes() + rates_.size() * sizeof(float) +
+                                plan_.size() * sizeof(std::uint32_t);
         r.report.complete = !interrupted_;
         r.report.stopped_by = interrupted_ ? StoppedBy::callback
                               : reached_   ? StoppedBy::error
@@ -125,6 +130,14 @@ private:
         return tracing::next_check(done, upper, *settings_.error);
     }
 
+    std::size_t pixel(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) + static_cast<std::size_t>(x);
+    }
+
+    std::uint32_t wanted(int x, int y, int target) const {
+        return plan_.empty() ? static_cast<std::uint32_t>(target) : plan_[pixel(x, y)];
+    }
+
     void render_tile(int left, int top, int target) {
         tracing::PathTracer tracer(scene_, settings_.max_depth, settings_.estimator);
         std::uint64_t nonfinite = 0, samples = 0;
@@ -140,7 +153,7 @@ private:
         };
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x)
-                for (auto i = film_.samples(x, y); i < static_cast<std::uint32_t>(target); ++i) {
+                for (auto i = film_.samples(x, y), n = wanted(x, y, target); i < n; ++i) {
                     paths.push_back(camera_path(x, y, i));
                     pixels.emplace_back(x, y);
                     if (paths.size() == kBatch) flush();
@@ -153,9 +166,7 @@ private:
     }
 
     tracing::Path camera_path(int x, int y, std::uint64_t i) const {
-        const auto pixel =
-            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(settings_.width) + static_cast<std::uint64_t>(x);
-        tracing::Sampler sampler(settings_.seed, pixel, i, settings_.sampler);
+        tracing::Sampler sampler(settings_.seed, pixel(x, y), i, settings_.sampler);
         // Drawn whether needed or not, so that each dimension keeps its meaning.
         const auto [in_x, in_y, lens_u, lens_v, in_shutter] = sampler.next_5d();
         const double dx = settings_.antialias ? in_x : 0.5, dy = settings_.antialias ? in_y : 0.5;
@@ -195,8 +206,12 @@ private:
     const flat::Scene& scene_;
     const CameraRays camera_;
     const RenderSettings& settings_;
-    const int most_samples_;  // a pixel
+    const int most_samples_;  // a pixel, in the mean
+    const bool adaptive_;
     tracing::Film film_;
+    // From the pilot on, where samples are adaptive.
+    std::vector<float> rates_;
+    std::vector<std::uint32_t> plan_;
     tbb::task_group_context context_;
     std::atomic<bool> interrupted_ = false, timed_out_ = false;
     bool reached_ = false, finished_ = false;

@@ -36,7 +36,7 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
     const char* const line =
         "-o a.exr --output=b.png --size 30x20 --spp 7 --seed 18446744073709551615 --threads 3 --max-depth unlimited "
         "--report - --quiet --estimator naive --sampler independent --error 2e-3 --time-limit .5 "
-        "--channels samples,error --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
+        "--uniform --channels samples,error --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
         "--vup 0,0,1 --vfov 33 --aperture-angle 0.25 --focus-dist 4";
     std::istringstream stream(line);
     const std::vector<std::string> words(std::istream_iterator<std::string>{stream}, {});
@@ -53,6 +53,7 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
     CHECK(figure.settings.height == 20);
     CHECK((figure.settings.samples_per_pixel == 7 && figure.settings.max_samples_per_pixel == 7));
     CHECK((figure.settings.error == 2e-3 && figure.settings.time_limit == 0.5));
+    CHECK(figure.settings.uniform);
     CHECK(figure.settings.sampler == SamplerKind::independent);
     CHECK(o.channels == std::vector<std::string>{"samples", "error"});
     CHECK(figure.settings.seed == 18446744073709551615u);

@@ -27,7 +27,8 @@ RenderSettings to_error(double error, int side = 24) {
 
 TEST_CASE("Stopping: a render to an error ends at the first check whose interval is under it", "[render][stopping]") {
     const CompiledScene scene = lit_floor();
-    const RenderSettings settings = to_error(0.05);
+    RenderSettings settings = to_error(0.05);
+    settings.uniform = true;
     const RenderResult r = render(scene, kEye, settings);
     CHECK(r.report.stopped_by == StoppedBy::error);
     CHECK((r.report.complete && r.error.reached));

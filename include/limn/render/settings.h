@@ -45,8 +45,12 @@ struct RenderSettings {
     std::optional<double> error{};
     /// Seconds of rendering after which it ends with what there is, over 0. The picture then depends on the machine.
     std::optional<double> time_limit{};
-    /// With `error` or `time_limit`: the samples after which the render ends in any case, at least 1.
+    /// With `error` or `time_limit`: the samples, in the mean over pixels, after which the render ends in any case, at
+    /// least 1.
     int max_samples_per_pixel = kMostSamples;
+    /// With `error` or `time_limit`, after 16 samples in each pixel, those whose surroundings are noisier get more, and
+    /// none less than a quarter of the mean; the picture stays unbiased. True: all get as many.
+    bool uniform = false;
     /// Called at the start, at the end, and at most every 50 ms in between, by any thread but never by two at once;
     /// return false to stop with what has been done.
     std::function<bool(const Progress&)> progress{};

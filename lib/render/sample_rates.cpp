@@ -1,0 +1,100 @@
+#include "render/sample_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/parallel.h"
+
+namespace limn::tracing {
+
+namespace {
+
+constexpr int kReach = 2;  // pixels to each side that tell how noisy the one between is
+
+double relative_square(double difference, double mean) {
+    constexpr double kDarkness = 0.01;  // of relMSE
+    return difference * difference / (mean * mean + kDarkness);
+}
+
+// Up to a factor that all pixels share.
+double relative_variance(const Film& film, int x, int y) {
+    const Color mean = film.mean(x, y);
+    double sum = 0;
+    for (std::uint32_t r = 0; r < kReplicates; ++r) {
+        const Color difference = film.replicate_mean(x, y, r) - mean;
+        sum += relative_square(difference.r, mean.r) + relative_square(difference.g, mean.g) +
+               relative_square(difference.b, mean.b);
+    }
+    return sum;
+}
+
+template <class Function>
+void for_each_row(int height, const Function& function) {
+    tbb::task_group_context context(tbb::task_group_context::isolated);
+    for_each_index(static_cast<std::size_t>(height), context, [&](std::size_t y) { function(static_cast<int>(y)); });
+}
+
+}  // namespace
+
+std::vector<float> sample_rates(const Film& film) {
+    const int width = film.width(), height = film.height();
+    const auto at = [width](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
+    std::vector<float> variances(at(0, height)), rates(at(0, height));
+    for_each_row(height, [&](int y) {
+        for (int x = 0; x < width; ++x) variances[at(x, y)] = static_cast<float>(relative_variance(film, x, y));
+    });
+
+    std::vector<double> sums(static_cast<std::size_t>(height));  // by row: threads do not change the rounding
+    for_each_row(height, [&](int y) {
+        const int top = std::max(0, y - kReach), bottom = std::min(height - 1, y + kReach);
+        for (int x = 0; x < width; ++x) {
+            const int left = std::max(0, x - kReach), right = std::min(width - 1, x + kReach);
+            double around = 0;
+            for (int j = top; j <= bottom; ++j)
+                for (int i = left; i <= right; ++i)
+                    if (i != x || j != y) around += variances[at(i, j)];
+            const int pixels = (right - left + 1) * (bottom - top + 1) - 1;
+            const double deviation = std::sqrt(around / std::max(1, pixels));
+            rates[at(x, y)] = static_cast<float>(deviation);
+            sums[static_cast<std::size_t>(y)] += deviation;
+        }
+    });
+
+    double mean = 0;
+    for (const double sum : sums) mean += sum;
+    mean /= static_cast<double>(rates.size());
+    const bool usable = mean > 0 && std::isfinite(mean);  // no noise, or values beyond float: all alike
+    for (float& rate : rates)
+        rate = usable ? std::min(kSmallestRate + (1 - kSmallestRate) * static_cast<float>(rate / mean), kLargestRate)
+                      : 1.0f;
+    return rates;
+}
+
+std::vector<std::uint32_t> plan_samples(const Film& film, std::span<const float> rates, int target) {
+    std::vector<std::uint32_t> plan(rates.size());
+    std::uint64_t left = rates.size() * static_cast<std::uint64_t>(target);
+    double needed = 0;
+    const auto need = [&](std::size_t i) { return std::max(0.0, rates[i] * static_cast<double>(target) - plan[i]); };
+    for (std::size_t i = 0, width = static_cast<std::size_t>(film.width()); i < plan.size(); ++i) {
+        plan[i] = film.samples(static_cast<int>(i % width), static_cast<int>(i / width));
+        left -= plan[i];
+        needed += need(i);
+    }
+    // Pixels that have more than their share leave less for the others. What a pixel lacks to a whole round goes to the
+    // next.
+    const double share = needed > 0 ? static_cast<double>(left) / needed : 0;
+    double carried = 0;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        carried += share * need(i);
+        const auto rounds = std::min(static_cast<std::uint64_t>(carried / kReplicates), left / kReplicates);
+        plan[i] += static_cast<std::uint32_t>(rounds * kReplicates);
+        carried -= static_cast<double>(rounds * kReplicates);
+        left -= rounds * kReplicates;
+    }
+    if (!plan.empty()) plan.back() += static_cast<std::uint32_t>(left);
+    return plan;
+}
+
+}  // namespace limn::tracing

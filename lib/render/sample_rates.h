@@ -1,0 +1,32 @@
+// Adaptive sampling: which pixels get more samples than others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/film.h"
+
+namespace limn::tracing {
+
+// So many samples a pixel, the same in all, tell how noisy the pixels are.
+inline constexpr int kPilot = 16;
+// Of the mean. What the pilot has not seen is still found, at worst with four times the variance.
+inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
+
+// Samples of each pixel, row by row, in multiples of their mean over the picture.
+//
+// The picture's error is the mean of e_i / n_i, where e_i is the relative variance of one sample of pixel i and n_i how
+// many it gets. For a given sum of n_i it is least where n_i is proportional to sqrt(e_i) (Neyman, On the two different
+// aspects of the representative method, 1934). e_i is taken from the pixels around i and never from i itself: how many
+// samples a pixel gets is independent of them, but for the one factor that all share, so that its mean stays unbiased,
+// and so does what its replicates say of its variance. (Weighing by the rays that a sample takes, too, gained nothing.)
+//
+// \pre the film has kPilot samples in each pixel. Runs on the threads of the caller's arena, the same on any number.
+std::vector<float> sample_rates(const Film& film);
+
+// How many samples each pixel is to have when the mean is `target`, which it then is exactly: never fewer than it has,
+// by whole rounds of the replicates but in the last pixel.
+std::vector<std::uint32_t> plan_samples(const Film& film, std::span<const float> rates, int target);
+
+}  // namespace limn::tracing

@@ -1,0 +1,162 @@
+// Adaptive sampling: where samples go, and that the picture stays what it was.
+#include "render/sample_rates.h"
+
+#include <cstdlib>
+#include <numeric>
+
+#include "catch.h"
+#include "limn/image/compare.h"
+#include "render/film.h"
+#include "support/pictures.h"
+#include "support/random_geometry.h"
+
+using namespace limn;
+using namespace limn::test;
+using tracing::Film;
+
+namespace {
+
+// kPilot samples a pixel, whose standard deviation is `noise(x, y)`.
+template <class Noise>
+Film piloted(int width, int height, const Noise& noise, std::uint64_t seed = 1) {
+    Film film(width, height);
+    Random random(seed);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int i = 0; i < tracing::kPilot; ++i) {
+                const double value = 1 + noise(x, y) * std::sqrt(3.0) * (2 * random.uniform() - 1);
+                film.add(x, y, {value, value, value});
+            }
+    return film;
+}
+
+double mean(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// A lamp over a floor under a black sky: noise in one half of the picture, none in the other.
+const Camera kEye = camera_at({0, 1, 6}, {0, 1, 0}, 40);
+CompiledScene lit_floor() {
+    return compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)),
+                                 sphere({0, 0.5, 0}, 0.5, grey(0.3)), sphere({0, 3, -1}, 0.3, lamp(20))});
+}
+
+RenderSettings adaptive(int side, int samples) {
+    RenderSettings s = square(side, 1, 4);
+    s.error = 1e-9;
+    s.max_samples_per_pixel = samples;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("Sample rates: pixels of equal noise get equal rates, and so do all without noise", "[render][adaptive]") {
+    for (const float rate : tracing::sample_rates(piloted(9, 7, [](int, int) { return 0.0; }))) CHECK(rate == 1);
+    const std::vector<float> rates = tracing::sample_rates(piloted(64, 64, [](int, int) { return 0.3; }));
+    CHECK(std::abs(mean(rates) - 1) < 1e-6);
+    // 3 degrees of freedom in each of 24 pixels: a tenth in the deviation, somewhat more at the borders.
+    for (const float rate : rates) CHECK((rate > 0.5f && rate < 1.6f));
+    CHECK(tracing::sample_rates(piloted(1, 1, [](int, int) { return 0.3; })) == std::vector<float>{1});
+}
+
+TEST_CASE("Sample rates: they grow as the standard deviation, and none falls under a quarter", "[render][adaptive]") {
+    const std::vector<float> rates = tracing::sample_rates(piloted(96, 32, [](int x, int) {
+        return x < 32 ? 0.0 : x < 64 ? 0.2 : 0.6;
+    }));
+    CHECK(std::abs(mean(rates) - 1) < 1e-6);
+    double sums[3] = {};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 96; ++x) {
+            const double rate = rates[static_cast<std::size_t>(96 * y + x)];
+            CHECK(rate >= tracing::kSmallestRate);
+            if (x % 32 >= 3 && x % 32 < 29) sums[x / 32] += rate / (26 * 32);
+        }
+    CHECK(std::abs(sums[0] - 0.25) < 1e-9);
+    CHECK(std::abs((sums[2] - 0.25) / (sums[1] - 0.25) - 3) < 0.3);
+}
+
+TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[render][adaptive]") {
+    const auto even = [](int, int) { return 0.3; };
+    const std::vector<float> before = tracing::sample_rates(piloted(15, 15, even));
+    Film film = piloted(15, 15, even);
+    for (int i = 0; i < tracing::kPilot; ++i) film.add(7, 7, Color{1, 1, 1} * (i % 4 == 0 ? 40 : 1));
+    const std::vector<float> after = tracing::sample_rates(film);
+    // All of the others share one factor, that of the mean, which the pixels around it have moved.
+    const auto noise = [](float rate) { return rate - tracing::kSmallestRate; };
+    const double factor = noise(after[0]) / noise(before[0]);
+    CHECK(factor < 0.9);
+    CHECK(std::abs(noise(after[7 * 15 + 7]) / noise(before[7 * 15 + 7]) / factor - 1) < 1e-4);
+    CHECK(noise(after[7 * 15 + 8]) / noise(before[7 * 15 + 8]) / factor > 2);
+}
+
+TEST_CASE("Sample plans: the mean is what was asked for, and no pixel loses samples", "[render][adaptive]") {
+    Film film = piloted(13, 9, [](int x, int) { return x < 6 ? 0.01 : 0.5; });
+    const std::vector<float> rates = tracing::sample_rates(film);
+    for (const int target : {17, 20, 64, 65, 131, 1000}) {
+        const std::vector<std::uint32_t> plan = tracing::plan_samples(film, rates, target);
+        CHECK(std::accumulate(plan.begin(), plan.end(), 0u) == static_cast<std::uint32_t>(13 * 9 * target));
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 13; ++x) {
+                const auto i = static_cast<std::size_t>(13 * y + x);
+                CHECK(plan[i] >= film.samples(x, y));
+                if (i + 1 < plan.size()) CHECK(plan[i] % 4 == 0);
+                if (target == 1000) CHECK(std::abs(plan[i] - 1000.0 * rates[i]) <= 8);
+                while (film.samples(x, y) < plan[i]) film.add(x, y, {1, 1, 1});
+            }
+    }
+}
+
+TEST_CASE("Adaptive sampling: the same picture on any number of threads, more samples where it is noisy",
+          "[render][adaptive]") {
+    RenderSettings settings = adaptive(40, 96);
+    settings.threads = 1;
+    const CompiledScene scene = lit_floor();
+    const RenderResult once = render(scene, kEye, settings);
+    CHECK(once.report.samples_per_pixel == 96);
+    const auto [fewest, most] = std::minmax_element(once.maps.samples.begin(), once.maps.samples.end());
+    CHECK(*fewest == 24);
+    CHECK(*most > 120);
+    settings.threads = 3;
+    CHECK(render(scene, kEye, settings).image == once.image);
+    settings.uniform = true;
+    const RenderResult uniform = render(scene, kEye, settings);
+    for (const float samples : uniform.maps.samples) CHECK(samples == 96);
+    CHECK(once.error.estimate < 0.8 * uniform.error.estimate);
+}
+
+TEST_CASE("Adaptive sampling: neither the picture nor the estimate of its error is biased", "[render][adaptive]") {
+    const int kSeeds = std::getenv("LIMN_FULL") ? 1000 : 200, kSide = 12;
+    const CompiledScene scene = lit_floor();
+    RenderSettings settings = square(kSide, 1 << 16, 4);
+    settings.seed = 1'000'000;
+    const Image reference = render(scene, kEye, settings).image;
+    // Pixels as they are: block means would hide what goes wrong at edges.
+    std::vector<double> sums(static_cast<std::size_t>(kSide * kSide)), squares(sums.size());
+    double error = 0, estimate = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+        settings = adaptive(kSide, 40);
+        settings.seed = static_cast<std::uint64_t>(seed);
+        const RenderResult r = render(scene, kEye, settings);
+        error += compare_images(r.image, reference).relative_mse / kSeeds;
+        estimate += r.error.estimate / kSeeds;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const double difference = luminance(r.image.at(x, y)) - luminance(reference.at(x, y));
+                const auto i = static_cast<std::size_t>(kSide * y + x);
+                sums[i] += difference, squares[i] += difference * difference;
+            }
+    }
+    double chi_squared = 0, sum_z = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (!(squares[i] > 0)) continue;
+        const double z = sums[i] / std::sqrt(squares[i]);
+        chi_squared += z * z, sum_z += z, ++count;
+    }
+    INFO("rms z " << std::sqrt(chi_squared / count) << ", mean z " << sum_z / count << ", error " << error
+                  << ", estimate " << estimate);
+    CHECK(count > kSide * kSide / 3);
+    CHECK(std::sqrt(chi_squared / count) < 1.25);
+    CHECK(std::abs(sum_z) < 4 * std::sqrt(count));
+    CHECK((estimate > 0.95 * error && estimate < 1.25 * error));  // the larger of two: on the safe side
+}
