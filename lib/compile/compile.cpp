@@ -7,6 +7,7 @@
 #include "compile/groups.h"
 #include "compile/lights.h"
 #include "compile/list.h"
+#include "core/plane_normal.h"
 #include "limn/core/error.h"
 
 namespace limn::compiler {
@@ -51,6 +52,7 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
     out.primitives = records.groups.front().primitives;
     out.triangles = std::move(records.triangles);
     out.quads = std::move(records.quads);
+    for (const flat::Quad& q : out.quads) out.quad_normals.push_back(quad_normal(q.edge_u, q.edge_v));
     for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
     out.foreign = std::move(records.foreign);
     out.medium_shapes = std::move(records.media);
@@ -185,10 +187,10 @@ void count_unassigned(flat::Scene& s) {
 std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
     std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
-                      bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) + bytes(s.ranges) +
-                      bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) + bytes(s.first_of_object) +
-                      bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) + bytes(s.lights.own) +
-                      bytes(s.lights.places) + bytes(s.lights.refs) + bytes(s.lights.nodes) +
+                      bytes(s.quad_normals) + bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) +
+                      bytes(s.groups) + bytes(s.ranges) + bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) +
+                      bytes(s.first_of_object) + bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) +
+                      bytes(s.lights.own) + bytes(s.lights.places) + bytes(s.lights.refs) + bytes(s.lights.nodes) +
                       bytes(s.lights.by_number) + bytes(s.lights.strength_before) + bytes(s.lights.guide) +
                       bytes(s.lights.instances) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept) +
                       bytes(s.list.entries) + bytes(s.list.planar) + bytes(s.list.round);

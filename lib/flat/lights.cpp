@@ -60,13 +60,14 @@ Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_
     return light;
 }
 
-Light light_at(const Scene& scene, std::size_t rank, double time) {
+const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room) {
     const LightTable& table = scene.lights;
     const LightRef ref = table.refs[rank];
     if (ref.place == LightRef::kOwn) return table.own[ref.element];
     const LightPlace& place = table.places[ref.place];
     const PrimitiveRange& range = scene.ranges[place.range];
-    Light light;
+    Light& light = room;
+    light = {};
     if (place.instance_count > 0) {
         Transform m;
         for (std::uint32_t i = 0; i < place.instance_count; ++i) {

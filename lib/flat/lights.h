@@ -81,8 +81,8 @@ struct Scene;
 // Whether a material's texture is the same everywhere.
 bool is_plain(const Scene& scene, MaterialId material);
 
-// \pre rank < scene.lights.size()
-Light light_at(const Scene& scene, std::size_t rank, double time);
+// One of the table, or made in `room`. \pre rank < scene.lights.size()
+const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);
 
 // A planar one of a place under a matrix. \pre range is of meshes, triangles or quads
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,

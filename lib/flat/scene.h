@@ -99,6 +99,7 @@ struct Scene {
     std::vector<MovingSphere> moving_spheres;
     std::vector<Triangle> triangles;
     std::vector<Quad> quads;
+    std::vector<Normal3> quad_normals;  // unit, one for each
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Foreign> foreign;

@@ -84,7 +84,8 @@ std::optional<LightSample> sample_light(const flat::Scene& scene, const Receiver
                                         double u, double v) {
     const std::optional<LightChoice> choice = choose_light(scene.lights, receiver, pick);
     if (!choice) return std::nullopt;
-    const Light light = flat::light_at(scene, choice->rank, time);
+    Light room;
+    const Light& light = flat::light_at(scene, choice->rank, time, room);
     std::optional<LightSample> s(std::in_place);
     const bool drawn = light.kind == LightKind::sphere ? sample_sphere(light, receiver.position, time, u, v, *s)
                                                        : sample_flat(scene, light, receiver.position, u, v, *s);
@@ -102,7 +103,8 @@ double pdf_light(const flat::Scene& scene, const Receiver& receiver, double time
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), number,
                                         [](const flat::LightNumber& l, std::uint64_t n) { return l.number < n; });
     if (found == numbers.end() || found->number != number) return 0;
-    const Light light = flat::light_at(scene, found->rank, time);
+    Light room;
+    const Light& light = flat::light_at(scene, found->rank, time, room);
     const double pdf = light.kind == LightKind::sphere
                            ? pdf_uniform_cone(cone_of(light, receiver.position, time).one_minus_cos)
                            : pdf_planar(light, receiver.position, hit - receiver.position);

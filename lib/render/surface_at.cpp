@@ -53,10 +53,10 @@ LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t
     return hit;
 }
 
-LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t) {
+LocalHit on_foreign(const flat::Foreign& shape, Ray ray, const RayFrame* frame, double t) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
-    const FrameScope scope(frame);
-    Ray ray = frame.ray;
+    const RayFrame plain(ray);
+    const FrameScope scope(frame ? *frame : plain);
     ray.t_max = t;
     ForeignHit foreign;
     LocalHit hit;
@@ -71,10 +71,9 @@ LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t)
     return hit;
 }
 
-// `found`: by the search, which works out u and v too.
-LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const RayFrame& frame, const PlanarHit& found,
-                      bool with_uv) {
-    const Ray& ray = frame.ray;
+// `found`: by the search, which works out u and v too. `frame`: what the ray stands for, if it is inside an instance.
+LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
+                      const PlanarHit& found, bool with_uv) {
     const PrimitiveRange& range = scene.ranges[place.range];
     const std::size_t row = range.first_row + place.element;
     switch (range.kind) {
@@ -92,11 +91,11 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
         }
         case PrimitiveKind::quad: {
             const flat::Quad& q = scene.quads[row];
-            return on_plane(q.corner, q.edge_u, q.edge_v, quad_normal(q.edge_u, q.edge_v), found);
+            return on_plane(q.corner, q.edge_u, q.edge_v, scene.quad_normals[row], found);
         }
         case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found);
         case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], frame, found.t);
+            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], ray, frame, found.t);
             break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
@@ -118,17 +117,21 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
     hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
 }
 
-// Below `level` of the instances around it; `front`: whether the ray meets the outward side.
-LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
+// `front`: whether the ray meets the outward side; asked here, where the normal is not transformed.
+LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
                 const PlanarHit& found, bool with_uv, bool& front) {
-    if (!flat::kHasInstances || level == place.depth) {
-        const LocalHit hit = on_primitive(scene, place, frame, found, with_uv);
-        front = dot(hit.normal, frame.ray.direction) < 0;  // here, where the normal is not transformed
-        return hit;
-    }
+    const LocalHit hit = on_primitive(scene, place, ray, frame, found, with_uv);
+    front = dot(hit.normal, ray.direction) < 0;
+    return hit;
+}
+
+// Within `level` and more of the instances around it.
+LocalHit hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
+                    const PlanarHit& found, bool with_uv, bool& front) {
+    if (level == place.depth) return hit_at(scene, place, frame.ray, &frame, found, with_uv, front);
     const flat::Instance& instance = scene.instances[place.instances[level]];
     LocalHit hit = kernels::inside(instance, frame, [&](const RayFrame& inner) {
-        return hit_at(scene, place, level + 1, inner, found, with_uv, front);
+        return hit_within(scene, place, level + 1, inner, found, with_uv, front);
     });
     leave_instance(instance, frame.ray.time, hit);
     return hit;
@@ -139,7 +142,10 @@ LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, std::uint32_
 SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& raw, bool with_uv) {
     const flat::Place place = flat::locate(scene, raw.primitive);
     bool front = true;
-    LocalHit hit = hit_at(scene, place, 0, RayFrame(ray), {raw.t, raw.u, raw.v}, with_uv, front);
+    const PlanarHit found{raw.t, raw.u, raw.v};
+    LocalHit hit = flat::kHasInstances && place.depth > 0
+                       ? hit_within(scene, place, 0, RayFrame(ray), found, with_uv, front)
+                       : hit_at(scene, place, ray, nullptr, found, with_uv, front);
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind != PrimitiveKind::foreign)
         hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));

@@ -2,6 +2,7 @@
 #include "compile/compile.h"
 #include "limn/material/diffuse_light.h"
 #include "property.h"
+#include "support/light_of.h"
 #include "support/random_geometry.h"
 #include "support/scene_zoo.h"
 
@@ -75,7 +76,7 @@ TEST_CASE("Light tree: a node's box holds its lights at all times, its cone thei
             const Vec3 axis{node.axis[0], node.axis[1], node.axis[2]};
             for (std::size_t rank = begin; rank < node.end; ++rank) {
                 const double time = random.uniform();
-                const Light light = flat::light_at(scene, rank, time);
+                const Light light = light_of(scene, rank, time);
                 if (light.kind == LightKind::sphere) {
                     const Point3 c = light.origin + time * light.edge_u;
                     const Vec3 reach{light.radius, light.radius, light.radius};
@@ -104,7 +105,7 @@ TEST_CASE("Light tree: each light has one rank, and its number leads to it", "[c
         for (const flat::LightNumber& n : scene.lights.by_number) {
             RC_ASSERT(!seen[n.rank] && n.number + 1 > last);
             seen[n.rank] = true, last = n.number + 1;
-            RC_ASSERT(flat::light_at(scene, n.rank, 0).number == n.number);
+            RC_ASSERT(light_of(scene, n.rank, 0).number == n.number);
         }
         RC_ASSERT(std::count(seen.begin(), seen.end(), false) == 0);
     });

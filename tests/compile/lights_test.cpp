@@ -6,6 +6,7 @@
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
 #include "limn/texture/solid.h"
+#include "support/light_of.h"
 #include "support/real.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
@@ -35,7 +36,7 @@ std::vector<Light> lights_of(const std::vector<Object>& objects, double time = 0
     const flat::Scene scene = compiler::flatten(zoo_of("lamps", objects).scene);
     std::vector<Light> lights;
     for (const flat::LightNumber& n : scene.lights.by_number) {
-        lights.push_back(flat::light_at(scene, n.rank, time));
+        lights.push_back(light_of(scene, n.rank, time));
         CHECK(lights.back().number == n.number);
     }
     return lights;

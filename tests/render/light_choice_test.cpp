@@ -2,6 +2,7 @@
 #include "render/light_choice.h"
 
 #include "property.h"
+#include "support/light_of.h"
 #include "support/pictures.h"
 
 using namespace limn;
@@ -114,7 +115,7 @@ TEST_CASE("Light choice: every light of which a point is before the receiver may
         const Receiver receiver = random_receiver(random);
         for (std::size_t rank = 0; rank < lights.size(); ++rank) {
             const double time = random.uniform();
-            const Vec3 way = point_on(flat::light_at(scene.flat(), rank, time), time, random) - receiver.position;
+            const Vec3 way = point_on(light_of(scene.flat(), rank, time), time, random) - receiver.position;
             if (receiver.normal == Vec3{} || dot(receiver.normal, way) > 0)
                 RC_ASSERT(probability_of(lights, receiver, rank) > 0);
         }

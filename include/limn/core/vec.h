@@ -125,7 +125,10 @@ inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
 /// The largest magnitude of a coordinate; NaN counts only where all three are.
 ///@{
-inline double max_abs(const Vec3& a) { return std::fmax(std::abs(a.x), std::fmax(std::abs(a.y), std::abs(a.z))); }
+inline double max_abs(const Vec3& a) {
+    const auto largest = [](double x, double y) { return x < y || x != x ? y : x; };  // std::fmax without its call
+    return largest(std::abs(a.x), largest(std::abs(a.y), std::abs(a.z)));
+}
 inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 ///@}
 
