@@ -186,9 +186,11 @@ class Peer:
     def render(self, size, spp, seed, threads):
         sensor, told = self.sensor(size), dict(self.integrator)
         dr.set_thread_count(threads)
+        sensor.sampler().set_sample_count(spp)
+        spp = sensor.sampler().sample_count()  # rounded up to rows times columns of strata
         passes = 1
-        while self.variant != "scalar_rgb" and spp % (2 * passes) == 0 and spp // passes * size**2 > LANES:
-            passes *= 2
+        while self.variant != "scalar_rgb" and (spp % passes or spp // passes * size**2 > LANES):
+            passes += 1
         if passes > 1:
             told["samples_per_pass"] = spp // passes
         return self.measured(mi.load_dict(told), sensor, spp, seed)
