@@ -10,7 +10,7 @@ from convergence_tables import SCENES, measured
 
 matplotlib.rcParams["svg.hashsalt"] = "limn"  # the same numbers give the same file
 STYLES = {"limn": ("black", "o-"), "limn-naive": ("0.75", "o:"), "limn-light": ("0.6", "o--"),
-          "limn-sobol": ("0.4", "o-."), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"), "luxcore": ("C2", "v-")}
+          "limn-uniform": ("0.4", "o-."), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"), "luxcore": ("C2", "v-")}
 
 
 def draw(scenes, path):

@@ -23,13 +23,11 @@ PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and w
 # An error that is never reached: as many samples as are asked for in the mean, but more where it is noisier.
 NEVER = "--error=1e-300"
 
-# What each ingredient gives: every step with the options that leave out what the later ones add. Options that the
-# program does not have are left out, and so are steps that are then the same as a later one.
+# What each ingredient gives: every step with the options that leave out what the later ones add.
 LADDER = (
     ("limn-naive", "limn, scattering alone", ["--estimator=naive", "--sampler=independent"]),
     ("limn-light", "limn, + lamps sampled, both weighted", ["--sampler=independent"]),
-    ("limn-sobol", "limn, + Sobol points", ["--batch=1"]),
-    ("limn-uniform", "limn, + paths in batches", []),
+    ("limn-uniform", "limn, + Sobol points", []),
     ("limn", "limn", [NEVER]),
 )
 
@@ -130,18 +128,11 @@ def describe(scene):
 
 
 def limn_ladder():
-    """The steps that this build of limn can take."""
     program = BIN / "limn_transport"
     if not program.exists():
         sys.exit(f"convergence: {program} is not built")
-    known = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
     version = subprocess.run([BIN / "limn", "--version"], capture_output=True, text=True).stdout.strip() or "unknown"
-    steps = {}  # by options: what comes later stands
-    for key, name, options in LADDER:
-        able = tuple(option for option in options if option.split("=")[0] + " " in known)
-        steps.pop(able, None)
-        steps[able] = Limn(key, name, list(able), version)
-    return list(steps.values())
+    return [Limn(key, name, options, version) for key, name, options in LADDER]
 
 
 def install_peers(wanted):

@@ -18,6 +18,11 @@ try:
     import geometry
 except ImportError:  # only whoever measures needs it
     np = None
+try:
+    import convergence_plots as plots
+    import convergence_renderers as renderers
+except ImportError:
+    plots = None
 
 
 def curve(c, p, seconds=(0.1, 0.4, 1.6, 6.4)):
@@ -204,6 +209,13 @@ class Report(unittest.TestCase):
     def test_marks_another_session(self):
         text = self.report(limn=row("limn", 1e-3), mitsuba=row("Mitsuba 3", 1e-3, session="earlier"))
         self.assertIn("| Mitsuba 3 † |", text)
+
+
+@unittest.skipIf(plots is None, "numpy and matplotlib are not installed")
+class Renderers(unittest.TestCase):
+    def test_each_has_a_line_of_its_own(self):
+        keys = [key for key, _, _ in renderers.LADDER] + list(renderers.PEERS)
+        self.assertEqual(sorted(keys), sorted(plots.STYLES))
 
 
 if __name__ == "__main__":
