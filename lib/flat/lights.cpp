@@ -66,8 +66,7 @@ const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& 
     if (ref.place == LightRef::kOwn) return table.own[ref.element];
     const LightPlace& place = table.places[ref.place];
     const PrimitiveRange& range = scene.ranges[place.range];
-    Light& light = room;
-    light = {};
+    room = {};
     if (place.instance_count > 0) {
         Transform m;
         for (std::uint32_t i = 0; i < place.instance_count; ++i) {
@@ -75,16 +74,16 @@ const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& 
             m = m * (instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
                                      : instance.world_from_object0);
         }
-        light = planar_light(scene, range, ref.element, m, inverse(m));
+        room = planar_light(scene, range, ref.element, m, inverse(m));
     } else if (place.transformed) {
-        light = planar_light(scene, range, ref.element, place.world_from_object, place.object_from_world);
+        room = planar_light(scene, range, ref.element, place.world_from_object, place.object_from_world);
     } else {
-        describe(scene, range, ref.element, light);
-        light.position_error = planar_error(light.origin, light.edge_u, light.edge_v);
-        finish(scene, range, ref.element, light);
+        describe(scene, range, ref.element, room);
+        room.position_error = planar_error(room.origin, room.edge_u, room.edge_v);
+        finish(scene, range, ref.element, room);
     }
-    light.number = place.first_number + ref.element;
-    return light;
+    room.number = place.first_number + ref.element;
+    return room;
 }
 
 }  // namespace limn::flat

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "image/compare_values.h"
 #include "render/parallel.h"
 
 namespace limn::tracing {
@@ -13,7 +14,6 @@ namespace limn::tracing {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDarkness = 0.01;  // of the error metric: design of relMSE, see image/compare.h
 // Of truth minus estimate, over the square of a pixel's error: 2 for one degree of freedom, 2/3 for three.
 constexpr double kVarianceOfDifference = 8.0 / 3;
 constexpr double kNormal975 = 1.959963984540054;
@@ -123,9 +123,9 @@ struct RowSums {
 class Pass {
 public:
     explicit Pass(const Film& film) : film_(film), width_(film.width()), height_(film.height()) {
-        means_.resize(size(width_) * size(height_));
-        for_each_row([this](int y) {
-            for (int x = 0; x < width_; ++x) means_[at(x, y)] = film_.mean(x, y);
+        means_.resize(film_.pixels());
+        for_each_row(height_, [this](int y) {
+            for (int x = 0; x < width_; ++x) means_[film_.index(x, y)] = film_.mean(x, y);
         });
     }
 
@@ -133,7 +133,7 @@ public:
     template <class Part>
     RowSums sums(const Part& part) const {
         std::vector<RowSums> rows(size(height_));
-        for_each_row([&](int y) { rows[size(y)] = row(y, part); });
+        for_each_row(height_, [&](int y) { rows[size(y)] = row(y, part); });
         RowSums all;
         for (const RowSums& r : rows) {
             all.by_pixel.add(r.by_pixel);
@@ -144,21 +144,13 @@ public:
 
 private:
     static std::size_t size(int n) { return static_cast<std::size_t>(n); }
-    std::size_t at(int x, int y) const { return size(y) * size(width_) + size(x); }
-
-    template <class Function>
-    void for_each_row(const Function& function) const {
-        // Of its own: a render that was cancelled still wants to know its error.
-        tbb::task_group_context context(tbb::task_group_context::isolated);
-        for_each_index(size(height_), context, [&](std::size_t y) { function(static_cast<int>(y)); });
-    }
 
     template <class Part>
     RowSums row(int y, const Part& part) const {
         const int top = std::max(0, y - 2), bottom = std::min(height_ - 1, y + 2);
         std::vector<Color> columns(size(width_));
         for (int j = top; j <= bottom; ++j)
-            for (int x = 0; x < width_; ++x) columns[size(x)] += means_[at(x, j)];
+            for (int x = 0; x < width_; ++x) columns[size(x)] += means_[film_.index(x, j)];
         RowSums sums;
         for (int x = 0; x < width_; ++x) {
             const int left = std::max(0, x - 2), right = std::min(width_ - 1, x + 2);
@@ -180,11 +172,11 @@ private:
     std::vector<Color> means_;
 };
 
-double pixels(const Film& film) { return static_cast<double>(film.width()) * film.height(); }
+double pixels(const Film& film) { return static_cast<double>(film.pixels()); }
 
 double max_sample_share(const Film& film) {
     std::vector<double> shares;
-    shares.reserve(static_cast<std::size_t>(pixels(film)));
+    shares.reserve(film.pixels());
     for (int y = 0; y < film.height(); ++y)
         for (int x = 0; x < film.width(); ++x) shares.push_back(film.largest_share(x, y));
     const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(shares.size() - 1));
@@ -243,7 +235,7 @@ ErrorEstimate check_error(const Film& film) {
 ErrorEstimate estimate_error(const Film& film, PixelMaps* maps) {
     ErrorEstimate e;
     e.max_sample_share = max_sample_share(film);
-    const auto count = static_cast<std::size_t>(pixels(film));
+    const std::size_t count = film.pixels();
     if (maps) {
         maps->samples.clear();
         for (int y = 0; y < film.height(); ++y)
@@ -254,8 +246,7 @@ ErrorEstimate estimate_error(const Film& film, PixelMaps* maps) {
     std::vector<float> by_pixel(maps ? count : 0), by_surround(maps ? count : 0);
     const RowSums sums = Pass(film).sums([&](int x, int y, double here, double around) {
         if (!maps) return;
-        const auto i =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width()) + static_cast<std::size_t>(x);
+        const std::size_t i = film.index(x, y);
         by_pixel[i] = static_cast<float>(here);
         by_surround[i] = static_cast<float>(around);
     });

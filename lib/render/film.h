@@ -39,6 +39,12 @@ public:
     std::uint32_t fewest_samples() const;
     std::size_t memory_bytes() const { return pixels_.size() * sizeof(Pixel); }
 
+    // Of a pixel in tables that go row by row, and how many there are.
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+    std::size_t pixels() const { return pixels_.size(); }
+
 private:
     struct Pixel {
         std::array<Color, kReplicates> sums;
@@ -46,9 +52,6 @@ private:
         std::uint32_t samples = 0;
     };
     static_assert(sizeof(Pixel) == 104);
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-    }
 
     int width_, height_;
     std::vector<Pixel> pixels_;

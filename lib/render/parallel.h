@@ -37,4 +37,11 @@ void for_each_index(std::size_t count, tbb::task_group_context& context, const F
     tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), work, tbb::simple_partitioner{}, context);
 }
 
+/// Calls function(0) ... function(height - 1), also where the render around it is cancelled.
+template <class Function>
+void for_each_row(int height, const Function& function) {
+    tbb::task_group_context context(tbb::task_group_context::isolated);
+    for_each_index(static_cast<std::size_t>(height), context, [&](std::size_t y) { function(static_cast<int>(y)); });
+}
+
 }  // namespace limn::tracing

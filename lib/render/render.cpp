@@ -130,12 +130,8 @@ private:
         return tracing::next_check(done, upper, *settings_.error);
     }
 
-    std::size_t pixel(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) + static_cast<std::size_t>(x);
-    }
-
     std::uint32_t wanted(int x, int y, int target) const {
-        return plan_.empty() ? static_cast<std::uint32_t>(target) : plan_[pixel(x, y)];
+        return plan_.empty() ? static_cast<std::uint32_t>(target) : plan_[film_.index(x, y)];
     }
 
     void render_tile(int left, int top, int target) {
@@ -166,7 +162,7 @@ private:
     }
 
     tracing::Path camera_path(int x, int y, std::uint64_t i) const {
-        tracing::Sampler sampler(settings_.seed, pixel(x, y), i, settings_.sampler);
+        tracing::Sampler sampler(settings_.seed, film_.index(x, y), i, settings_.sampler);
         // Drawn whether needed or not, so that each dimension keeps its meaning.
         const auto [in_x, in_y, lens_u, lens_v, in_shutter] = sampler.next_5d();
         const double dx = settings_.antialias ? in_x : 0.5, dy = settings_.antialias ? in_y : 0.5;

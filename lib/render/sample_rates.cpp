@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/compare_values.h"
 #include "render/parallel.h"
 
 namespace limn::tracing {
@@ -11,39 +12,25 @@ namespace {
 
 constexpr int kReach = 2;  // pixels to each side that tell how noisy the one between is
 
-double relative_square(double difference, double mean) {
-    constexpr double kDarkness = 0.01;  // of relMSE
-    return difference * difference / (mean * mean + kDarkness);
-}
-
 // Up to a factor that all pixels share.
 double relative_variance(const Film& film, int x, int y) {
     const Color mean = film.mean(x, y);
     double sum = 0;
     for (std::uint32_t r = 0; r < kReplicates; ++r) {
-        const Color difference = film.replicate_mean(x, y, r) - mean;
-        sum += relative_square(difference.r, mean.r) + relative_square(difference.g, mean.g) +
-               relative_square(difference.b, mean.b);
+        const Color replicate = film.replicate_mean(x, y, r);
+        sum += relative_squared_error(replicate.r, mean.r) + relative_squared_error(replicate.g, mean.g) +
+               relative_squared_error(replicate.b, mean.b);
     }
     return sum;
-}
-
-template <class Function>
-void for_each_row(int height, const Function& function) {
-    tbb::task_group_context context(tbb::task_group_context::isolated);
-    for_each_index(static_cast<std::size_t>(height), context, [&](std::size_t y) { function(static_cast<int>(y)); });
 }
 
 }  // namespace
 
 std::vector<float> sample_rates(const Film& film) {
     const int width = film.width(), height = film.height();
-    const auto at = [width](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-    };
-    std::vector<float> variances(at(0, height)), rates(at(0, height));
+    std::vector<float> variances(film.pixels()), rates(film.pixels());
     for_each_row(height, [&](int y) {
-        for (int x = 0; x < width; ++x) variances[at(x, y)] = static_cast<float>(relative_variance(film, x, y));
+        for (int x = 0; x < width; ++x) variances[film.index(x, y)] = static_cast<float>(relative_variance(film, x, y));
     });
 
     std::vector<double> sums(static_cast<std::size_t>(height));  // by row: threads do not change the rounding
@@ -54,10 +41,10 @@ std::vector<float> sample_rates(const Film& film) {
             double around = 0;
             for (int j = top; j <= bottom; ++j)
                 for (int i = left; i <= right; ++i)
-                    if (i != x || j != y) around += variances[at(i, j)];
+                    if (i != x || j != y) around += variances[film.index(i, j)];
             const int pixels = (right - left + 1) * (bottom - top + 1) - 1;
             const double deviation = std::sqrt(around / std::max(1, pixels));
-            rates[at(x, y)] = static_cast<float>(deviation);
+            rates[film.index(x, y)] = static_cast<float>(deviation);
             sums[static_cast<std::size_t>(y)] += deviation;
         }
     });

@@ -53,10 +53,10 @@ LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t
     return hit;
 }
 
-LocalHit on_foreign(const flat::Foreign& shape, Ray ray, const RayFrame* frame, double t) {
+LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
-    const RayFrame plain(ray);
-    const FrameScope scope(frame ? *frame : plain);
+    const FrameScope scope(frame);
+    Ray ray = frame.ray;
     ray.t_max = t;
     ForeignHit foreign;
     LocalHit hit;
@@ -95,7 +95,8 @@ LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const 
         }
         case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found);
         case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], ray, frame, found.t);
+            if constexpr (flat::kHasForeignShapes)
+                return on_foreign(scene.foreign[row], frame ? *frame : RayFrame(ray), found.t);
             break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
