@@ -56,13 +56,9 @@ bool is_singular(const Transform& m) { return ExactInverse(m).determinant.sign()
 
 RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
                    const InverseError& lost)
-    : ray(outer_frame.ray), outer(&outer_frame), world_from_object(&matrix) {
-    // The translation is subtracted first, where it cancels best. The direction keeps its length, so that t means the
-    // same on both sides.
-    const Vec3 v = (ray.origin - Point3{}) - matrix.translation();
-    const Vec3 d = ray.direction;
-    ray.origin = Point3{} + transform_vector(object_from_world, v);
-    ray.direction = transform_vector(object_from_world, d);
+    : ray(ray_inside(outer_frame.ray, matrix, object_from_world)), outer(&outer_frame), world_from_object(&matrix) {
+    const Vec3 v = (outer_frame.ray.origin - Point3{}) - matrix.translation();
+    const Vec3 d = outer_frame.ray.direction;
     origin_error = lost.error * max_abs(v) + 1.25 * lost.norm * outer_frame.origin_error + kTiny;
     direction_error = lost.error * max_abs(d) + 1.25 * lost.norm * outer_frame.direction_error + kTiny;
 }

@@ -23,6 +23,14 @@ InverseError inverse_error(const Transform& m);
 // Whether the determinant of the linear part is exactly 0.
 bool is_singular(const Transform& m);
 
+// A ray as an instance's object sees it, rounded. The translation is subtracted first, where it cancels best. The
+// direction keeps its length, so that t means the same on both sides.
+inline Ray ray_inside(const Ray& ray, const Transform& world_from_object, const Transform& object_from_world) {
+    const Vec3 v = (ray.origin - Point3{}) - world_from_object.translation();
+    return {Point3{} + transform_vector(object_from_world, v), transform_vector(object_from_world, ray.direction),
+            ray.t_min, ray.t_max, ray.time};
+}
+
 // A ray in the space of an instance's object, or (without `outer`) the ray itself.
 struct RayFrame {
     Ray ray;                     // as the shapes there see it, rounded

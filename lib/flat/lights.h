@@ -10,6 +10,15 @@
 
 namespace limn::flat {
 
+// Below this solid angle (in steradians) the inversion that places samples has lost two thirds of its digits: such a
+// light is small or seen almost edge-on, and gives little light however it is sampled.
+inline constexpr double kSmallSolidAngle = 1e-5;
+// From so many radii away a point drawn by area is as good as one by solid angle: the density per solid angle goes with
+// the cube of the distance (the height over the plane is the same for all its points), so it varies by
+// ((1 + 1/3) / (1 - 1/3))^3 = 8 at the very most, mostly by far less. Measured on figures 12 and 15: 1.5 to 4 are the
+// same within 3 %, and never by area takes a sixth more time per error on figure 15.
+inline constexpr double kFarSquared = 3.0 * 3.0;
+
 enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
 
 // An emitter in world space.

@@ -13,6 +13,7 @@ std::vector<std::string> targets() {
 }
 
 bool force_target(const std::string& name) {
+    hwy::SetSupportedTargetsForTest(0);  // all of them
     for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
         if (name != hwy::TargetName(rest & -rest)) continue;
         hwy::SetSupportedTargetsForTest(rest & -rest);

@@ -1,13 +1,13 @@
 #include "render/direct_light.h"
 
 #include "core/spawn.h"
-#include "render/light_sampling.h"
 #include "render/shading.h"
 
 namespace limn::tracing {
 
-Receiver receiver_at(const flat::Scene& scene, const Surface& vertex) {
-    return {vertex.position, scatters_back_only(scene, vertex.material) ? Vec3(vertex.normal) : Vec3{}};
+void set_receiver(const flat::Scene& scene, const Surface& vertex, Receiver& receiver) {
+    receiver.position = vertex.position;
+    receiver.normal = (scatters_back_only(scene, vertex.material) ? 1.0 : 0.0) * Vec3(vertex.normal);
 }
 
 std::optional<DirectLight> prepare_direct_light(const flat::Scene& scene, const Surface& vertex,
@@ -15,12 +15,16 @@ std::optional<DirectLight> prepare_direct_light(const flat::Scene& scene, const 
                                                 const LightNumbers& random) {
     const std::optional<LightSample> s = sample_light(scene, receiver, time, random.pick, random.uv.u, random.uv.v);
     if (!s) return std::nullopt;
-    const ScatterValue f = material_value(scene, vertex, out, s->direction);
+    return weigh_direct_light(scene, vertex, *s, material_value(scene, vertex, out, s->direction), time);
+}
+
+std::optional<DirectLight> weigh_direct_light(const flat::Scene& scene, const Surface& vertex, const LightSample& light,
+                                              const ScatterValue& f, double time) {
     if (is_black(f.value)) return std::nullopt;
-    const Color emission = emitted(scene, s->point);
+    const Color emission = emitted(scene, light.point);
     if (is_black(emission)) return std::nullopt;
-    return DirectLight{leave_for(vertex, s->point, time),
-                       f.value * emission * (power_heuristic(s->pdf, f.pdf) / s->pdf)};
+    return DirectLight{leave_for(vertex, light.point, time),
+                       f.value * emission * (power_heuristic(light.pdf, f.pdf) / light.pdf)};
 }
 
 }  // namespace limn::tracing

@@ -10,6 +10,7 @@
 #include "limn/core/ray.h"
 #include "limn/core/surface.h"
 #include "render/light_choice.h"
+#include "render/light_sampling.h"
 
 namespace limn::tracing {
 
@@ -25,12 +26,16 @@ struct DirectLight {
 };
 
 // How a vertex looks to lights.
-Receiver receiver_at(const flat::Scene& scene, const Surface& vertex);
+void set_receiver(const flat::Scene& scene, const Surface& vertex, Receiver& receiver);
 
 // Nothing where no light is drawn, or what is drawn gives none. `out`: unit, back along the path. \pre there are lights
 std::optional<DirectLight> prepare_direct_light(const flat::Scene& scene, const Surface& vertex,
                                                 const Receiver& receiver, const Vec3& out, double time,
                                                 const LightNumbers& random);
+
+// From a point on a light, and what the vertex scatters from there.
+std::optional<DirectLight> weigh_direct_light(const flat::Scene& scene, const Surface& vertex, const LightSample& light,
+                                              const ScatterValue& f, double time);
 
 // Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
 // 9.2.4), for the technique with density a against the one with density b.

@@ -86,11 +86,16 @@ std::optional<LightSample> sample_light(const flat::Scene& scene, const Receiver
     if (!choice) return std::nullopt;
     Light room;
     const Light& light = flat::light_at(scene, choice->rank, time, room);
+    return sample_chosen_light(scene, light, choice->probability, receiver, time, u, v);
+}
+
+std::optional<LightSample> sample_chosen_light(const flat::Scene& scene, const Light& light, double probability,
+                                               const Receiver& receiver, double time, double u, double v) {
     std::optional<LightSample> s(std::in_place);
     const bool drawn = light.kind == LightKind::sphere ? sample_sphere(light, receiver.position, time, u, v, *s)
                                                        : sample_flat(scene, light, receiver.position, u, v, *s);
     if (!drawn) return std::nullopt;
-    s->pdf *= choice->probability;
+    s->pdf *= probability;
     s->point.shading_normal = s->point.normal;
     s->point.position_error = light.position_error;
     s->point.material = {static_cast<std::uint32_t>(light.material), nullptr, nullptr};

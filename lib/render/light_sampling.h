@@ -22,6 +22,10 @@ struct LightSample {
 std::optional<LightSample> sample_light(const flat::Scene& scene, const Receiver& receiver, double time, double pick,
                                         double u, double v);
 
+// The same for a light that was chosen with this probability.
+std::optional<LightSample> sample_chosen_light(const flat::Scene& scene, const flat::Light& light, double probability,
+                                               const Receiver& receiver, double time, double u, double v);
+
 // With which density sample_light would have drawn the direction from the receiver to `hit`, a point on primitive
 // `number`; 0 if that is not a light that can be sampled.
 double pdf_light(const flat::Scene& scene, const Receiver& receiver, double time, std::uint64_t number,

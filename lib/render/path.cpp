@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/spawn.h"
 #include "limn/scene/background.h"
-#include "render/light_sampling.h"
 #include "render/shading.h"
-#include "render/surface_at.h"
 
 namespace limn::tracing {
 
@@ -26,13 +25,6 @@ constexpr double kLargestSurvival = 0.999;
 
 }  // namespace
 
-// Where a path stands: on a surface, or in a medium (then `surface` has no normal and the phase function as material).
-struct PathTracer::Vertex {
-    Surface surface;
-    Vec3 out;  // unit, back along the path
-    std::uint64_t primitive = flat::RawHit::kMiss;
-};
-
 // Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
 bool PathTracer::count(const Ray& ray) {
     ++rays_;
@@ -45,153 +37,164 @@ bool PathTracer::count(const Ray& ray) {
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
 void PathTracer::trace(std::span<Path> paths) {
-    heads_.clear();
-    for (Path& path : paths) {
-        path.radiance = {};
-        heads_.push_back({.path = &path, .ray = path.ray});
-        if (!begin(heads_.back())) heads_.pop_back();
+    paths_ = paths;
+    heads_.assign(paths.size(), {});
+    next_.clear();
+    for (std::uint32_t i = 0; i < paths.size(); ++i) {
+        paths[i].radiance = {};
+        begin(i, paths[i].ray);
     }
-    while (!heads_.empty()) {
-        find_hits();
+    while (!next_.paths.empty()) {
+        std::swap(now_, next_);
+        next_.clear();
         shadows_.clear();
-        traced_.clear();
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < heads_.size(); ++i) {
-            if (!follow(heads_[i], hits_[i])) continue;
-            if (kept != i) heads_[kept] = heads_[i];
-            ++kept;
-        }
-        heads_.resize(kept);
+        arriving_.clear();
+        find_hits();
+        for (std::size_t i = 0; i < hits_.size(); ++i) follow(now_.paths[i], now_.rays[i], hits_[i]);
+        for (const kernels::Lobe lobe : {kernels::Lobe::lambertian, kernels::Lobe::isotropic}) shade_group(lobe);
         add_direct_light();
     }
 }
 
 // A new segment.
-bool PathTracer::begin(Head& head) {
+void PathTracer::begin(std::uint32_t path, const Ray& ray) {
     if (!flat::media_of(scene_).empty()) {
-        head.path->sampler.seek(head.segment, Use::flight);
-        const Uv random = head.path->sampler.next_2d();
+        Head& head = heads_[path];
+        Sampler& sampler = paths_[path].sampler;
+        sampler.seek(head.segment, Use::flight);
+        const Uv random = sampler.next_2d();
         head.depth = -std::log1p(-random.u);  // 53 bits: up to 36.7 mean free paths
         head.choose = random.v;
     }
-    return count(head.ray);
+    if (count(ray)) next_.add(path, ray);
 }
 
 void PathTracer::find_hits() {
-    traced_.clear();
-    for (const Head& head : heads_) traced_.push_back(head.ray);
-    hits_.resize(traced_.size());
-    for (std::size_t i = 0; i < traced_.size(); i += kernels::kMostRays) {
-        const std::size_t some = std::min(kernels::kMostRays, traced_.size() - i);
-        kernels::closest_hits(scene_, std::span(traced_).subspan(i, some), &hits_[i]);
+    hits_.resize(now_.rays.size());
+    for (std::size_t i = 0; i < hits_.size(); i += kernels::kMostRays) {
+        const std::size_t some = std::min(kernels::kMostRays, hits_.size() - i);
+        kernels::closest_hits(scene_, std::span(now_.rays).subspan(i, some), &hits_[i]);
     }
 }
 
-// False if the path ends.
-bool PathTracer::follow(Head& head, const kernels::Hit& hit) {
-    Vertex vertex;
-    switch (meet(head, hit, vertex)) {
-        case End::vertex: return shade(head, vertex) && scatter(head, vertex);
-        case End::passes: return count(head.ray);
-        case End::background: break;
-    }
-    head.path->radiance +=
-        head.throughput * Background{scene_.background_bottom, scene_.background_top}.radiance(head.ray.direction);
-    return false;
-}
-
-// The next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
-PathTracer::End PathTracer::meet(Head& head, const kernels::Hit& hit, Vertex& vertex) {
-    const Ray& ray = head.ray;
-    vertex.out = -normalize(ray.direction);
+// To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
+void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit) {
     if (!flat::media_of(scene_).empty()) {
+        Head& head = heads_[path];
         Ray flight = ray;
         flight.t_max = hit.t;
         media_.trace(scene_, flight);
         const FreeFlight flown = media_.sample(head.depth, head.choose);
         head.throughput = flown.weight * head.throughput;
         if (flown.scatters) {
-            vertex.surface.position = ray.at(flown.t);
-            vertex.surface.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
-            return End::vertex;
+            Surface inside;
+            inside.position = ray.at(flown.t);
+            inside.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
+            return shade(path, ray, inside);
         }
         head.depth -= flown.depth;
     }
-    if (hit.primitive == flat::RawHit::kMiss) return End::background;
-    const SurfaceHit at = surface_at(scene_, ray, hit, scene_.features.texture_coordinates);
-    vertex.surface = at.surface;
-    vertex.primitive = hit.primitive;
-    if (!at.index_matched) return End::vertex;
-    head.ray = leave(at.surface, ray.direction, ray.time);
-    return End::passes;
+    if (hit.primitive == flat::RawHit::kMiss) {
+        const Background background{scene_.background_bottom, scene_.background_top};
+        paths_[path].radiance += heads_[path].throughput * background.radiance(ray.direction);
+        return;
+    }
+    surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met_);
+    if (met_.index_matched) {
+        const Ray beyond = leave(met_.surface, ray.direction, ray.time);
+        if (count(beyond)) next_.add(path, beyond);
+        return;
+    }
+    if (can_emit(scene_, met_.surface.material)) add_emission(path, met_.surface, hit.primitive, ray.time);
+    shade(path, ray, met_.surface);
 }
 
-// Light that the vertex emits, and a shadow ray for light that comes to it straight from an emitter.
-bool PathTracer::shade(Head& head, const Vertex& vertex) {
-    if (is_black(head.throughput)) return false;
-    const double time = head.ray.time;
-    if (vertex.primitive != flat::RawHit::kMiss) {
-        const Color emission = emitted(scene_, vertex.surface);
-        if (!is_black(emission)) {
-            const double light_pdf =
-                sample_lights_ && head.scatter_pdf > 0
-                    ? pdf_light(scene_, head.previous, time, vertex.primitive, vertex.surface.position)
-                    : 0;
-            const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
-            head.path->radiance += head.throughput * emission * weight;
-        }
+void PathTracer::add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time) {
+    const Head& head = heads_[path];
+    const Color emission = emitted(scene_, vertex);
+    if (is_black(emission) || is_black(head.throughput)) return;
+    const double light_pdf =
+        sample_lights_ && head.scatter_pdf > 0 ? pdf_light(scene_, head.previous, time, primitive, vertex.position) : 0;
+    const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
+    paths_[path].radiance += head.throughput * emission * weight;
+}
+
+// A shadow ray for light that comes to the vertex straight from an emitter, and the next segment: together with other
+// vertices where the material has a lobe for it.
+void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex) {
+    Head& head = heads_[path];
+    if (head.segment == max_depth_ || is_black(head.throughput)) return;
+    if (sample_lights_) set_receiver(scene_, vertex, head.previous);
+    if (const auto lobe = lobe_of(scene_, vertex.material)) {
+        gather(path, ray.time, *lobe, vertex);
+    } else {
+        shade_alone(path, ray, vertex);
     }
-    if (head.segment == max_depth_) return false;
-    if (!sample_lights_) return true;
-    head.previous = receiver_at(scene_, vertex.surface);
-    if (!can_be_evaluated(scene_, vertex.surface.material)) return true;
-    // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
-    head.path->sampler.seek(head.segment, Use::light);
-    const Random3 random = head.path->sampler.next_3d();
-    const auto direct =
-        prepare_direct_light(scene_, vertex.surface, head.previous, vertex.out, time, {random.x, {random.y, random.z}});
-    if (direct && count(direct->shadow)) {
-        shadows_.push_back({head.path, head.throughput * direct->light});
-        traced_.push_back(direct->shadow);
+}
+
+void PathTracer::shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex) {
+    Head& head = heads_[path];
+    Sampler& sampler = paths_[path].sampler;
+    const Vec3 out = -normalize(ray.direction);
+    if (sample_lights_ && can_be_evaluated(scene_, vertex.material)) {
+        // The choice of a light shares its group with the point on it, so that each light gets a part of an even
+        // sequence.
+        sampler.seek(head.segment, Use::light);
+        const Random3 random = sampler.next_3d();
+        if (const auto direct =
+                prepare_direct_light(scene_, vertex, head.previous, out, ray.time, {random.x, {random.y, random.z}}))
+            add_shadow(path, direct->light, direct->shadow);
     }
-    return true;
+    sampler.seek(head.segment, Use::scattering);
+    const std::optional<ScatterSample> scattered = sample_material(scene_, vertex, out, sampler.next_3d());
+    if (!scattered || is_black(scattered->weight)) return;
+    head.throughput *= scattered->weight;
+    const double survives = survival(head);
+    if (survives < 1) {
+        sampler.seek(head.segment, Use::roulette);
+        if (!(sampler.next() < survives)) return;
+    }
+    go_on(path, survives, scattered->pdf, leave(vertex, scattered->direction, ray.time));
+}
+
+// With which probability Russian roulette lets the path go on.
+double PathTracer::survival(const Head& head) const {
+    if (!roulette_ || head.segment < kRouletteStart) return 1;
+    const double factor = scene_.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps;
+    const double survival = factor * max_component(head.throughput);
+    if (survival < kLargestSurvival) return survival;
+    return max_depth_ == kUnlimitedDepth ? kLargestSurvival : 1;
 }
 
 // The next segment.
-bool PathTracer::scatter(Head& head, const Vertex& vertex) {
-    Sampler& sampler = head.path->sampler;
-    sampler.seek(head.segment, Use::scattering);
-    const std::optional<ScatterSample> scattered =
-        sample_material(scene_, vertex.surface, vertex.out, sampler.next_3d());
-    if (!scattered || is_black(scattered->weight)) return false;
-    head.throughput *= scattered->weight;
-    const double factor = scene_.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps;
-    const double survival = std::min(factor * max_component(head.throughput), kLargestSurvival);
-    if (roulette_ && head.segment >= kRouletteStart && (survival < kLargestSurvival || max_depth_ == kUnlimitedDepth)) {
-        sampler.seek(head.segment, Use::roulette);
-        if (!(sampler.next() < survival)) return false;
-        head.throughput = head.throughput / survival;
-    }
-    head.scatter_pdf = scattered->pdf;
-    head.ray = leave(vertex.surface, scattered->direction, head.ray.time);
+void PathTracer::go_on(std::uint32_t path, double survival, double pdf, const Ray& ray) {
+    Head& head = heads_[path];
+    if (survival < 1) head.throughput = head.throughput / survival;
+    head.scatter_pdf = pdf;
     ++head.segment;
-    return begin(head);
+    begin(path, ray);
+}
+
+void PathTracer::add_shadow(std::uint32_t path, const Color& light, const Ray& ray) {
+    if (!count(ray)) return;
+    shadows_.add(path, ray);
+    arriving_.push_back(heads_[path].throughput * light);
 }
 
 void PathTracer::add_direct_light() {
-    occluded_.resize(traced_.size());
-    for (std::size_t i = 0; i < traced_.size(); i += kernels::kMostRays) {
-        const std::size_t some = std::min(kernels::kMostRays, traced_.size() - i);
-        kernels::are_occluded(scene_, std::span(traced_).subspan(i, some), &occluded_[i]);
+    occluded_.resize(shadows_.rays.size());
+    for (std::size_t i = 0; i < occluded_.size(); i += kernels::kMostRays) {
+        const std::size_t some = std::min(kernels::kMostRays, occluded_.size() - i);
+        kernels::are_occluded(scene_, std::span(shadows_.rays).subspan(i, some), &occluded_[i]);
     }
-    for (std::size_t i = 0; i < shadows_.size(); ++i) {
+    for (std::size_t i = 0; i < occluded_.size(); ++i) {
         if (occluded_[i] != 0) continue;
-        Color light = shadows_[i].light;
+        Color light = arriving_[i];
         if (!flat::media_of(scene_).empty()) {
-            media_.trace(scene_, traced_[i]);
+            media_.trace(scene_, shadows_.rays[i]);
             light = light * media_.transmittance();
         }
-        shadows_[i].path->radiance += light;
+        paths_[shadows_.paths[i]].radiance += light;
     }
 }
 

@@ -1,30 +1,33 @@
 // The path tracer.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "flat/scene.h"
+#include "kernels/lobes.h"
 #include "kernels/traverse.h"
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
 #include "render/direct_light.h"
 #include "render/media.h"
 #include "render/sampler.h"
+#include "render/surface_at.h"
 
 namespace limn::tracing {
 
 // One sample of the radiance along a camera ray.
 struct Path {
-    Ray ray;
     Sampler sampler;
+    Ray ray{};
     Color radiance{};  // the answer
 };
 
 // Estimates the radiance that arrives along camera rays, of many paths at a time: all go one segment on before any goes
-// two, so that their rays are traced together. What a path does depends on nothing but its own ray and numbers. One for
-// each thread: it counts rays and keeps its memory.
+// two, so that their rays are traced together, and vertices on the commonest materials are shaded together. What a path
+// does depends on nothing but its own ray and numbers. One for each thread: it counts rays and keeps its memory.
 class PathTracer {
 public:
     PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
@@ -37,7 +40,7 @@ public:
     void trace(std::span<Path> paths);
     // Of one path.
     Color radiance(const Ray& ray, const Sampler& sampler) {
-        Path path{ray, sampler};
+        Path path{sampler, ray};
         trace({&path, 1});
         return path.radiance;
     }
@@ -47,10 +50,8 @@ public:
     std::uint64_t unusable_rays() const { return unusable_rays_; }
 
 private:
-    // A segment that is yet to be followed.
+    // Where a path stands at the beginning of a segment, but for the ray.
     struct Head {
-        Path* path = nullptr;
-        Ray ray;
         int segment = 1;
         Color throughput{1, 1, 1};
         Receiver previous{};     // the vertex before, as lights saw it
@@ -58,22 +59,40 @@ private:
         double depth = 0;        // optical, in scattering, to where media scatter the path
         double choose = 0;       // the medium that does
     };
-    // Light that arrives if nothing is in the way.
-    struct Shadow {
-        Path* path;
-        Color light;
-    };
-    struct Vertex;
-    enum class End { vertex, passes, background };
+    // Some of the paths, and a ray for each.
+    struct Rays {
+        std::vector<std::uint32_t> paths;
+        std::vector<Ray> rays;
 
+        void clear() { paths.clear(), rays.clear(); }
+        void add(std::uint32_t path, const Ray& ray) { paths.push_back(path), rays.push_back(ray); }
+    };
+    // Vertices of one lobe.
+    struct Group {
+        kernels::VertexLanes lanes;
+        kernels::SobolLanes samplers;
+        std::array<std::uint32_t, kernels::kShaded> paths;
+        std::array<double, kernels::kShaded> times;
+        std::array<flat::Light, kernels::kShaded> lights;  // those that are not kept anywhere
+    };
     bool count(const Ray& ray);
-    bool begin(Head& head);
+    void begin(std::uint32_t path, const Ray& ray);
     void find_hits();
-    bool follow(Head& head, const kernels::Hit& hit);
-    End meet(Head& head, const kernels::Hit& hit, Vertex& vertex);
-    bool shade(Head& head, const Vertex& vertex);
-    bool scatter(Head& head, const Vertex& vertex);
+    void follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit);
+    void add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time);
+    void shade(std::uint32_t path, const Ray& ray, const Surface& vertex);
+    void shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex);
+    double survival(const Head& head) const;
+    void go_on(std::uint32_t path, double survival, double pdf, const Ray& ray);
+    void add_shadow(std::uint32_t path, const Color& light, const Ray& ray);
     void add_direct_light();
+    // In path_groups.cpp.
+    void gather(std::uint32_t path, double time, kernels::Lobe lobe, const Surface& vertex);
+    void shade_group(kernels::Lobe lobe);
+    void sample_lights(kernels::Lobe lobe);
+    template <std::size_t n>
+    void draw(Group& group, Use use);
+    Group& group_of(kernels::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }
 
     const flat::Scene& scene_;
     const int max_depth_;
@@ -81,10 +100,14 @@ private:
     const bool roulette_;  // the naive estimator, which is a check, does without where a limit ends its paths
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
-    std::vector<Head> heads_;  // of the paths that go on
-    std::vector<Shadow> shadows_;
-    std::vector<Ray> traced_;
+    std::span<Path> paths_;
+    std::vector<Head> heads_;  // of each
+    Rays now_, next_;          // of those that go on
     std::vector<kernels::Hit> hits_;
+    SurfaceHit met_;
+    std::array<Group, 2> groups_;  // by lobe
+    Rays shadows_;
+    std::vector<Color> arriving_;  // light, if nothing is in the way of the shadow ray
     std::vector<std::uint8_t> occluded_;
 };
 

@@ -14,26 +14,17 @@ namespace {
 using flat::Light;
 using flat::LightKind;
 
-// Below this solid angle (in steradians) the inversion that places samples has lost two thirds of its digits: such a
-// light is small or seen almost edge-on, and gives little light however it is sampled.
-constexpr double kSmallSolidAngle = 1e-5;
-// From so many radii away a point drawn by area is as good as one by solid angle: the density per solid angle goes with
-// the cube of the distance (the height over the plane is the same for all its points), so it varies by
-// ((1 + 1/3) / (1 - 1/3))^3 = 8 at the very most, mostly by far less. Measured on figures 12 and 15: 1.5 to 4 are the
-// same within 3 %, and never by area takes a sixth more time per error on figure 15.
-constexpr double kFarSquared = 3.0 * 3.0;
-
 bool is_far(const Light& light, const Point3& from) {
     if (light.kind == LightKind::triangle) {
         const Vec3 to_center = light.origin + (light.edge_u + light.edge_v) / 3 - from;
         // The longest way from the centroid is two thirds of a median, less than two thirds of the longest side.
         const double side2 = std::max(
             {length_squared(light.edge_u), length_squared(light.edge_v), length_squared(light.edge_v - light.edge_u)});
-        return kFarSquared * (4.0 / 9.0) * side2 <= length_squared(to_center);
+        return flat::kFarSquared * (4.0 / 9.0) * side2 <= length_squared(to_center);
     }
     const Vec3 diagonal = light.edge_u + light.edge_v, other = light.edge_u - light.edge_v;
     const double radius2 = std::max(length_squared(diagonal), length_squared(other)) / 4;
-    return kFarSquared * radius2 <= length_squared(light.origin + diagonal / 2 - from);
+    return flat::kFarSquared * radius2 <= length_squared(light.origin + diagonal / 2 - from);
 }
 
 // Density per solid angle of a point drawn uniformly by area; 0 if the plane is seen edge-on. \param scaled_normal as
@@ -84,20 +75,20 @@ std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from
             case LightKind::rectangle: {
                 const SphericalRectangle rectangle(light.origin, light.edge_u, light.edge_v, from);
                 solid_angle = rectangle.solid_angle();
-                if (solid_angle >= kSmallSolidAngle) s.weights = rectangle.sample(u, v);
+                if (solid_angle >= flat::kSmallSolidAngle) s.weights = rectangle.sample(u, v);
                 break;
             }
             case LightKind::triangle: {
                 const SphericalTriangle triangle =
                     seen(from, light.origin, light.origin + light.edge_u, light.origin + light.edge_v);
                 solid_angle = triangle.solid_angle();
-                if (solid_angle >= kSmallSolidAngle) s.weights = weights_of(light, from, triangle.sample(u, v));
+                if (solid_angle >= flat::kSmallSolidAngle) s.weights = weights_of(light, from, triangle.sample(u, v));
                 break;
             }
             case LightKind::parallelogram: {
                 const Halves halves(light, from);
                 solid_angle = halves.solid_angle();
-                if (!(solid_angle >= kSmallSolidAngle)) break;
+                if (!(solid_angle >= flat::kSmallSolidAngle)) break;
                 const double share = halves.lower.solid_angle() / solid_angle;
                 s.weights = weights_of(
                     light, from,
@@ -107,7 +98,7 @@ std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from
             case LightKind::sphere: break;
         }
     }
-    const bool by_area = !(solid_angle >= kSmallSolidAngle);
+    const bool by_area = !(solid_angle >= flat::kSmallSolidAngle);
     if (by_area) s.weights = light.kind == LightKind::triangle ? sample_uniform_triangle(u, v) : Uv{u, v};
     s.position = light.origin + (s.weights.u * light.edge_u + s.weights.v * light.edge_v);
     s.pdf = by_area ? pdf_by_area(light, s.normal, s.position - from) : 1 / solid_angle;
@@ -131,7 +122,7 @@ double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
         case LightKind::parallelogram: solid_angle = Halves(light, from).solid_angle(); break;
         case LightKind::sphere: break;
     }
-    return solid_angle >= kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, normal, way);
+    return solid_angle >= flat::kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, normal, way);
 }
 
 }  // namespace limn::tracing

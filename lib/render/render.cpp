@@ -141,6 +141,7 @@ private:
         std::vector<tracing::Path> paths;
         std::vector<std::pair<int, int>> pixels;
         const auto flush = [&] {
+            set_camera_rays(paths, pixels);
             tracer.trace(paths);
             for (std::size_t i = 0; i < paths.size(); ++i)
                 nonfinite += film_.add(pixels[i].first, pixels[i].second, paths[i].radiance) ? 0 : 1;
@@ -150,7 +151,7 @@ private:
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x)
                 for (auto i = film_.samples(x, y), n = wanted(x, y, target); i < n; ++i) {
-                    paths.push_back(camera_path(x, y, i));
+                    paths.emplace_back(tracing::Sampler(settings_.seed, film_.index(x, y), i, settings_.sampler));
                     pixels.emplace_back(x, y);
                     if (paths.size() == kBatch) flush();
                 }
@@ -161,12 +162,21 @@ private:
         samples_done_ += samples;
     }
 
-    tracing::Path camera_path(int x, int y, std::uint64_t i) const {
-        tracing::Sampler sampler(settings_.seed, film_.index(x, y), i, settings_.sampler);
+    void set_camera_rays(std::span<tracing::Path> paths, const std::vector<std::pair<int, int>>& pixels) const {
         // Drawn whether needed or not, so that each dimension keeps its meaning.
-        const auto [in_x, in_y, lens_u, lens_v, in_shutter] = sampler.next_5d();
-        const double dx = settings_.antialias ? in_x : 0.5, dy = settings_.antialias ? in_y : 0.5;
-        return {camera_.ray(x + dx, y + dy, lens_u, lens_v, in_shutter), sampler};
+        kernels::SobolLanes lanes;
+        kernels::Lane numbers[5];
+        for (std::size_t first = 0; first < paths.size(); first += kernels::kShaded) {
+            const std::span some = paths.subspan(first, std::min(kernels::kShaded, paths.size() - first));
+            tracing::Sampler::draw_many<5>(
+                some.size(), [&](std::size_t i) -> tracing::Sampler& { return some[i].sampler; }, lanes, numbers);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                const auto [x, y] = pixels[first + i];
+                const double dx = settings_.antialias ? numbers[0][i] : 0.5;
+                const double dy = settings_.antialias ? numbers[1][i] : 0.5;
+                some[i].ray = camera_.ray(x + dx, y + dy, numbers[2][i], numbers[3][i], numbers[4][i]);
+            }
+        }
     }
 
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

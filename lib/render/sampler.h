@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/sobol.h"
+#include "kernels/sobol.h"
 #include "limn/core/surface.h"
 #include "limn/core/vec.h"
 #include "limn/render/settings.h"
 #include "render/film.h"
-#include "render/sobol.h"
 
 namespace limn::tracing {
 
@@ -24,7 +25,6 @@ enum class Use : std::uint32_t { light, scattering, roulette, flight };
 // group in all samples of a pixel, whatever else they draw.
 //
 // Each of the film's replicates has a randomisation of its own: sample i is point i / 4 of replicate i mod 4.
-// Every number has 53 bits, so that a free path can be long: 32 of a Sobol point, the others merely random.
 //
 // `independent` numbers: Philox4x64-10, a block for each four of a group. Salmon et al., Parallel random numbers: as
 // easy as 1, 2, 3, 2011.
@@ -36,7 +36,7 @@ public:
         const std::uint64_t point = sample / kReplicates, replicate = sample % kReplicates;
         // A sequence ends after 2^24 points; what follows is another randomisation.
         const std::uint64_t sequence = (point >> sobol::kIndexBits) * kReplicates + replicate;
-        base_ = sobol::mixed(sobol::mixed(sobol::mixed(seed + kStep) + kStep * pixel) + kStep * sequence);
+        base_ = sobol::seeds_of(sobol::seeds_of(sobol::mixed(seed + sobol::kStep), pixel), sequence);
         index_ = sobol::reversed(static_cast<std::uint32_t>(point)) & ~0xffU;
     }
 
@@ -57,36 +57,38 @@ public:
     }
     std::array<double, 5> next_5d() { return draw<5>(); }
 
+    // What many samplers of one kind draw next, side by side: the first n numbers of a group, numbers[d][i] those of
+    // sampler_at(i). `lanes` is room for the work. \pre count <= kernels::kShaded
+    template <std::size_t n, class SamplerAt>
+    static void draw_many(std::size_t count, const SamplerAt& sampler_at, kernels::SobolLanes& lanes,
+                          kernels::Lane* numbers) {
+        for (std::size_t i = 0; i < count; ++i) {
+            Sampler& sampler = sampler_at(i);
+            if (sampler.kind_ == SamplerKind::independent) {
+                const std::array<double, n> drawn = sampler.draw<n>();
+                for (std::size_t d = 0; d < n; ++d) numbers[d][i] = drawn[d];
+            } else {
+                lanes.base[i] = sampler.base_, lanes.index[i] = sampler.index_, lanes.group[i] = sampler.group_++;
+                if (i + 1 == count) kernels::draw_sobol(lanes, count, n, numbers);
+            }
+        }
+    }
+
 private:
     // Flights come last, since there may be many.
     static constexpr std::uint32_t kGroupsOfVertex = 4096, kGroupsOfUse = 16;
-    static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: far from any small ratio
 
     template <std::size_t n>
     std::array<double, n> draw() {
         const std::uint32_t group = group_++;
         if (kind_ == SamplerKind::independent) return independent<n>(group);
-        const std::uint64_t seeds = sobol::mixed(base_ + kStep * group);
+        const std::uint64_t seeds = sobol::seeds_of(base_, group);
         const std::uint32_t index = sobol::scrambled_upward(index_, static_cast<std::uint32_t>(seeds));
         return [&]<std::size_t... d>(std::index_sequence<d...>) {
-            return std::array<double, n>{scrambled(sobol::reversed_coordinate<d>(index), seed_of<d>(seeds))...};
+            return std::array<double, n>{
+                sobol::number(sobol::reversed_coordinate<d>(index), sobol::seed_of<d>(seeds))...};
         }
         (std::make_index_sequence<n>{});
-    }
-
-    // The high half of a product with an odd number depends on all bits of the other factor.
-    template <std::size_t d>
-    static std::uint32_t seed_of(std::uint64_t seeds) {
-        constexpr std::uint64_t kFactors[sobol::kDimensions] = {
-            0xd1342543de82ef95, 0xaf251af3b0f025b5, 0x2545f4914f6cdd1d, 0x9fb21c651e98df25, 0xda942042e4dd58b5};
-        return static_cast<std::uint32_t>((seeds * kFactors[d]) >> 32);
-    }
-
-    static double scrambled(std::uint32_t reversed_coordinate, std::uint32_t seed) {
-        const std::uint32_t bits = sobol::scrambled_upward(reversed_coordinate, seed);
-        const std::uint32_t rest = (bits ^ seed) * 0x9e3779b1U >> 11;
-        const std::uint64_t number = static_cast<std::uint64_t>(sobol::reversed(bits)) << 21 | rest;
-        return static_cast<double>(static_cast<std::int64_t>(number)) * 0x1p-53;
     }
 
     template <std::size_t n>

@@ -43,10 +43,6 @@ ForeignMaterial foreign_of(const flat::Scene& scene, const MaterialRef& material
     return {m.object, m.thunks};
 }
 
-MaterialKind kind_of(const flat::Scene& scene, const MaterialRef& material) {
-    return material.id == MaterialRef::kObject ? MaterialKind::foreign : scene.materials[material.id].kind;
-}
-
 }  // namespace
 
 Color emitted(const flat::Scene& scene, const Surface& s) {
@@ -117,6 +113,15 @@ bool can_be_evaluated(const flat::Scene& scene, const MaterialRef& material) {
         case MaterialKind::diffuse_light: break;
     }
     return false;
+}
+
+Color albedo(const flat::Scene& scene, const Surface& s) {
+    return texture_value(scene, record_of(scene, s).texture, s);
+}
+
+Color radiance_of(const flat::Scene& scene, const flat::Light& light) {
+    const MaterialRecord& m = scene.materials[static_cast<std::size_t>(light.material)];
+    return scene.textures[static_cast<std::size_t>(m.texture)].color;
 }
 
 bool scatters_back_only(const flat::Scene& scene, const MaterialRef& material) {

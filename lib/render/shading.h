@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "flat/scene.h"
+#include "kernels/lobes.h"
 #include "limn/core/surface.h"
 
 namespace limn::tracing {
@@ -18,6 +19,37 @@ ScatterValue material_value(const flat::Scene& scene, const Surface& s, const Ve
 
 // False for materials whose value is zero for every pair of directions: lights need not be sampled for them.
 bool can_be_evaluated(const flat::Scene& scene, const MaterialRef& material);
+
+// Foreign where the material is somebody else's. \pre material.id != MaterialRef::kNone
+inline MaterialKind kind_of(const flat::Scene& scene, const MaterialRef& material) {
+    return material.id == MaterialRef::kObject ? MaterialKind::foreign : scene.materials[material.id].kind;
+}
+
+inline bool can_emit(const flat::Scene& scene, const MaterialRef& material) {
+    if (material.id == MaterialRef::kNone) return false;
+    const MaterialKind kind = kind_of(scene, material);
+    return kind == MaterialKind::diffuse_light || kind == MaterialKind::foreign;
+}
+
+// By which a material scatters that is shaded side by side with others; it does not emit.
+inline std::optional<kernels::Lobe> lobe_of(const flat::Scene& scene, const MaterialRef& material) {
+    if (material.id == MaterialRef::kNone) return std::nullopt;
+    switch (kind_of(scene, material)) {
+        case MaterialKind::lambertian: return kernels::Lobe::lambertian;
+        case MaterialKind::isotropic: return kernels::Lobe::isotropic;
+        case MaterialKind::metal:
+        case MaterialKind::dielectric:
+        case MaterialKind::diffuse_light:
+        case MaterialKind::foreign: break;
+    }
+    return std::nullopt;
+}
+
+// What that lobe is scaled by. \pre lobe_of(scene, s.material)
+Color albedo(const flat::Scene& scene, const Surface& s);
+
+// Radiance of a light, the same everywhere. \pre !light.textured
+Color radiance_of(const flat::Scene& scene, const flat::Light& light);
 
 // Whether the value is zero wherever the two directions are on different sides of the geometric surface. False in
 // media, which have no sides.

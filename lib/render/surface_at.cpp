@@ -10,106 +10,97 @@ namespace limn::tracing {
 
 namespace {
 
-// A hit in the primitive's own space. Normals are outward.
-struct LocalHit {
-    Point3 position;
-    Vec3 position_error;
-    Normal3 normal, shading_normal;
-    Uv uv;
-    MaterialRef material;
-    bool index_matched = false;
-};
+// While it is in the primitive's own space, the normals of a surface are outward. It is filled in place: a copy would
+// wait for what was just written.
 
-LocalHit on_sphere(const Point3& center, double radius, const Ray& ray, double t, bool with_uv) {
+void on_sphere(const Point3& center, double radius, const Ray& ray, double t, bool with_uv, Surface& s) {
     const Vec3 outward = sphere_normal(center, ray, t);
-    LocalHit hit;
-    hit.position = center + std::abs(radius) * outward;
-    hit.position_error = sphere_error(center, radius);
-    hit.normal = hit.shading_normal = Normal3(radius < 0 ? -outward : outward);
-    if (with_uv) hit.uv = sphere_uv(Vec3(hit.normal));
-    return hit;
+    s.position = center + std::abs(radius) * outward;
+    s.position_error = sphere_error(center, radius);
+    s.normal = s.shading_normal = Normal3((radius < 0 ? -1.0 : 1.0) * outward);
+    if (with_uv) s.uv = sphere_uv(Vec3(s.normal));
 }
 
-LocalHit on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Normal3& normal,
-                  const PlanarHit& planar) {
-    LocalHit hit;
-    hit.position = corner + (planar.u * edge_u + planar.v * edge_v);
-    hit.position_error = planar_error(corner, edge_u, edge_v);
-    hit.normal = hit.shading_normal = normal;
-    hit.uv = {planar.u, planar.v};
-    return hit;
+void on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Normal3& normal,
+              const PlanarHit& planar, Surface& s) {
+    s.position = corner + (planar.u * edge_u + planar.v * edge_v);
+    s.position_error = planar_error(corner, edge_u, edge_v);
+    s.normal = s.shading_normal = normal;
+    s.uv = {planar.u, planar.v};
 }
 
-LocalHit on_triangle(const TriangleVertices& v, const PlanarHit& planar) {
-    return on_plane(v.a, v.b - v.a, v.c - v.a, triangle_normal(v.a, v.b, v.c), planar);
+void on_triangle(const TriangleVertices& v, const PlanarHit& planar, Surface& s) {
+    on_plane(v.a, v.b - v.a, v.c - v.a, triangle_normal(v.a, v.b, v.c), planar, s);
 }
 
-LocalHit on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const PlanarHit& planar) {
-    LocalHit hit = on_triangle(triangle_of(scene, mesh, element), planar);
-    if (!mesh.places.empty()) return hit;
-    if constexpr (flat::kHasSmoothNormals)
-        hit.shading_normal = shading_normal(mesh.arrays, element, planar, hit.normal);
-    hit.uv = texture_coordinates(mesh.arrays, element, planar);
-    return hit;
+void on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const PlanarHit& planar,
+             Surface& s) {
+    on_triangle(triangle_of(scene, mesh, element), planar, s);
+    if (!mesh.places.empty()) return;
+    if constexpr (flat::kHasSmoothNormals) s.shading_normal = shading_normal(mesh.arrays, element, planar, s.normal);
+    s.uv = texture_coordinates(mesh.arrays, element, planar);
 }
 
-LocalHit on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t) {
+void on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t, SurfaceHit& out) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
     const FrameScope scope(frame);
     Ray ray = frame.ray;
     ray.t_max = t;
     ForeignHit foreign;
-    LocalHit hit;
-    if (!shape.hit(*shape.object, ray, foreign)) return hit;
-    hit.position = ray.at(foreign.t);
-    hit.position_error = ray_error(ray, foreign.t) + foreign.position_error;
-    hit.normal = foreign.normal;
-    hit.shading_normal = foreign.shading_normal == Normal3{} ? foreign.normal : foreign.shading_normal;
-    hit.uv = foreign.uv;
-    hit.material = foreign.material;
-    hit.index_matched = foreign.index_matched;
-    return hit;
+    out = {};
+    if (!shape.hit(*shape.object, ray, foreign)) return;
+    Surface& s = out.surface;
+    s.position = ray.at(foreign.t);
+    s.position_error = ray_error(ray, foreign.t) + foreign.position_error;
+    s.normal = foreign.normal;
+    s.shading_normal = foreign.shading_normal == Normal3{} ? foreign.normal : foreign.shading_normal;
+    s.uv = foreign.uv;
+    s.material = foreign.material;
+    out.index_matched = foreign.index_matched;
 }
 
-// `found`: by the search, which works out u and v too. `frame`: what the ray stands for, if it is inside an instance.
-LocalHit on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
-                      const PlanarHit& found, bool with_uv) {
+// `found`: by the search, which works out u and v too. `frame`: what the ray stands for, where a foreign shape asks.
+void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
+                  const PlanarHit& found, bool with_uv, SurfaceHit& out) {
+    Surface& surface = out.surface;
     const PrimitiveRange& range = scene.ranges[place.range];
     const std::size_t row = range.first_row + place.element;
     switch (range.kind) {
         case PrimitiveKind::sphere: {
             const flat::Sphere& s = scene.spheres[row];
-            return on_sphere(s.center, s.radius, ray, found.t, with_uv);
+            return on_sphere(s.center, s.radius, ray, found.t, with_uv, surface);
         }
         case PrimitiveKind::moving_sphere: {
             const flat::MovingSphere& s = scene.moving_spheres[row];
-            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, found.t, with_uv);
+            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, found.t, with_uv, surface);
         }
         case PrimitiveKind::triangle: {
             const flat::Triangle& triangle = scene.triangles[row];
-            return on_triangle({triangle.a, triangle.b, triangle.c}, found);
+            return on_triangle({triangle.a, triangle.b, triangle.c}, found, surface);
         }
         case PrimitiveKind::quad: {
             const flat::Quad& q = scene.quads[row];
-            return on_plane(q.corner, q.edge_u, q.edge_v, scene.quad_normals[row], found);
+            return on_plane(q.corner, q.edge_u, q.edge_v, scene.quad_normals[row], found, surface);
         }
-        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found);
+        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found, surface);
         case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes)
-                return on_foreign(scene.foreign[row], frame ? *frame : RayFrame(ray), found.t);
+            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], *frame, found.t, out);
             break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
     }
-    return {};
 }
 
 // From the space of an instanced group to that around it.
-void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) {
+void leave_instance(const flat::Instance& instance, double time, Surface& hit) {
     const bool moving = flat::kHasMotion && instance.moving;
-    const Transform m = moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
-                               : instance.world_from_object0;
-    const Transform inv = moving ? inverse(m) : instance.object_from_world;
+    Transform m_now, inv_now;
+    if (moving) {
+        m_now = interpolate(instance.world_from_object0, instance.world_from_object1, time);
+        inv_now = inverse(m_now);
+    }
+    const Transform& m = moving ? m_now : instance.world_from_object0;
+    const Transform& inv = moving ? inv_now : instance.object_from_world;
     const auto outward = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
     hit.position = transform_point(m, hit.position);
     hit.position_error = transformed_error(m, inv, hit.position, hit.position_error);
@@ -118,51 +109,65 @@ void leave_instance(const flat::Instance& instance, double time, LocalHit& hit) 
     hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
 }
 
-// `front`: whether the ray meets the outward side; asked here, where the normal is not transformed.
-LocalHit hit_at(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
-                const PlanarHit& found, bool with_uv, bool& front) {
-    const LocalHit hit = on_primitive(scene, place, ray, frame, found, with_uv);
-    front = dot(hit.normal, ray.direction) < 0;
-    return hit;
+// What foreign shapes need to know of a ray, and what is enough for others.
+const Ray& ray_of(const RayFrame& frame) { return frame.ray; }
+const Ray& ray_of(const Ray& ray) { return ray; }
+const RayFrame* frame_in(const RayFrame& frame) { return &frame; }
+const RayFrame* frame_in(const Ray&) { return nullptr; }
+
+template <class Visit>
+void step_inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
+    kernels::inside(instance, outside, visit);
+}
+template <class Visit>
+void step_inside(const flat::Instance& instance, const Ray& outside, const Visit& visit) {
+    if (!flat::kHasMotion || !instance.moving)
+        return visit(ray_inside(outside, instance.world_from_object0, instance.object_from_world));
+    const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.time);
+    visit(ray_inside(outside, m, inverse(m)));
 }
 
 // Within `level` and more of the instances around it.
-LocalHit hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayFrame& frame,
-                    const PlanarHit& found, bool with_uv, bool& front) {
-    if (level == place.depth) return hit_at(scene, place, frame.ray, &frame, found, with_uv, front);
-    const flat::Instance& instance = scene.instances[place.instances[level]];
-    LocalHit hit = kernels::inside(instance, frame, [&](const RayFrame& inner) {
-        return hit_within(scene, place, level + 1, inner, found, with_uv, front);
-    });
-    leave_instance(instance, frame.ray.time, hit);
-    return hit;
+template <class RayOrFrame>
+void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayOrFrame& outside,
+                const PlanarHit& found, bool with_uv, SurfaceHit& out) {
+    const Ray& ray = ray_of(outside);
+    if (flat::kHasInstances && level < place.depth) {
+        const flat::Instance& instance = scene.instances[place.instances[level]];
+        step_inside(instance, outside,
+                    [&](const RayOrFrame& inner) { hit_within(scene, place, level + 1, inner, found, with_uv, out); });
+        leave_instance(instance, ray.time, out.surface);
+        return;
+    }
+    on_primitive(scene, place, ray, frame_in(outside), found, with_uv, out);
+    // Whether the ray meets the outward side is asked here, where the normal is not transformed.
+    out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }
 
 }  // namespace
 
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& raw, bool with_uv) {
-    const flat::Place place = flat::locate(scene, raw.primitive);
-    bool front = true;
-    const PlanarHit found{raw.t, raw.u, raw.v};
-    LocalHit hit = flat::kHasInstances && place.depth > 0
-                       ? hit_within(scene, place, 0, RayFrame(ray), found, with_uv, front)
-                       : hit_at(scene, place, ray, nullptr, found, with_uv, front);
-    const PrimitiveRange& range = scene.ranges[place.range];
-    if (range.kind != PrimitiveKind::foreign)
-        hit.material.id = static_cast<std::uint32_t>(flat::material_of(scene, range, place.element));
-
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& hit, bool with_uv) {
     SurfaceHit out;
-    out.index_matched = place.index_matched || hit.index_matched;
-    Surface& s = out.surface;
-    s.position = hit.position;
-    s.position_error = hit.position_error;
-    s.front_face = front;
-    s.normal = front ? hit.normal : -hit.normal;
-    // A mesh may hold normals that disagree with its winding: they go to the same side.
-    s.shading_normal = dot(hit.shading_normal, s.normal) < 0 ? -hit.shading_normal : hit.shading_normal;
-    s.uv = hit.uv;
-    s.material = hit.material;
+    surface_at(scene, ray, hit, with_uv, out);
     return out;
+}
+
+void surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& raw, bool with_uv, SurfaceHit& out) {
+    const flat::Place place = flat::locate(scene, raw.primitive);
+    const PlanarHit found{raw.t, raw.u, raw.v};
+    Surface& s = out.surface;
+    out.index_matched = false;
+    const PrimitiveRange& range = scene.ranges[place.range];
+    if (range.kind == PrimitiveKind::foreign) {
+        hit_within(scene, place, 0, RayFrame(ray), found, with_uv, out);
+    } else {
+        hit_within(scene, place, 0, ray, found, with_uv, out);
+        s.material = {static_cast<std::uint32_t>(flat::material_of(scene, range, place.element)), nullptr, nullptr};
+    }
+    out.index_matched = out.index_matched || place.index_matched;
+    s.normal = Normal3((s.front_face ? 1.0 : -1.0) * Vec3(s.normal));
+    // A mesh may hold normals that disagree with its winding: they go to the same side.
+    s.shading_normal = Normal3((dot(s.shading_normal, s.normal) < 0 ? -1.0 : 1.0) * Vec3(s.shading_normal));
 }
 
 }  // namespace limn::tracing

@@ -17,5 +17,7 @@ struct SurfaceHit {
 // \pre `hit` was found for `ray` in `scene`
 // \param with_uv false leaves out a sphere's texture coordinates, which cost more than the rest of it
 SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& hit, bool with_uv = true);
+// The same for an object that is used again, so that what is not asked for is not set either.
+void surface_at(const flat::Scene& scene, const Ray& ray, const kernels::Hit& hit, bool with_uv, SurfaceHit& out);
 
 }  // namespace limn::tracing

@@ -1,6 +1,6 @@
 // Owen-scrambled Sobol points: against Boost's sequence, against the definition of a net, and by how fast sums
 // converge.
-#include "render/sobol.h"
+#include "core/sobol.h"
 
 #include <boost/random/sobol.hpp>
 #include <functional>
@@ -13,7 +13,6 @@
 using namespace limn;
 using namespace limn::test;
 using tracing::Sampler;
-namespace sobol = tracing::sobol;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace limn::tracing::sobol {
+namespace limn::sobol {
 
 inline constexpr std::size_t kDimensions = 5;
 // Points of one randomisation; the coordinates are looked up a byte of the index at a time.
@@ -23,21 +23,35 @@ constexpr std::uint32_t reversed(std::uint32_t x) {
 // Flips each bit depending on the seed and the bits below it: a nested uniform scrambling of the number read backwards
 // (Laine and Karras, Stratified sampling for stochastic transparency, 2011). Multiplication carries upward only.
 // The steps and constants are Vegdahl's (Building a better LK hash, 2021), whose flips are nearly unbiased.
+inline constexpr std::uint32_t kUpward[] = {0x3d20adea, 0x05526c56, 0x53a22864};
 constexpr std::uint32_t scrambled_upward(std::uint32_t x, std::uint32_t seed) {
-    x ^= x * 0x3d20adeaU;
+    x ^= x * kUpward[0];
     x += seed;
     x *= (seed >> 16) | 1;
-    x ^= x * 0x05526c56U;
-    x ^= x * 0x53a22864U;
+    x ^= x * kUpward[1];
+    x ^= x * kUpward[2];
     return x;
 }
 
 // Bijection of 64 bits in which every bit depends on every other (splitmix64: Steele, Lea and Flood, Fast splittable
 // pseudorandom number generators, 2014).
+inline constexpr std::uint64_t kMix[] = {0xbf58476d1ce4e5b9, 0x94d049bb133111eb};
 constexpr std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    z = (z ^ (z >> 30)) * kMix[0];
+    z = (z ^ (z >> 27)) * kMix[1];
     return z ^ (z >> 31);
+}
+
+// The group of dimensions that has this number, of the samples that have this base, is scrambled by these 64 bits.
+inline constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: far from any small ratio
+constexpr std::uint64_t seeds_of(std::uint64_t base, std::uint64_t group) { return mixed(base + kStep * group); }
+
+// A dimension's part of them. The high half of a product with an odd number depends on all bits of the other factor.
+inline constexpr std::uint64_t kSeedFactors[kDimensions] = {0xd1342543de82ef95, 0xaf251af3b0f025b5, 0x2545f4914f6cdd1d,
+                                                            0x9fb21c651e98df25, 0xda942042e4dd58b5};
+template <std::size_t dimension>
+std::uint32_t seed_of(std::uint64_t seeds) {
+    return static_cast<std::uint32_t>((seeds * kSeedFactors[dimension]) >> 32);
 }
 
 // Columns of the generator matrices of dimensions 1 to 4 (0 is the identity): primitive polynomials and initial numbers
@@ -94,4 +108,14 @@ std::uint32_t reversed_coordinate(std::uint32_t index) {
     }
 }
 
-}  // namespace limn::tracing::sobol
+// The scrambled coordinate in [0, 1), of 53 bits, so that a free path can be long: 32 of the point, the others merely
+// random.
+inline constexpr std::uint32_t kRestFactor = 0x9e3779b1;
+inline double number(std::uint32_t reversed_coordinate, std::uint32_t seed) {
+    const std::uint32_t bits = scrambled_upward(reversed_coordinate, seed);
+    const std::uint32_t rest = (bits ^ seed) * kRestFactor >> 11;
+    const std::uint64_t all = static_cast<std::uint64_t>(reversed(bits)) << 21 | rest;
+    return static_cast<double>(static_cast<std::int64_t>(all)) * 0x1p-53;
+}
+
+}  // namespace limn::sobol

@@ -1,0 +1,136 @@
+#include "kernels/lobes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/lobes.cpp"
+#include <hwy/foreach_target.h>
+
+#include "core/spawn.h"
+#include "kernels/lights-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+HWY_INLINE W3 load(const Lanes3& lanes, std::size_t i) {
+    return {LoadLane(lanes.x + i), LoadLane(lanes.y + i), LoadLane(lanes.z + i)};
+}
+HWY_INLINE void store(const W3& v, Lanes3& lanes, std::size_t i) {
+    StoreLane(v.x, lanes.x + i), StoreLane(v.y, lanes.y + i), StoreLane(v.z, lanes.z + i);
+}
+HWY_INLINE std::uint32_t bits_at(Where where, std::size_t i) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Doubles(), where, bytes);
+    return std::uint32_t{bytes[0]} << i;
+}
+
+// f |cos| over the albedo, which is the density too.
+template <Lobe lobe>
+HWY_INLINE W value(const W3& normal, const W3& shading_normal, const W3& in) {
+    if (lobe == Lobe::isotropic) return all(1 / (4 * kPi));
+    const W cosine = dot(in, shading_normal);
+    const Where above = hn::And(hn::Gt(dot(in, normal), all(0.0)), hn::Gt(cosine, all(0.0)));
+    return hn::IfThenElseZero(above, cosine / all(kPi));
+}
+
+// The next double towards the side that `by` goes to, as in core/spawn.h.
+HWY_INLINE W moved(W at, W by) {
+    const hn::Rebind<std::int64_t, Doubles> whole;
+    const W zero = all(0.0), sum = at + by;
+    const Where up = hn::Gt(by, zero), down = hn::Lt(by, zero);
+    const Where moves = hn::Or(hn::And(up, hn::Lt(sum, all(kInfinity))), hn::And(down, hn::Gt(sum, all(-kInfinity))));
+    const Where longer = hn::Or(hn::And(up, hn::Gt(sum, zero)), hn::And(down, hn::Lt(sum, zero)));
+    const auto step = hn::IfThenElse(hn::RebindMask(whole, longer), hn::Set(whole, 1), hn::Set(whole, -1));
+    const W next = hn::BitCast(Doubles(), hn::BitCast(whole, sum) + step);
+    const W from_zero = hn::CopySign(all(std::numeric_limits<double>::denorm_min()), by);
+    return choose(moves, choose(hn::Eq(sum, zero), from_zero, next), sum);
+}
+
+HWY_INLINE W3 offset_along(const W3& position, const W3& error, const W3& normal, const W3& direction) {
+    const W distance = dot(abs(normal), error);
+    const W3 by = choose(hn::Lt(dot(normal, direction), all(0.0)), hn::Neg(distance), distance) * normal;
+    return {moved(position.x, by.x), moved(position.y, by.y), moved(position.z, by.z)};
+}
+
+template <Lobe lobe>
+HWY_INLINE void scatter_by(VertexLanes& v) {
+    for (std::size_t i = 0; i < v.count; i += hn::Lanes(Doubles())) {
+        const W3 normal = load(v.normal, i), shading_normal = load(v.shading_normal, i);
+        const W a = LoadLane(v.numbers[0] + i), b = LoadLane(v.numbers[1] + i);
+        const W3 in =
+            lobe == Lobe::isotropic ? uniform_cone(a, b, all(2.0)) : to_world(shading_normal, cosine_hemisphere(a, b));
+        StoreLane(value<lobe>(normal, shading_normal, in), v.pdf + i);
+        store(in, v.direction, i);
+        store(offset_along(load(v.position, i), load(v.position_error, i), normal, in), v.origin, i);
+    }
+}
+
+void scatter(Lobe lobe, VertexLanes& vertices) {
+    if (lobe == Lobe::lambertian) return scatter_by<Lobe::lambertian>(vertices);
+    scatter_by<Lobe::isotropic>(vertices);
+}
+
+template <Lobe lobe>
+HWY_INLINE void sample_lights_by(VertexLanes& v) {
+    const W zero = all(0.0), one = all(1.0);
+    const std::size_t n = hn::Lanes(Doubles());
+    static constexpr flat::Light kNone{};
+    v.lit = v.open = 0;
+    for (std::size_t i = 0; i < v.count; i += n) {
+        const flat::Light* chosen[8];
+        for (std::size_t j = 0; j < n; ++j) chosen[j] = i + j < v.count && v.light[i + j] ? v.light[i + j] : &kNone;
+        const LightLanes light(chosen);
+        const W probability = LoadLane(v.probability + i);
+        const Where wanted = hn::And(hn::Gt(probability, zero), hn::FirstN(Doubles(), v.count - i));
+        const W3 position = load(v.position, i), normal = load(v.normal, i), error = load(v.position_error, i);
+        const W a = LoadLane(v.numbers[1] + i), b = LoadLane(v.numbers[2] + i);
+
+        LightPoints s;
+        const Where planar = hn::AndNot(light.sphere, wanted), round = hn::And(light.sphere, wanted);
+        if (!any(round)) {
+            s = sample_planar(light, position, a, b, planar);
+        } else {
+            s = sample_sphere(light, position, a, b);
+            if (any(planar)) {
+                const LightPoints p = sample_planar(light, position, a, b, planar);
+                s.position = choose(planar, p.position, s.position), s.normal = choose(planar, p.normal, s.normal);
+                s.direction = choose(planar, p.direction, s.direction), s.pdf = choose(planar, p.pdf, s.pdf);
+                s.drawn = hn::Or(hn::And(planar, p.drawn), hn::AndNot(planar, s.drawn));
+                s.open = hn::Or(hn::And(planar, p.open), hn::AndNot(planar, s.open));
+            }
+        }
+
+        const W f = value<lobe>(normal, load(v.shading_normal, i), s.direction);
+        const W pdf = s.pdf * probability;
+        // The power heuristic, as in render/direct_light.h.
+        const W ratio = f / pdf, weight = choose(hn::Lt(pdf, all(kInfinity)), one / (one + ratio * ratio), one);
+        store((f * load(v.albedo, i)) * load(v.emission, i) * W3{weight / pdf, weight / pdf, weight / pdf}, v.arriving,
+              i);
+        const W3 from = offset_along(position, error, normal, s.position - position);
+        const W3 to = offset_along(s.position, light.position_error, s.normal, from - s.position);
+        store(from, v.shadow_origin, i);
+        store(to - from, v.shadow_direction, i);
+        const Where lit = hn::And(hn::And(wanted, s.drawn), hn::Gt(f, zero));
+        v.lit |= bits_at(hn::AndNot(s.open, lit), i);
+        v.open |= bits_at(hn::And(s.open, wanted), i);
+    }
+}
+
+void sample_lights(Lobe lobe, VertexLanes& vertices) {
+    if (lobe == Lobe::lambertian) return sample_lights_by<Lobe::lambertian>(vertices);
+    sample_lights_by<Lobe::isotropic>(vertices);
+}
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace limn::kernels {
+
+HWY_EXPORT(scatter);
+HWY_EXPORT(sample_lights);
+
+void scatter(Lobe lobe, VertexLanes& vertices) { HWY_DYNAMIC_DISPATCH(scatter)(lobe, vertices); }
+
+void sample_lights(Lobe lobe, VertexLanes& vertices) { HWY_DYNAMIC_DISPATCH(sample_lights)(lobe, vertices); }
+
+}  // namespace limn::kernels
+#endif
