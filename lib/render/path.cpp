@@ -31,6 +31,7 @@ struct PathTracer::Vertex {
     Surface surface;
     Vec3 out;  // unit, back along the path
     std::uint64_t primitive = flat::RawHit::kMiss;
+    double light_odds = 0;  // over 0: lights were asked along the segment, with this density over the free flight's
 };
 
 // Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
@@ -109,6 +110,7 @@ PathTracer::End PathTracer::meet(Head& head, const kernels::Hit& hit, Vertex& ve
         flight.t_max = hit.t;
         media_.trace(scene_, flight);
         const FreeFlight flown = media_.sample(head.depth, head.choose);
+        vertex.light_odds = light_on_the_way(head, flown);
         head.throughput = flown.weight * head.throughput;
         if (flown.scatters) {
             vertex.surface.position = ray.at(flown.t);
@@ -126,6 +128,19 @@ PathTracer::End PathTracer::meet(Head& head, const kernels::Hit& hit, Vertex& ve
     return End::passes;
 }
 
+// Shadow rays for light that media scatter once on their way to the segment's begin. Where that is worth while the
+// vertex at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely
+// its place was drawn for lights; 0 where it has to ask.
+double PathTracer::light_on_the_way(const Head& head, const FreeFlight& flown) {
+    if (!sample_lights_ || head.segment == max_depth_) return 0;
+    const std::optional<Equiangular> along = pivot_.along(head.ray, media_);
+    if (!along) return 0;
+    head.path->sampler.seek(head.segment, Use::segment);
+    const auto [t, choose, pick, u, v] = head.path->sampler.next_5d();
+    ask(head, prepare_scattered_light(scene_, head.ray, media_, *along, {t, choose, {pick, {u, v}}}));
+    return flown.scatters && flown.t <= along->stretch().to ? along->pdf(flown.t) / flown.density : 0;
+}
+
 // Light that the vertex emits, and a shadow ray for light that comes to it straight from an emitter.
 bool PathTracer::shade(Head& head, const Vertex& vertex) {
     if (is_black(head.throughput)) return false;
@@ -133,10 +148,10 @@ bool PathTracer::shade(Head& head, const Vertex& vertex) {
     if (vertex.primitive != flat::RawHit::kMiss) {
         const Color emission = emitted(scene_, vertex.surface);
         if (!is_black(emission)) {
-            const double light_pdf =
-                sample_lights_ && head.scatter_pdf > 0
-                    ? pdf_light(scene_, head.previous, time, vertex.primitive, vertex.surface.position)
-                    : 0;
+            const double light_pdf = sample_lights_ && head.scatter_pdf > 0
+                                         ? head.light_odds * pdf_light(scene_, head.previous, time, vertex.primitive,
+                                                                       vertex.surface.position)
+                                         : 0;
             const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
             head.path->radiance += head.throughput * emission * weight;
         }
@@ -144,17 +159,20 @@ bool PathTracer::shade(Head& head, const Vertex& vertex) {
     if (head.segment == max_depth_) return false;
     if (!sample_lights_) return true;
     head.previous = receiver_at(scene_, vertex.surface);
-    if (!can_be_evaluated(scene_, vertex.surface.material)) return true;
+    head.light_odds = vertex.light_odds > 0 ? vertex.light_odds : 1;
+    if (vertex.light_odds > 0 || !can_be_evaluated(scene_, vertex.surface.material)) return true;
     // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
     head.path->sampler.seek(head.segment, Use::light);
     const Random3 random = head.path->sampler.next_3d();
-    const auto direct =
-        prepare_direct_light(scene_, vertex.surface, head.previous, vertex.out, time, {random.x, {random.y, random.z}});
-    if (direct && count(direct->shadow)) {
-        shadows_.push_back({head.path, head.throughput * direct->light});
-        traced_.push_back(direct->shadow);
-    }
+    ask(head, prepare_direct_light(scene_, vertex.surface, head.previous, vertex.out, time,
+                                   {random.x, {random.y, random.z}}));
     return true;
+}
+
+void PathTracer::ask(const Head& head, const std::optional<DirectLight>& direct) {
+    if (!direct || !count(direct->shadow)) return;
+    shadows_.push_back({head.path, head.throughput * direct->light});
+    traced_.push_back(direct->shadow);
 }
 
 // The next segment.

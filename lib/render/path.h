@@ -10,6 +10,7 @@
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
 #include "render/direct_light.h"
+#include "render/equiangular.h"
 #include "render/media.h"
 #include "render/sampler.h"
 
@@ -31,6 +32,7 @@ public:
         : scene_(scene),
           max_depth_(max_depth),
           sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
+          pivot_(scene),
           roulette_(estimator == Estimator::path || max_depth == kUnlimitedDepth) {}
 
     // Unbiased but for paths longer than max_depth segments.
@@ -55,6 +57,7 @@ private:
         Color throughput{1, 1, 1};
         Receiver previous{};     // the vertex before, as lights saw it
         double scatter_pdf = 0;  // of the direction; 0: specular or from the camera, no light sampling competes
+        double light_odds = 1;   // how much more densely the vertex before was drawn for lights than for scattering
         double depth = 0;        // optical, in scattering, to where media scatter the path
         double choose = 0;       // the medium that does
     };
@@ -71,13 +74,16 @@ private:
     void find_hits();
     bool follow(Head& head, const kernels::Hit& hit);
     End meet(Head& head, const kernels::Hit& hit, Vertex& vertex);
+    double light_on_the_way(const Head& head, const FreeFlight& flown);
     bool shade(Head& head, const Vertex& vertex);
     bool scatter(Head& head, const Vertex& vertex);
+    void ask(const Head& head, const std::optional<DirectLight>& direct);
     void add_direct_light();
 
     const flat::Scene& scene_;
     const int max_depth_;
     const bool sample_lights_;
+    const LightsAsPivot pivot_;
     const bool roulette_;  // the naive estimator, which is a check, does without where a limit ends its paths
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
