@@ -28,14 +28,16 @@ struct DirectLight {
 // How a vertex looks to lights.
 void set_receiver(const flat::Scene& scene, const Surface& vertex, Receiver& receiver);
 
-// Nothing where no light is drawn, or what is drawn gives none. `out`: unit, back along the path. \pre there are lights
+// Nothing where no light is drawn, or what is drawn gives none. `out`: unit, back along the path. `vertex_odds`: how
+// much more densely this vertex was drawn than where paths scatter, if it was drawn for lights alone. \pre there are
+// lights
 std::optional<DirectLight> prepare_direct_light(const flat::Scene& scene, const Surface& vertex,
                                                 const Receiver& receiver, const Vec3& out, double time,
-                                                const LightNumbers& random);
+                                                const LightNumbers& random, double vertex_odds = 1);
 
 // From a point on a light, and what the vertex scatters from there.
 std::optional<DirectLight> weigh_direct_light(const flat::Scene& scene, const Surface& vertex, const LightSample& light,
-                                              const ScatterValue& f, double time);
+                                              const ScatterValue& f, double time, double vertex_odds = 1);
 
 // Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
 // 9.2.4), for the technique with density a against the one with density b.

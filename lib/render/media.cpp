@@ -123,6 +123,12 @@ const MediaAlongRay::Step& MediaAlongRay::choose_medium(std::size_t end, double 
     return *chosen;
 }
 
+void MediaAlongRay::scatter(FreeFlight& flight, const Step& medium) const {
+    flight.scatters = true;
+    flight.phase = scene_->medium_shapes[scene_->media[medium.medium].shape].phase;
+    flight.weight = medium.extinction / medium.scattering;
+}
+
 // With extinction e = s + a, of which s is drawn for: light that comes from d on has the weight exp(-e d), and reaches
 // there with probability exp(-s d), which leaves exp(-a d). At an event the albedo is multiplied by e exp(-e d) and the
 // density is s exp(-s d). s is e times the largest albedo of any colour, so that no weight exceeds 1.
@@ -134,12 +140,10 @@ FreeFlight MediaAlongRay::sample(double depth, double choose) const {
         const double absorption = std::max(0.0, extinction - scattering);
         if (scattering * way > depth - flight.depth) {
             const double before = (depth - flight.depth) / scattering;
-            const Step& medium = choose_medium(end, choose * scattering);
-            flight.scatters = true;
+            scatter(flight, choose_medium(end, choose * scattering));
             flight.t = t + before / speed_;
-            flight.phase = scene_->medium_shapes[scene_->media[medium.medium].shape].phase;
             absorbed += absorption * before;
-            flight.weight = medium.extinction / medium.scattering;
+            flight.density = scattering * std::exp(-depth);
             return false;
         }
         flight.depth += scattering * way;
@@ -148,6 +152,43 @@ FreeFlight MediaAlongRay::sample(double depth, double choose) const {
     });
     if (absorbed > 0) flight.weight *= std::exp(-absorbed);
     return flight;
+}
+
+FreeFlight MediaAlongRay::scatter_at(double where, double choose) const {
+    FreeFlight flight;
+    double depth = 0, absorbed = 0;
+    for_each_stretch([&](std::size_t end, double t, double extinction, double scattering) {
+        if (where < t) return false;
+        const bool inside = where < steps_[end].t;
+        const double way = ((inside ? where : steps_[end].t) - t) * speed_;
+        depth += scattering * way;
+        absorbed += std::max(0.0, extinction - scattering) * way;
+        if (!inside) return true;
+        if (!(scattering > 0)) return false;
+        scatter(flight, choose_medium(end, choose * scattering));
+        flight.t = where;
+        flight.weight *= std::exp(-absorbed);
+        flight.density = scattering * std::exp(-depth);
+        return false;
+    });
+    return flight;
+}
+
+std::optional<Stretch> MediaAlongRay::scattering_stretch(double deepest, double most_change) const {
+    std::optional<Stretch> found;
+    double first = 0;
+    for_each_stretch([&](std::size_t end, double t, double extinction, double scattering) {
+        if (found && scattering > 0 && (scattering > most_change * first || first > most_change * scattering))
+            return false;
+        const double way = (steps_[end].t - t) * speed_;
+        const bool ends = extinction * way > deepest;
+        const double to = ends ? t + deepest / extinction / speed_ : steps_[end].t;
+        if (!found) first = scattering;
+        if (scattering > 0 && to > t) found = Stretch{found ? found->from : t, to};
+        deepest -= extinction * way;
+        return !ends;
+    });
+    return found;
 }
 
 }  // namespace limn::tracing

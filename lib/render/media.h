@@ -17,6 +17,12 @@ struct FreeFlight {
     MaterialId phase = MaterialId::none;  //
     double depth = 0;                     // optical depth in scattering up to the end, if it does not
     double weight = 1;                    // what the throughput is multiplied by
+    double density = 0;                   // per world unit of length, of its scattering there
+};
+
+// From one t of a ray to another.
+struct Stretch {
+    double from, to;
 };
 
 // Extinction along one ray, a step function of t. It is worked out anew for each ray from the crossings of all
@@ -37,6 +43,12 @@ public:
     // reaches `depth`, exponentially distributed; `choose` in [0, 1) picks the medium in proportion to its scattering
     // there. What is absorbed does not end the flight but makes it count less.
     FreeFlight sample(double depth, double choose) const;
+    // The flight that scatters at t, if there is a medium that can.
+    FreeFlight scatter_at(double t, double choose) const;
+
+    // From where light can scatter to the last such place before the optical depth exceeds `deepest`, or scattering
+    // changes by more than the factor `most_change`.
+    std::optional<Stretch> scattering_stretch(double deepest, double most_change) const;
 
     // Where one or more faces of a boundary are met; if they disagree about the way, it may be crossed there or
     // touched.
@@ -59,6 +71,7 @@ private:
     template <class Visit>
     void for_each_stretch(const Visit& visit) const;
     const Step& choose_medium(std::size_t end, double pick) const;
+    void scatter(FreeFlight& flight, const Step& medium) const;
 
     const flat::Scene* scene_ = nullptr;
     double t_max_ = 0, speed_ = 1;  // t is in units of the ray's direction, `speed_` long

@@ -85,12 +85,13 @@ void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& 
         flight.t_max = hit.t;
         media_.trace(scene_, flight);
         const FreeFlight flown = media_.sample(head.depth, head.choose);
+        const double light_odds = light_on_the_way(path, ray, flown);
         head.throughput = flown.weight * head.throughput;
         if (flown.scatters) {
             Surface inside;
             inside.position = ray.at(flown.t);
             inside.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
-            return shade(path, ray, inside);
+            return shade(path, ray, inside, light_odds);
         }
         head.depth -= flown.depth;
     }
@@ -109,34 +110,53 @@ void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& 
     shade(path, ray, met_.surface);
 }
 
+// Shadow rays for light that media scatter once on their way to the segment's begin. Where that is worth while the
+// vertex at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely
+// its place was drawn for lights; 0 where it has to ask.
+double PathTracer::light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown) {
+    const int segment = heads_[path].segment;
+    if (!sample_lights_ || segment == max_depth_) return 0;
+    const std::optional<Equiangular> along = pivot_.along(ray, media_);
+    if (!along) return 0;
+    Sampler& sampler = paths_[path].sampler;
+    sampler.seek(segment, Use::segment);
+    const auto [t, choose, pick, u, v] = sampler.next_5d();
+    if (const auto light = prepare_scattered_light(scene_, ray, media_, *along, {t, choose, {pick, {u, v}}}))
+        add_shadow(path, light->light, light->shadow);
+    return flown.scatters && flown.t <= along->stretch().to ? along->pdf(flown.t) / flown.density : 0;
+}
+
 void PathTracer::add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time) {
     const Head& head = heads_[path];
     const Color emission = emitted(scene_, vertex);
     if (is_black(emission) || is_black(head.throughput)) return;
-    const double light_pdf =
-        sample_lights_ && head.scatter_pdf > 0 ? pdf_light(scene_, head.previous, time, primitive, vertex.position) : 0;
+    const double light_pdf = sample_lights_ && head.scatter_pdf > 0
+                                 ? head.light_odds * pdf_light(scene_, head.previous, time, primitive, vertex.position)
+                                 : 0;
     const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
     paths_[path].radiance += head.throughput * emission * weight;
 }
 
 // A shadow ray for light that comes to the vertex straight from an emitter, and the next segment: together with other
-// vertices where the material has a lobe for it.
-void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex) {
+// vertices where the material has a lobe for it. `light_odds` over 0: lights were asked along the segment.
+void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds) {
     Head& head = heads_[path];
     if (head.segment == max_depth_ || is_black(head.throughput)) return;
+    const bool ask_lights = sample_lights_ && light_odds == 0;
     if (sample_lights_) set_receiver(scene_, vertex, head.previous);
+    head.light_odds = light_odds > 0 ? light_odds : 1;
     if (const auto lobe = lobe_of(scene_, vertex.material)) {
-        gather(path, ray.time, *lobe, vertex);
+        gather(path, ray.time, *lobe, vertex, ask_lights);
     } else {
-        shade_alone(path, ray, vertex);
+        shade_alone(path, ray, vertex, ask_lights);
     }
 }
 
-void PathTracer::shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex) {
+void PathTracer::shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex, bool ask_lights) {
     Head& head = heads_[path];
     Sampler& sampler = paths_[path].sampler;
     const Vec3 out = -normalize(ray.direction);
-    if (sample_lights_ && can_be_evaluated(scene_, vertex.material)) {
+    if (ask_lights && can_be_evaluated(scene_, vertex.material)) {
         // The choice of a light shares its group with the point on it, so that each light gets a part of an even
         // sequence.
         sampler.seek(head.segment, Use::light);

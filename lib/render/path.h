@@ -12,6 +12,7 @@
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
 #include "render/direct_light.h"
+#include "render/equiangular.h"
 #include "render/media.h"
 #include "render/sampler.h"
 #include "render/surface_at.h"
@@ -34,6 +35,7 @@ public:
         : scene_(scene),
           max_depth_(max_depth),
           sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
+          pivot_(scene),
           roulette_(estimator == Estimator::path || max_depth == kUnlimitedDepth) {}
 
     // Unbiased but for paths longer than max_depth segments.
@@ -56,6 +58,7 @@ private:
         Color throughput{1, 1, 1};
         Receiver previous{};     // the vertex before, as lights saw it
         double scatter_pdf = 0;  // of the direction; 0: specular or from the camera, no light sampling competes
+        double light_odds = 1;   // how much more densely the vertex before was drawn for lights than for scattering
         double depth = 0;        // optical, in scattering, to where media scatter the path
         double choose = 0;       // the medium that does
     };
@@ -73,21 +76,23 @@ private:
         kernels::SobolLanes samplers;
         std::array<std::uint32_t, kernels::kShaded> paths;
         std::array<double, kernels::kShaded> times;
+        std::array<bool, kernels::kShaded> ask_lights;
         std::array<flat::Light, kernels::kShaded> lights;  // those that are not kept anywhere
     };
     bool count(const Ray& ray);
     void begin(std::uint32_t path, const Ray& ray);
     void find_hits();
     void follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit);
+    double light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown);
     void add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time);
-    void shade(std::uint32_t path, const Ray& ray, const Surface& vertex);
-    void shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex);
+    void shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds = 0);
+    void shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex, bool ask_lights);
     double survival(const Head& head) const;
     void go_on(std::uint32_t path, double survival, double pdf, const Ray& ray);
     void add_shadow(std::uint32_t path, const Color& light, const Ray& ray);
     void add_direct_light();
     // In path_groups.cpp.
-    void gather(std::uint32_t path, double time, kernels::Lobe lobe, const Surface& vertex);
+    void gather(std::uint32_t path, double time, kernels::Lobe lobe, const Surface& vertex, bool ask_lights);
     void shade_group(kernels::Lobe lobe);
     void sample_lights(kernels::Lobe lobe);
     template <std::size_t n>
@@ -97,6 +102,7 @@ private:
     const flat::Scene& scene_;
     const int max_depth_;
     const bool sample_lights_;
+    const LightsAsPivot pivot_;
     const bool roulette_;  // the naive estimator, which is a check, does without where a limit ends its paths
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;

@@ -25,12 +25,13 @@ Surface surface_of(const kernels::VertexLanes& lanes, std::size_t i) {
 
 }  // namespace
 
-void PathTracer::gather(std::uint32_t path, double time, Lobe lobe, const Surface& vertex) {
+void PathTracer::gather(std::uint32_t path, double time, Lobe lobe, const Surface& vertex, bool ask_lights) {
     Group& group = group_of(lobe);
     kernels::VertexLanes& lanes = group.lanes;
     const std::size_t i = lanes.count++;
     group.paths[i] = path;
     group.times[i] = time;
+    group.ask_lights[i] = ask_lights;
     lanes.position.set(i, vertex.position);
     lanes.position_error.set(i, vertex.position_error);
     lanes.normal.set(i, vertex.normal);
@@ -73,6 +74,7 @@ void PathTracer::sample_lights(Lobe lobe) {
     std::uint32_t textured = 0;
     for (std::size_t i = 0; i < lanes.count; ++i) {
         lanes.probability[i] = 0;
+        if (!group.ask_lights[i]) continue;
         const auto choice = choose_light(scene_.lights, heads_[group.paths[i]].previous, lanes.numbers[0][i]);
         if (!choice) continue;
         const flat::Light& light = flat::light_at(scene_, choice->rank, group.times[i], group.lights[i]);

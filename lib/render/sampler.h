@@ -17,7 +17,7 @@
 namespace limn::tracing {
 
 // What a vertex of a path draws numbers for.
-enum class Use : std::uint32_t { light, scattering, roulette, flight };
+enum class Use : std::uint32_t { light, scattering, roulette, segment, flight };
 
 // The numbers of one sample, drawn in groups. Within a group of up to five dimensions the samples of a pixel form a
 // Sobol sequence; the groups are independently scrambled and shuffled (Burley, Practical hash-based Owen scrambling,

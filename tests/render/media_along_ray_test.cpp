@@ -110,6 +110,48 @@ TEST_CASE("Media along a ray: a flight ends at the optical depth in scattering t
     });
 }
 
+TEST_CASE("Media along a ray: the flight that scatters at a place is the one that ends there", "[render][media]") {
+    holds([](std::uint64_t seed) {
+        const Case c = random_case(seed);
+        MediaAlongRay media;
+        media.trace(c.scene.flat(), c.ray);
+        Random random(seed + 1);
+        const double depth = random.uniform(0, 2), choose = random.uniform();
+        const FreeFlight flight = media.sample(depth, choose);
+        if (!flight.scatters) RC_DISCARD("no flight ends");
+        const double x = c.ray.origin.x + flight.t * c.ray.direction.x;
+        double scattering = 0;
+        for (const Slab& s : c.slabs) {
+            if (std::min(std::abs(x - s.x0), std::abs(x - s.x1)) < 1e-9) RC_DISCARD("at a boundary");
+            if (x > s.x0 && x < s.x1) scattering += s.density * s.albedo;
+        }
+        RC_ASSERT(std::abs(flight.density - scattering * std::exp(-depth)) <= 1e-9);
+        const FreeFlight same = media.scatter_at(flight.t, choose);
+        RC_ASSERT(same.scatters && same.t == flight.t && same.phase == flight.phase);
+        RC_ASSERT(std::abs(same.weight - flight.weight) <= 1e-9 * flight.weight);
+        RC_ASSERT(std::abs(same.density - flight.density) <= 1e-9);
+        RC_ASSERT(!media.scatter_at(100 / c.ray.direction.x, choose).scatters);
+    });
+}
+
+TEST_CASE("Media along a ray: light is scattered from the first medium that does, down to the depth that is asked for",
+          "[render][media]") {
+    const CompiledScene scene =
+        compile_with(sky(0), {medium_of({1, 2, 1, 0}), medium_of({3, 4, 1, 0.5}), medium_of({6, 8, 0.5, 1})});
+    MediaAlongRay media;
+    media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {0.5, 0, 0}});
+    const auto check = [&](double deepest, double from, double to) {
+        const auto stretch = media.scattering_stretch(deepest, 3);
+        REQUIRE(stretch.has_value());
+        CHECK(stretch->from == Approx(2 * from).epsilon(1e-13));
+        CHECK(stretch->to == Approx(2 * to).epsilon(1e-13));
+    };
+    CHECK(!media.scattering_stretch(0.75, 3));
+    check(1.25, 3, 3.25);
+    check(2.25, 3, 6.5);
+    check(10, 3, 8);
+}
+
 TEST_CASE("Media along a ray: of the media at the end of a flight each is chosen by its share of the scattering there",
           "[render][media]") {
     holds([](std::uint64_t seed) {

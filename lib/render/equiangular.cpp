@@ -1,0 +1,100 @@
+#include "render/equiangular.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/shading.h"
+
+namespace limn::tracing {
+
+namespace {
+
+// The lights count as one ball of this share of their box's half diagonal. 1 is up to 15 % worse under quads.
+constexpr double kRadius = 0.5;
+// Light is asked for along the way where that spans at least this angle (radians) as seen from the lights: else
+// 1 / distance^2 is much the same all along. Up to this optical depth, since from behind hardly any light arrives, and
+// as long as scattering does not change by more than this factor: free flights know better how to share themselves out
+// among thin and thick. Measured by time times error against asking where free flights end: fog of optical depth 0.1,
+// 0.3, 1, 3 in a room, around a small ball in its middle 0.4, 0.3, 0.3, 0.4, around a quad below its ceiling 0.8, 0.6,
+// 0.5, 0.6; 27 balls all over the room 0.9, figure 16 1.0, without the angle 1.05.
+constexpr double kLeastAngle = 0.7, kDeepest = 3, kMostChange = 3;
+
+Box box_of(const flat::Light& light) {
+    Box box;
+    if (light.kind == flat::LightKind::sphere) {
+        const Vec3 r = light.radius * Vec3{1, 1, 1};
+        for (const Vec3& moved : {Vec3{}, light.edge_u}) {
+            box.extend(light.origin + moved - r);
+            box.extend(light.origin + moved + r);
+        }
+        return box;
+    }
+    for (const Vec3& edge : {Vec3{}, light.edge_u, light.edge_v}) box.extend(light.origin + edge);
+    if (light.kind != flat::LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
+    return box;
+}
+
+}  // namespace
+
+Equiangular::Equiangular(const Ray& ray, const Stretch& stretch, const Point3& pivot, double least_height)
+    : stretch_(stretch), speed_(length(ray.direction)) {
+    const Vec3 way = pivot - ray.origin, along = ray.direction / speed_;
+    middle_ = dot(way, along);
+    height_ = std::max(length(way - middle_ * along), least_height);
+    begin_ = std::atan((stretch.from * speed_ - middle_) / height_);
+    end_ = std::atan((stretch.to * speed_ - middle_) / height_);
+}
+
+double Equiangular::sample(double u) const {
+    const double t = (middle_ + height_ * std::tan(begin_ + u * angle())) / speed_;
+    return std::clamp(t, stretch_.from, stretch_.to);
+}
+
+double Equiangular::pdf(double t) const {
+    const double slope = (t * speed_ - middle_) / height_;
+    return 1 / (angle() * height_ * (1 + slope * slope));
+}
+
+LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empty() && !flat::media_of(scene).empty()) {
+    if (!any_) return;
+    Vec3 half;
+    if (scene.lights.nodes.empty()) {
+        flat::Light room;
+        const Box box = box_of(flat::light_at(scene, 0, 0.5, room));
+        pivot_ = box.center();
+        half = box.diagonal() / 2;
+    } else {
+        const flat::LightNode& all = scene.lights.nodes[0];
+        pivot_ = {all.center[0], all.center[1], all.center[2]};
+        half = {all.half[0], all.half[1], all.half[2]};
+    }
+    radius_ = kRadius * length(half);
+}
+
+std::optional<Equiangular> LightsAsPivot::along(const Ray& ray, const MediaAlongRay& media) const {
+    if (!any_) return std::nullopt;
+    const std::optional<Stretch> stretch = media.scattering_stretch(kDeepest, kMostChange);
+    if (!stretch) return std::nullopt;
+    const Equiangular along(ray, *stretch, pivot_, radius_);
+    return along.angle() > kLeastAngle ? std::optional(along) : std::nullopt;
+}
+
+std::optional<DirectLight> prepare_scattered_light(const flat::Scene& scene, const Ray& ray, const MediaAlongRay& media,
+                                                   const Equiangular& along, const SegmentNumbers& random) {
+    const FreeFlight flight = media.scatter_at(along.sample(random.along), random.choose);
+    if (!flight.scatters) return std::nullopt;
+    Surface point;
+    point.position = ray.at(flight.t);
+    point.material = {static_cast<std::uint32_t>(flight.phase), nullptr, nullptr};
+    if (!can_be_evaluated(scene, point.material)) return std::nullopt;
+    const double odds = along.pdf(flight.t) / flight.density;
+    if (!(odds > 0)) return std::nullopt;
+    Receiver receiver;
+    set_receiver(scene, point, receiver);
+    std::optional<DirectLight> direct =
+        prepare_direct_light(scene, point, receiver, -normalize(ray.direction), ray.time, random.light, odds);
+    if (direct) direct->light = direct->light * (flight.weight / odds);
+    return direct;
+}
+
+}  // namespace limn::tracing
