@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "accel/slab.h"
 #include "compile/group_tree.h"
 #include "compile/reach.h"
 #include "core/bounds.h"
@@ -98,6 +99,7 @@ private:
             medium.bounds = instance_bounds(instance.world_from_object0, instance.world_from_object1, medium.bounds);
         }
         scene_.medium_instances.insert(scene_.medium_instances.end(), path_.begin(), path_.end());
+        scene_.media_extent = std::max(scene_.media_extent, accel::finite_extent(medium.bounds));
         scene_.media.push_back(medium);
     }
 

@@ -116,6 +116,7 @@ struct Scene {
 
     std::vector<MediumRecord> medium_shapes;
     std::vector<Medium> media;
+    double media_extent = 0;  // the largest finite coordinate of their bounds
     std::vector<std::uint32_t> medium_instances;
     LightTable lights;
 

@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "limn/core/color.h"
+#include "kernels/lobes.h"
 #include "limn/core/vec.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +32,13 @@ HWY_INLINE void StoreLane(W x, double* to) { hn::StoreU(x, Doubles(), to); }
 struct W3 {
     W x, y, z;
 };
+
+HWY_INLINE W3 LoadLane(const Lanes3& lanes, std::size_t i) {
+    return {LoadLane(lanes.x + i), LoadLane(lanes.y + i), LoadLane(lanes.z + i)};
+}
+HWY_INLINE void StoreLane(const W3& v, Lanes3& lanes, std::size_t i) {
+    StoreLane(v.x, lanes.x + i), StoreLane(v.y, lanes.y + i), StoreLane(v.z, lanes.z + i);
+}
 
 HWY_INLINE W3 operator+(const W3& a, const W3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 HWY_INLINE W3 operator-(const W3& a, const W3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

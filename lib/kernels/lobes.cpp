@@ -10,12 +10,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-HWY_INLINE W3 load(const Lanes3& lanes, std::size_t i) {
-    return {LoadLane(lanes.x + i), LoadLane(lanes.y + i), LoadLane(lanes.z + i)};
-}
-HWY_INLINE void store(const W3& v, Lanes3& lanes, std::size_t i) {
-    StoreLane(v.x, lanes.x + i), StoreLane(v.y, lanes.y + i), StoreLane(v.z, lanes.z + i);
-}
 HWY_INLINE std::uint32_t bits_at(Where where, std::size_t i) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(Doubles(), where, bytes);
@@ -53,13 +47,13 @@ HWY_INLINE W3 offset_along(const W3& position, const W3& error, const W3& normal
 template <Lobe lobe>
 HWY_INLINE void scatter_by(VertexLanes& v) {
     for (std::size_t i = 0; i < v.count; i += hn::Lanes(Doubles())) {
-        const W3 normal = load(v.normal, i), shading_normal = load(v.shading_normal, i);
+        const W3 normal = LoadLane(v.normal, i), shading_normal = LoadLane(v.shading_normal, i);
         const W a = LoadLane(v.numbers[0] + i), b = LoadLane(v.numbers[1] + i);
         const W3 in =
             lobe == Lobe::isotropic ? uniform_cone(a, b, all(2.0)) : to_world(shading_normal, cosine_hemisphere(a, b));
         StoreLane(value<lobe>(normal, shading_normal, in), v.pdf + i);
-        store(in, v.direction, i);
-        store(offset_along(load(v.position, i), load(v.position_error, i), normal, in), v.origin, i);
+        StoreLane(in, v.direction, i);
+        StoreLane(offset_along(LoadLane(v.position, i), LoadLane(v.position_error, i), normal, in), v.origin, i);
     }
 }
 
@@ -80,7 +74,8 @@ HWY_INLINE void sample_lights_by(VertexLanes& v) {
         const LightLanes light(chosen);
         const W probability = LoadLane(v.probability + i);
         const Where wanted = hn::And(hn::Gt(probability, zero), hn::FirstN(Doubles(), v.count - i));
-        const W3 position = load(v.position, i), normal = load(v.normal, i), error = load(v.position_error, i);
+        const W3 position = LoadLane(v.position, i), normal = LoadLane(v.normal, i),
+                 error = LoadLane(v.position_error, i);
         const W a = LoadLane(v.numbers[1] + i), b = LoadLane(v.numbers[2] + i);
 
         LightPoints s;
@@ -98,16 +93,16 @@ HWY_INLINE void sample_lights_by(VertexLanes& v) {
             }
         }
 
-        const W f = value<lobe>(normal, load(v.shading_normal, i), s.direction);
+        const W f = value<lobe>(normal, LoadLane(v.shading_normal, i), s.direction);
         const W pdf = s.pdf * probability;
         // The power heuristic, as in render/direct_light.h.
         const W ratio = f / pdf, weight = choose(hn::Lt(pdf, all(kInfinity)), one / (one + ratio * ratio), one);
-        store((f * load(v.albedo, i)) * load(v.emission, i) * W3{weight / pdf, weight / pdf, weight / pdf}, v.arriving,
-              i);
+        StoreLane((f * LoadLane(v.albedo, i)) * LoadLane(v.emission, i) * W3{weight / pdf, weight / pdf, weight / pdf},
+                  v.arriving, i);
         const W3 from = offset_along(position, error, normal, s.position - position);
         const W3 to = offset_along(s.position, light.position_error, s.normal, from - s.position);
-        store(from, v.shadow_origin, i);
-        store(to - from, v.shadow_direction, i);
+        StoreLane(from, v.shadow_origin, i);
+        StoreLane(to - from, v.shadow_direction, i);
         const Where lit = hn::And(hn::And(wanted, s.drawn), hn::Gt(f, zero));
         v.lit |= bits_at(hn::AndNot(s.open, lit), i);
         v.open |= bits_at(hn::And(s.open, wanted), i);

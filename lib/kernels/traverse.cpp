@@ -347,9 +347,16 @@ Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const
     return hit;
 }
 
+void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media) {
+    media.clear();
+    const accel::SlabRay slabs(ray, scene.media_extent);
+    double near = 0;
+    for (std::uint32_t i = 0; i < scene.media.size(); ++i)
+        if (slabs.meets(scene.media[i].bounds, ray.t_max, near)) media.push_back(i);
+}
+
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     out.clear();
-    if (!meets_bounds(medium, ray)) return;
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
         HWY_DYNAMIC_DISPATCH(search_every)

@@ -40,6 +40,9 @@ struct Crossing {
     bool inward;  // against the outward normal
 };
 
+// The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
+void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
+
 // Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 

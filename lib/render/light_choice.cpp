@@ -14,11 +14,7 @@ namespace {
 using flat::LightNode;
 using flat::LightTable;
 
-// The lights of a node are alike where it is farther than this many half diagonals, their normals have at least this
-// cosine with a common axis (or they are spheres) and its middle is before the receiver. Measured in the Cornell box:
-// with 1e4 triangles as its lamp 2 takes a third less time per error than going down to the leaves, with 200 balls a
-// twentieth; 1.5 to 5 are within 6 % of it.
-constexpr double kAlikeSquared = 2.0 * 2.0, kAlikeSpread = 0.9;
+using kernels::kAlikeSpread, kernels::kAlikeSquared;
 
 struct Importance {
     double value;
@@ -85,6 +81,22 @@ bool descend(const LightTable& lights, const Receiver& receiver, Walk& at, const
     }
 }
 
+// Of the lights where a way down ended, in proportion to their strength.
+LightChoice choose_alike(const LightTable& lights, const Walk& at, double pick) {
+    const auto first = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(at.begin);
+    const auto last = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(lights.nodes[at.node].end);
+    if (last - first == 1) return {at.begin, at.probability};
+    const double strength = *last - *first, wanted = *first + pick * strength;
+    // The guide narrows the search.
+    const auto place =
+        std::min(static_cast<std::size_t>(wanted * static_cast<double>(lights.size())), lights.size() - 1);
+    const auto from = std::max(first, lights.strength_before.begin() + lights.guide[place]) + 1;
+    const auto to = std::min(last, lights.strength_before.begin() + lights.guide[place + 1] + 1);
+    const auto after = from < to ? std::upper_bound(from, to, wanted) : from < last ? from : last;
+    return {static_cast<std::size_t>(after - 1 - lights.strength_before.begin()),
+            at.probability * ((*after - *(after - 1)) / strength)};
+}
+
 }  // namespace
 
 std::optional<LightChoice> choose_light(const LightTable& lights, const Receiver& receiver, double pick) {
@@ -93,22 +105,34 @@ std::optional<LightChoice> choose_light(const LightTable& lights, const Receiver
     const bool found = descend(lights, receiver, at, [&](const LightNode&, double share) {
         const bool left = pick < share;
         // What is left of the number is as good as a new one.
-        pick = std::min(left ? pick / share : (pick - share) / (1 - share), 1 - 0x1p-53);
+        pick = std::min(left ? pick / share : (pick - share) / (1 - share), kernels::kLargestPick);
         return left;
     });
     if (!found) return std::nullopt;
-    const auto first = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(at.begin);
-    const auto last = lights.strength_before.begin() + static_cast<std::ptrdiff_t>(lights.nodes[at.node].end);
-    if (last - first == 1) return LightChoice{at.begin, at.probability};
-    const double strength = *last - *first, wanted = *first + pick * strength;
-    // The guide narrows the search.
-    const auto place =
-        std::min(static_cast<std::size_t>(wanted * static_cast<double>(lights.size())), lights.size() - 1);
-    const auto from = std::max(first, lights.strength_before.begin() + lights.guide[place]) + 1;
-    const auto to = std::min(last, lights.strength_before.begin() + lights.guide[place + 1] + 1);
-    const auto after = from < to ? std::upper_bound(from, to, wanted) : from < last ? from : last;
-    return LightChoice{static_cast<std::size_t>(after - 1 - lights.strength_before.begin()),
-                       at.probability * ((*after - *(after - 1)) / strength)};
+    return choose_alike(lights, at, pick);
+}
+
+void choose_lights(const LightTable& lights, kernels::Lobe lobe, const kernels::VertexLanes& vertices,
+                   LightChoice* choices) {
+    if (lights.nodes.empty()) {
+        std::fill_n(choices, vertices.count, LightChoice{0, 1});
+        return;
+    }
+    if (lights.nodes.size() > kernels::kMostNodes) {
+        for (std::size_t i = 0; i < vertices.count; ++i) {
+            const Vec3 normal = lobe == kernels::Lobe::lambertian ? vertices.normal.get<Vec3>(i) : Vec3{};
+            const auto choice =
+                choose_light(lights, {vertices.position.get<Point3>(i), normal}, vertices.numbers[0][i]);
+            choices[i] = choice.value_or(LightChoice{0, 0});
+        }
+        return;
+    }
+    kernels::LightWays ways;
+    kernels::descend_lights(lights, lobe, vertices, ways);
+    for (std::size_t i = 0; i < vertices.count; ++i)
+        choices[i] = ways.probability[i] > 0
+                         ? choose_alike(lights, {ways.node[i], ways.begin[i], ways.probability[i]}, ways.pick[i])
+                         : LightChoice{0, 0};
 }
 
 double probability_of(const LightTable& lights, const Receiver& receiver, std::size_t rank) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "flat/scene.h"
+#include "kernels/light_choice.h"
 #include "limn/core/vec.h"
 
 namespace limn::tracing {
@@ -24,6 +25,10 @@ struct LightChoice {
 // where no light is on the receiver's side, or a part of the tree was chosen in which none turned out to be; each that
 // is has a positive probability. \pre there are lights
 std::optional<LightChoice> choose_light(const flat::LightTable& lights, const Receiver& receiver, double pick);
+
+// The same for each of `vertices`, by numbers[0]; a probability of 0 means none.
+void choose_lights(const flat::LightTable& lights, kernels::Lobe lobe, const kernels::VertexLanes& vertices,
+                   LightChoice* choices);
 
 // With which probability choose_light gives this rank.
 double probability_of(const flat::LightTable& lights, const Receiver& receiver, std::size_t rank);

@@ -37,9 +37,11 @@ void gather(std::vector<kernels::Crossing>& crossings, std::vector<MediaAlongRay
 void MediaAlongRay::trace(const flat::Scene& scene, const Ray& ray) {
     scene_ = &scene;
     t_max_ = ray.t_max;
-    speed_ = length(ray.direction);
     steps_.clear();
-    for (std::uint32_t i = 0; i < scene.media.size(); ++i) add_intervals(scene, i, ray);
+    kernels::media_met(scene, ray, met_);
+    for (const std::uint32_t medium : met_) add_intervals(scene, medium, ray);
+    if (steps_.empty()) return;
+    speed_ = length(ray.direction);
     std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.t < b.t; });
 }
 

@@ -75,6 +75,7 @@ private:
 
     const flat::Scene* scene_ = nullptr;
     double t_max_ = 0, speed_ = 1;  // t is in units of the ray's direction, `speed_` long
+    std::vector<std::uint32_t> met_;
     std::vector<kernels::Crossing> crossings_;
     std::vector<Place> places_, places_aside_;
     std::vector<Step> steps_;  // sorted by t; every medium entered is left again at t_max_ at the latest

@@ -71,15 +71,14 @@ void PathTracer::sample_lights(Lobe lobe) {
     kernels::VertexLanes& lanes = group.lanes;
     // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
     draw<3>(group, Use::light);
+    std::array<LightChoice, kernels::kShaded> choices;
+    choose_lights(scene_.lights, lobe, lanes, choices.data());
     std::uint32_t textured = 0;
     for (std::size_t i = 0; i < lanes.count; ++i) {
-        lanes.probability[i] = 0;
-        if (!group.ask_lights[i]) continue;
-        const auto choice = choose_light(scene_.lights, heads_[group.paths[i]].previous, lanes.numbers[0][i]);
-        if (!choice) continue;
-        const flat::Light& light = flat::light_at(scene_, choice->rank, group.times[i], group.lights[i]);
+        lanes.probability[i] = group.ask_lights[i] ? choices[i].probability : 0;
+        if (lanes.probability[i] == 0) continue;
+        const flat::Light& light = flat::light_at(scene_, choices[i].rank, group.times[i], group.lights[i]);
         lanes.light[i] = &light;
-        lanes.probability[i] = choice->probability;
         lanes.emission.set(i, radiance_of(scene_, light));
         if (light.textured) textured |= std::uint32_t{1} << i;
     }

@@ -8,6 +8,7 @@
 #include "catch.h"
 #include "core/spawn.h"
 #include "kernels/targets.h"
+#include "limn/limn.h"
 #include "render/direct_light.h"
 #include "render/light_sampling.h"
 #include "render/sampler.h"
@@ -260,5 +261,41 @@ TEST_CASE("Lobes: a vertex gets the same bits alone, in any company and on any i
         CHECK(differing == 0);
         if (first.empty()) first = together;
         CHECK(together == first);
+    });
+}
+
+TEST_CASE("Lobes: many vertices at once choose the lights that each chooses alone", "[render][lights][lobes]") {
+    const Lobe lobe = GENERATE(Lobe::lambertian, Lobe::isotropic);
+    const int count = GENERATE(1, 2, 3, 40);
+    Random random(8);
+    Scene scene;
+    for (int i = 0; i < count; ++i) {
+        const auto lamp = std::make_shared<DiffuseLight>(Color{1, 1, 1});
+        const Point3 at = Point3{} + random.in_cube(2);
+        if (random.chance(0.3)) {
+            scene.add(std::make_shared<Sphere>(at, 0.1, lamp));
+        } else {
+            scene.add(std::make_shared<Quad>(at, 0.2 * random.unit(), 0.2 * random.unit(), lamp));
+        }
+    }
+    const CompiledScene compiled = compile(scene);
+    const flat::LightTable& lights = compiled.flat().lights;
+    on_every_target([&] {
+        std::size_t wrong = 0, none = 0;
+        for (int round = 0; round < 300; ++round) {
+            Scenery s(random, lobe);
+            s.lanes.count = 1 + random.index(kShaded);
+            std::array<tracing::LightChoice, kShaded> together;
+            tracing::choose_lights(lights, lobe, s.lanes, together.data());
+            for (std::size_t i = 0; i < s.lanes.count; ++i) {
+                const tracing::Receiver receiver{s.lanes.position.get<Point3>(i), s.lanes.normal.get<Vec3>(i)};
+                const auto alone = tracing::choose_light(lights, receiver, s.lanes.numbers[0][i]);
+                none += !alone;
+                wrong += alone ? alone->rank != together[i].rank || alone->probability != together[i].probability
+                               : together[i].probability != 0;
+            }
+        }
+        CHECK(wrong == 0);
+        CHECK((lobe == Lobe::isotropic || count != 2 || none > 0));
     });
 }
