@@ -18,7 +18,10 @@ inline Point3 interpolate(const Point3& at0, const Point3& at1, double time) {
 
 // Unit, outward for a positive radius. Taken from the hit point relative to the centre, where it does not cancel.
 inline Vec3 sphere_normal(const Point3& center, const Ray& ray, double t) {
-    const Vec3 outward = normalize((ray.origin - center) + t * ray.direction);
+    const Vec3 way = (ray.origin - center) + t * ray.direction;
+    const double squared = dot(way, way);
+    if (squared > 1e-200 && squared < 1e200) return way / std::sqrt(squared);
+    const Vec3 outward = normalize(way);
     // From so far away that rounding leaves nothing of the point, or beyond the squares of double: it faces the ray.
     return is_finite(outward) ? outward : -normalize(ray.direction);
 }

@@ -44,22 +44,75 @@ HWY_INLINE W3 offset_along(const W3& position, const W3& error, const W3& normal
     return {moved(position.x, by.x), moved(position.y, by.y), moved(position.z, by.z)};
 }
 
+struct Scattered {
+    W3 direction;
+    W pdf;
+    Where any;
+};
+
+template <Lobe lobe>
+HWY_INLINE Scattered scatter_around(const VertexLanes& v, std::size_t i, const W3& normal, W a, W b) {
+    const W3 shading_normal = LoadLane(v.shading_normal, i);
+    const W3 in =
+        lobe == Lobe::isotropic ? uniform_cone(a, b, all(2.0)) : to_world(shading_normal, cosine_hemisphere(a, b));
+    const W pdf = value<lobe>(normal, shading_normal, in);
+    return {in, pdf, hn::Gt(pdf, all(0.0))};
+}
+
+HWY_INLINE W clamped_cosine(W x) {
+    const W zero = all(0.0), one = all(1.0);
+    return choose(hn::Lt(x, zero), zero, choose(hn::Gt(x, one), one, x));
+}
+
+// sample_dielectric (lib/bsdf), with the same names.
+HWY_INLINE Scattered reflect_or_refract(const VertexLanes& v, std::size_t i, const W3& normal, W random) {
+    const W zero = all(0.0), one = all(1.0), two = all(2.0);
+    const W3 n = LoadLane(v.shading_normal, i), out = LoadLane(v.out, i);
+    const W eta = LoadLane(v.eta + i);
+    const Where no_interface = hn::Eq(eta, one), exact_fresnel = hn::Gt(LoadLane(v.exact_fresnel + i), zero);
+    const W cos_i = clamped_cosine(dot(out, n));
+    const W squared_t = ((eta - one) * (eta + one) + cos_i * cos_i) / (eta * eta);
+    const W refracted = choose(hn::Gt(squared_t, zero), clamped_cosine(hn::Sqrt(squared_t)), zero);
+    const W cos_t = choose(no_interface, cos_i, refracted);
+    const W root = (one - eta) / (one + eta), at_normal = root * root, m = one - cos_i;
+    W reflectance = at_normal + (one - at_normal) * (m * m * m * m * m);
+    if (any(exact_fresnel)) {
+        const W perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+        const W parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+        reflectance = choose(exact_fresnel, (perpendicular * perpendicular + parallel * parallel) / two, reflectance);
+    }
+    reflectance = choose(hn::Eq(cos_t, zero), one, reflectance);
+    reflectance = choose(hn::And(exact_fresnel, no_interface), zero, reflectance);
+    const Where reflects = hn::Lt(random, reflectance);
+    const W3 mirrored = (two * dot(out, n)) * n - out;
+    const W3 along_surface = cos_i * n - out;
+    const W3 in = normalize(choose(reflects, mirrored, along_surface / eta - cos_t * n));
+    const Where below = hn::Lt(dot(in, normal), zero);
+    return {in, zero, hn::Xor(reflects, below)};
+}
+
 template <Lobe lobe>
 HWY_INLINE void scatter_by(VertexLanes& v) {
+    v.scattered = 0;
     for (std::size_t i = 0; i < v.count; i += hn::Lanes(Doubles())) {
-        const W3 normal = LoadLane(v.normal, i), shading_normal = LoadLane(v.shading_normal, i);
+        const W3 normal = LoadLane(v.normal, i);
         const W a = LoadLane(v.numbers[0] + i), b = LoadLane(v.numbers[1] + i);
-        const W3 in =
-            lobe == Lobe::isotropic ? uniform_cone(a, b, all(2.0)) : to_world(shading_normal, cosine_hemisphere(a, b));
-        StoreLane(value<lobe>(normal, shading_normal, in), v.pdf + i);
-        StoreLane(in, v.direction, i);
-        StoreLane(offset_along(LoadLane(v.position, i), LoadLane(v.position_error, i), normal, in), v.origin, i);
+        const Scattered s =
+            lobe == Lobe::dielectric ? reflect_or_refract(v, i, normal, a) : scatter_around<lobe>(v, i, normal, a, b);
+        v.scattered |= bits_at(s.any, i);
+        StoreLane(s.pdf, v.pdf + i);
+        StoreLane(s.direction, v.direction, i);
+        StoreLane(offset_along(LoadLane(v.position, i), LoadLane(v.position_error, i), normal, s.direction), v.origin,
+                  i);
     }
 }
 
 void scatter(Lobe lobe, VertexLanes& vertices) {
-    if (lobe == Lobe::lambertian) return scatter_by<Lobe::lambertian>(vertices);
-    scatter_by<Lobe::isotropic>(vertices);
+    switch (lobe) {
+        case Lobe::lambertian: return scatter_by<Lobe::lambertian>(vertices);
+        case Lobe::isotropic: return scatter_by<Lobe::isotropic>(vertices);
+        case Lobe::dielectric: return scatter_by<Lobe::dielectric>(vertices);
+    }
 }
 
 template <Lobe lobe>

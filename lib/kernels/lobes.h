@@ -29,7 +29,8 @@ struct Lanes3 {
     }
 };
 
-enum class Lobe { lambertian, isotropic };
+enum class Lobe { lambertian, isotropic, dielectric };
+inline constexpr Lobe kLobes[] = {Lobe::lambertian, Lobe::isotropic, Lobe::dielectric};
 
 struct VertexLanes {
     std::size_t count = 0;
@@ -37,12 +38,18 @@ struct VertexLanes {
     Lanes3 position, position_error, normal, shading_normal;
     Lanes3 albedo;
     Lane numbers[3] = {};
+    // Of glass: back along the path, unit; the index of refraction of the far side over that of the near one; and 1
+    // where Fresnel's equations are meant, 0 for Schlick's approximation.
+    Lanes3 out;
+    Lane eta = {}, exact_fresnel = {};
     // For sample_lights: which one, its radiance, and with which probability it was chosen; 0: none.
     const flat::Light* light[kShaded] = {};
     Lanes3 emission;
     Lane probability = {};
 
-    // Answers of scatter: where the next segment goes, and its density per solid angle; 0 where it is absorbed.
+    // Answers of scatter: where the next segment goes, by bit whether there is one, and its density per solid angle; 0
+    // where it is specular.
+    std::uint32_t scattered = 0;
     Lanes3 origin, direction;
     Lane pdf = {};
     // Answers of sample_lights, by bit: light arrives if nothing is on the way from an origin along its direction; or
@@ -52,10 +59,10 @@ struct VertexLanes {
     Lanes3 shadow_origin, shadow_direction;
 };
 
-// A direction in which each vertex scatters, by numbers[0] and [1].
+// A direction in which each vertex scatters, by numbers[0] and [1]. Its weight is the albedo, of glass 1.
 void scatter(Lobe lobe, VertexLanes& vertices);
 
-// A point on each vertex's light, by numbers[1] and [2].
+// A point on each vertex's light, by numbers[1] and [2]. Not for glass, which no light but the specular one reaches.
 void sample_lights(Lobe lobe, VertexLanes& vertices);
 
 }  // namespace limn::kernels

@@ -51,7 +51,8 @@ void PathTracer::trace(std::span<Path> paths) {
         arriving_.clear();
         find_hits();
         for (std::size_t i = 0; i < hits_.size(); ++i) follow(now_.paths[i], now_.rays[i], hits_[i]);
-        for (const kernels::Lobe lobe : {kernels::Lobe::lambertian, kernels::Lobe::isotropic}) shade_group(lobe);
+        for (const kernels::Lobe lobe : kernels::kLobes) shade_group(lobe);
+        shade_others();
         add_direct_light();
     }
 }
@@ -88,7 +89,8 @@ void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& 
         const double light_odds = light_on_the_way(path, ray, flown);
         head.throughput = flown.weight * head.throughput;
         if (flown.scatters) {
-            Surface inside;
+            Surface& inside = next_vertex().surface;
+            inside = {};
             inside.position = ray.at(flown.t);
             inside.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
             return shade(path, ray, inside, light_odds);
@@ -100,14 +102,15 @@ void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& 
         paths_[path].radiance += heads_[path].throughput * background.radiance(ray.direction);
         return;
     }
-    surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met_);
-    if (met_.index_matched) {
-        const Ray beyond = leave(met_.surface, ray.direction, ray.time);
+    SurfaceHit& met = next_vertex();
+    surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met);
+    if (met.index_matched) {
+        const Ray beyond = leave(met.surface, ray.direction, ray.time);
         if (count(beyond)) next_.add(path, beyond);
         return;
     }
-    if (can_emit(scene_, met_.surface.material)) add_emission(path, met_.surface, hit.primitive, ray.time);
-    shade(path, ray, met_.surface);
+    if (can_emit(scene_, met.surface.material)) add_emission(path, met.surface, hit.primitive, ray.time);
+    shade(path, ray, met.surface);
 }
 
 // Shadow rays for light that media scatter once on their way to the segment's begin. Where that is worth while the
@@ -137,8 +140,8 @@ void PathTracer::add_emission(std::uint32_t path, const Surface& vertex, std::ui
     paths_[path].radiance += head.throughput * emission * weight;
 }
 
-// A shadow ray for light that comes to the vertex straight from an emitter, and the next segment: together with other
-// vertices where the material has a lobe for it. `light_odds` over 0: lights were asked along the segment.
+// Leaves the vertex to others of its kind: what comes now is done for many at once. `light_odds` over 0: lights were
+// asked along the segment.
 void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds) {
     Head& head = heads_[path];
     if (head.segment == max_depth_ || is_black(head.throughput)) return;
@@ -146,35 +149,10 @@ void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex
     if (sample_lights_) set_receiver(scene_, vertex, head.previous);
     head.light_odds = light_odds > 0 ? light_odds : 1;
     if (const auto lobe = lobe_of(scene_, vertex.material)) {
-        gather(path, ray.time, *lobe, vertex, ask_lights);
+        gather(path, ray, *lobe, vertex, ask_lights);
     } else {
-        shade_alone(path, ray, vertex, ask_lights);
+        gather_other(path, ray, ask_lights);
     }
-}
-
-void PathTracer::shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex, bool ask_lights) {
-    Head& head = heads_[path];
-    Sampler& sampler = paths_[path].sampler;
-    const Vec3 out = -normalize(ray.direction);
-    if (ask_lights && can_be_evaluated(scene_, vertex.material)) {
-        // The choice of a light shares its group with the point on it, so that each light gets a part of an even
-        // sequence.
-        sampler.seek(head.segment, Use::light);
-        const Random3 random = sampler.next_3d();
-        if (const auto direct =
-                prepare_direct_light(scene_, vertex, head.previous, out, ray.time, {random.x, {random.y, random.z}}))
-            add_shadow(path, direct->light, direct->shadow);
-    }
-    sampler.seek(head.segment, Use::scattering);
-    const std::optional<ScatterSample> scattered = sample_material(scene_, vertex, out, sampler.next_3d());
-    if (!scattered || is_black(scattered->weight)) return;
-    head.throughput *= scattered->weight;
-    const double survives = survival(head);
-    if (survives < 1) {
-        sampler.seek(head.segment, Use::roulette);
-        if (!(sampler.next() < survives)) return;
-    }
-    go_on(path, survives, scattered->pdf, leave(vertex, scattered->direction, ray.time));
 }
 
 // With which probability Russian roulette lets the path go on.

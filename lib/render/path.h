@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -79,6 +80,17 @@ private:
         std::array<bool, kernels::kShaded> ask_lights;
         std::array<flat::Light, kernels::kShaded> lights;  // those that are not kept anywhere
     };
+    // Vertices on all other materials.
+    struct Others {
+        std::size_t count = 0;
+        std::array<SurfaceHit, kernels::kShaded> hits;
+        std::array<Ray, kernels::kShaded> rays;
+        std::array<std::uint32_t, kernels::kShaded> paths;
+        std::array<bool, kernels::kShaded> ask_lights;
+        kernels::SobolLanes samplers;
+        kernels::Lane light_numbers[3], numbers[3];
+    };
+
     bool count(const Ray& ray);
     void begin(std::uint32_t path, const Ray& ray);
     void find_hits();
@@ -86,17 +98,20 @@ private:
     double light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown);
     void add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time);
     void shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds = 0);
-    void shade_alone(std::uint32_t path, const Ray& ray, const Surface& vertex, bool ask_lights);
     double survival(const Head& head) const;
     void go_on(std::uint32_t path, double survival, double pdf, const Ray& ray);
     void add_shadow(std::uint32_t path, const Color& light, const Ray& ray);
     void add_direct_light();
     // In path_groups.cpp.
-    void gather(std::uint32_t path, double time, kernels::Lobe lobe, const Surface& vertex, bool ask_lights);
+    SurfaceHit& next_vertex() { return others_.hits[others_.count]; }  // where the next one is filled in
+    void gather_other(std::uint32_t path, const Ray& ray, bool ask_lights);
+    void gather(std::uint32_t path, const Ray& ray, kernels::Lobe lobe, const Surface& vertex, bool ask_lights);
     void shade_group(kernels::Lobe lobe);
     void sample_lights(kernels::Lobe lobe);
-    template <std::size_t n>
-    void draw(Group& group, Use use);
+    template <std::size_t n, class SomeGroup>
+    void draw(SomeGroup& group, std::size_t count, Use use, kernels::Lane* numbers);
+    void shade_others();
+    void shade_other(std::size_t i);
     Group& group_of(kernels::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }
 
     const flat::Scene& scene_;
@@ -110,8 +125,8 @@ private:
     std::vector<Head> heads_;  // of each
     Rays now_, next_;          // of those that go on
     std::vector<kernels::Hit> hits_;
-    SurfaceHit met_;
-    std::array<Group, 2> groups_;  // by lobe
+    std::array<Group, std::size(kernels::kLobes)> groups_;
+    Others others_;
     Rays shadows_;
     std::vector<Color> arriving_;  // light, if nothing is in the way of the shadow ray
     std::vector<std::uint8_t> occluded_;

@@ -37,8 +37,8 @@ inline std::optional<kernels::Lobe> lobe_of(const flat::Scene& scene, const Mate
     switch (kind_of(scene, material)) {
         case MaterialKind::lambertian: return kernels::Lobe::lambertian;
         case MaterialKind::isotropic: return kernels::Lobe::isotropic;
+        case MaterialKind::dielectric: return kernels::Lobe::dielectric;
         case MaterialKind::metal:
-        case MaterialKind::dielectric:
         case MaterialKind::diffuse_light:
         case MaterialKind::foreign: break;
     }

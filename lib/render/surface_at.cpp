@@ -17,7 +17,9 @@ void on_sphere(const Point3& center, double radius, const Ray& ray, double t, bo
     const Vec3 outward = sphere_normal(center, ray, t);
     s.position = center + std::abs(radius) * outward;
     s.position_error = sphere_error(center, radius);
-    s.normal = s.shading_normal = Normal3((radius < 0 ? -1.0 : 1.0) * outward);
+    const Vec3 n = (radius < 0 ? -1.0 : 1.0) * outward;
+    s.normal = {n.x, n.y, n.z};
+    s.shading_normal = {n.x, n.y, n.z};
     if (with_uv) s.uv = sphere_uv(Vec3(s.normal));
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "bsdf/dielectric.h"
 #include "bsdf/isotropic.h"
 #include "bsdf/lambertian.h"
 #include "catch.h"
@@ -72,6 +73,9 @@ struct Scenery {
             lanes.shading_normal.set(i, random.chance(0.5) ? leaning : normal);
             lanes.albedo.set(i, Color{random.uniform(), random.uniform(), random.uniform()});
             lanes.emission.set(i, Color{5, random.uniform(), 1e-3});
+            lanes.out.set(i, random.unit());
+            lanes.eta[i] = random.chance(0.05) ? 1 : random.uniform(0.4, 2.5);
+            lanes.exact_fresnel[i] = random.chance(0.5) ? 1 : 0;
             lights[i] = i > 0 && random.chance(0.3) ? lights[i - 1] : random_light(random);
             lanes.light[i] = &lights[i];
             lanes.probability[i] = random.chance(0.1) ? 0 : random.uniform(0.01, 1);
@@ -86,8 +90,22 @@ struct Scenery {
     }
     ScatterValue value(Lobe lobe, std::size_t i, const Vec3& in) const {
         const Color albedo = lanes.albedo.get<Color>(i);
-        return lobe == Lobe::lambertian ? bsdf::value_lambertian(albedo, surface(i), {}, in)
-                                        : bsdf::value_isotropic(albedo);
+        return lobe == Lobe::lambertian  ? bsdf::value_lambertian(albedo, surface(i), {}, in)
+               : lobe == Lobe::isotropic ? bsdf::value_isotropic(albedo)
+                                         : ScatterValue{};
+    }
+    std::optional<ScatterSample> sample(Lobe lobe, std::size_t i) const {
+        const Random3 r{lanes.numbers[0][i], lanes.numbers[1][i], 0};
+        const Color albedo = lanes.albedo.get<Color>(i);
+        switch (lobe) {
+            case Lobe::lambertian: return bsdf::sample_lambertian(albedo, surface(i), {}, r);
+            case Lobe::isotropic: return bsdf::sample_isotropic(albedo, r);
+            case Lobe::dielectric: break;
+        }
+        Surface at = surface(i);
+        at.front_face = true;
+        const Fresnel fresnel = lanes.exact_fresnel[i] > 0 ? Fresnel::exact : Fresnel::schlick;
+        return bsdf::sample_dielectric(lanes.eta[i], fresnel, at, lanes.out.get<Vec3>(i), r);
     }
 };
 
@@ -99,7 +117,7 @@ std::array<double, 20> answers(const VertexLanes& v, std::size_t i) {
     const double lit = bit(v.lit);
     std::array<double, 20> all{v.pdf[i],         v.origin.x[i],    v.origin.y[i], v.origin.z[i], v.direction.x[i],
                                v.direction.y[i], v.direction.z[i], lit,           bit(v.open)};
-    std::size_t n = 9;
+    std::size_t n = 10;
     if (lit == 0) return all;
     for (const kernels::Lanes3* three : {&v.arriving, &v.shadow_origin, &v.shadow_direction})
         for (const double x : {three->x[i], three->y[i], three->z[i]}) all[n++] = x;
@@ -108,7 +126,7 @@ std::array<double, 20> answers(const VertexLanes& v, std::size_t i) {
 
 void shade(Lobe lobe, VertexLanes& lanes) {
     kernels::scatter(lobe, lanes);
-    kernels::sample_lights(lobe, lanes);
+    if (lobe != Lobe::dielectric) kernels::sample_lights(lobe, lanes);
 }
 
 }  // namespace
@@ -151,7 +169,7 @@ TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][s
 }
 
 TEST_CASE("Lobes: vertices scatter as their materials do", "[render][shading][lobes]") {
-    const Lobe lobe = GENERATE(Lobe::lambertian, Lobe::isotropic);
+    const Lobe lobe = GENERATE(Lobe::lambertian, Lobe::isotropic, Lobe::dielectric);
     on_every_target([lobe] {
         Random random(5);
         std::size_t directions = 0, densities = 0, origins = 0, absorbed = 0;
@@ -159,16 +177,17 @@ TEST_CASE("Lobes: vertices scatter as their materials do", "[render][shading][lo
             Scenery s(random, lobe);
             kernels::scatter(lobe, s.lanes);
             for (std::size_t i = 0; i < kShaded; ++i) {
-                const Random3 r{s.lanes.numbers[0][i], s.lanes.numbers[1][i], 0};
-                const Color albedo = s.lanes.albedo.get<Color>(i);
-                const Surface at = s.surface(i);
-                const auto alone = lobe == Lobe::lambertian ? bsdf::sample_lambertian(albedo, at, {}, r)
-                                                            : bsdf::sample_isotropic(albedo, r);
+                const auto alone = s.sample(lobe, i);
                 const Vec3 in = s.lanes.direction.get<Vec3>(i);
                 const double pdf = s.value(lobe, i, in).pdf;
+                const bool scattered = s.lanes.scattered >> i & 1;
                 densities += !are_close(pdf, s.lanes.pdf[i], 1e-15);
-                absorbed += pdf == 0;
-                origins += leave(at, in, 0).origin != s.lanes.origin.get<Point3>(i);
+                absorbed += !scattered;
+                origins += leave(s.surface(i), in, 0).origin != s.lanes.origin.get<Point3>(i);
+                if (lobe == Lobe::dielectric) {
+                    directions += scattered != alone.has_value() || (alone && alone->direction != in);
+                    continue;
+                }
                 // The height over the disc loses digits at its rim, and there rounding decides what is above.
                 const double tolerance = 2e-15 / std::max(kPi * pdf, 1e-8);
                 directions += alone ? !(max_abs(alone->direction - in) <= tolerance) : pdf > 1e-8;
@@ -236,7 +255,7 @@ TEST_CASE("Lobes: vertices draw light as one by one, or leave it to that", "[ren
 
 TEST_CASE("Lobes: a vertex gets the same bits alone, in any company and on any instruction set",
           "[render][determinism][lobes]") {
-    const Lobe lobe = GENERATE(Lobe::lambertian, Lobe::isotropic);
+    const Lobe lobe = GENERATE(Lobe::lambertian, Lobe::isotropic, Lobe::dielectric);
     std::vector<std::array<double, 20>> first;
     on_every_target([&] {
         Random random(7);
@@ -250,8 +269,9 @@ TEST_CASE("Lobes: a vertex gets the same bits alone, in any company and on any i
             // In the first lane, on their own.
             alone.count = 1;
             const std::size_t at = random.index(kShaded);
-            for (kernels::Lanes3* three : {&alone.position, &alone.position_error, &alone.normal, &alone.shading_normal,
-                                           &alone.albedo, &alone.emission})
+            alone.eta[0] = alone.eta[at], alone.exact_fresnel[0] = alone.exact_fresnel[at];
+            for (kernels::Lanes3* three : {&alone.out, &alone.position, &alone.position_error, &alone.normal,
+                                           &alone.shading_normal, &alone.albedo, &alone.emission})
                 three->set(0, three->get<Vec3>(at));
             for (auto& number : alone.numbers) number[0] = number[at];
             alone.light[0] = alone.light[at], alone.probability[0] = alone.probability[at];

@@ -140,12 +140,14 @@ inline Vec3 scale_to_one(const Vec3& a) {
     return {std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
 }
 
+/// The unit vector along (x, y, z), whose square double does not hold: what `normalize` is seldom asked for.
+Vec3 normalize_extreme(double x, double y, double z);
+
 /// `a` scaled to unit length, right for any finite non-zero length; NaN for the zero vector.
 inline Vec3 normalize(const Vec3& a) {
     const double squared = dot(a, a);
     if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
-    const Vec3 scaled = scale_to_one(a);
-    return scaled / std::sqrt(dot(scaled, scaled));
+    return normalize_extreme(a.x, a.y, a.z);
 }
 
 /// The unit vector along cross(a, b), right for edges of any finite size; NaN where they are parallel.
