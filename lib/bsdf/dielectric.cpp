@@ -1,6 +1,5 @@
 #include "bsdf/dielectric.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bsdf/mirror.h"

@@ -213,8 +213,7 @@ private:
 
     LightBounds bounds_of_sphere(const flat::Light& light) const {
         LightBounds bounds;
-        for (const Point3& c : {light.origin, light.origin + light.edge_u})
-            for (const double r : {-light.radius, light.radius}) bounds.box.extend(c + along_every_axis(r));
+        bounds.box = flat::bounds_of(light);
         bounds.axis = {0, 0, 1};
         bounds.cos_spread = flat::kNoNormals;
         bounds.strength = brightness(light.material) * kPi * light.radius * light.radius;
@@ -223,7 +222,7 @@ private:
 
     LightBounds bounds_of_planar(const flat::Light& light) const {
         LightBounds bounds;
-        extend(bounds.box, light);
+        bounds.box = flat::bounds_of(light);
         const Vec3 normal = cross(light.edge_u, light.edge_v);
         bounds.axis = normalize(normal);
         bounds.cos_spread = is_finite(bounds.axis) ? 1 : 0;
@@ -250,13 +249,6 @@ private:
             bounds.strength += end.strength / (1u << seen.moving);
         }
         return bounds;
-    }
-
-    static void extend(Box& box, const flat::Light& light) {
-        box.extend(light.origin);
-        box.extend(light.origin + light.edge_u);
-        box.extend(light.origin + light.edge_v);
-        if (light.kind != flat::LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
     }
 
     flat::Scene& scene_;

@@ -46,6 +46,20 @@ bool is_plain(const Scene& scene, MaterialId material) {
     return scene.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
 }
 
+Box bounds_of(const Light& light) {
+    Box box;
+    if (light.kind == LightKind::sphere) {
+        for (const Point3& c : {light.origin, light.origin + light.edge_u})
+            for (const double r : {-light.radius, light.radius}) box.extend(c + along_every_axis(r));
+        return box;
+    }
+    box.extend(light.origin);
+    box.extend(light.origin + light.edge_u);
+    box.extend(light.origin + light.edge_v);
+    if (light.kind != LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
+    return box;
+}
+
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,
                    const Transform& inverse_of_m) {
     Light light;

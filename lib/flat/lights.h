@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "limn/core/box.h"
 #include "limn/core/transform.h"
 #include "limn/core/vec.h"
 #include "limn/records.h"
@@ -89,6 +90,9 @@ struct Scene;
 
 // Whether a material's texture is the same everywhere.
 bool is_plain(const Scene& scene, MaterialId material);
+
+// Of all that it covers while the shutter is open.
+Box bounds_of(const Light& light);
 
 // One of the table, or made in `room`. \pre rank < scene.lights.size()
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);

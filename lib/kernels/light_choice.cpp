@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "kernels/light_choice.cpp"
 #include <hwy/foreach_target.h>
 
-#include <limits>
+#include <cstddef>
 
 #include "kernels/doubles-inl.h"
 

@@ -7,8 +7,6 @@
 #define LIMN_KERNELS_LIGHTS_INL_H
 #endif
 
-#include <limits>
-
 #include "flat/lights.h"
 #include "kernels/warps-inl.h"
 

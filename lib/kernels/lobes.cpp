@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "kernels/lobes.cpp"
 #include <hwy/foreach_target.h>
 
+#include <limits>
+
 #include "core/spawn.h"
 #include "kernels/lights-inl.h"
 

@@ -19,21 +19,6 @@ constexpr double kRadius = 0.5;
 // 0.5, 0.6; 27 balls all over the room 0.9, figure 16 1.0, without the angle 1.05.
 constexpr double kLeastAngle = 0.7, kDeepest = 3, kMostChange = 3;
 
-Box box_of(const flat::Light& light) {
-    Box box;
-    if (light.kind == flat::LightKind::sphere) {
-        const Vec3 r = light.radius * Vec3{1, 1, 1};
-        for (const Vec3& moved : {Vec3{}, light.edge_u}) {
-            box.extend(light.origin + moved - r);
-            box.extend(light.origin + moved + r);
-        }
-        return box;
-    }
-    for (const Vec3& edge : {Vec3{}, light.edge_u, light.edge_v}) box.extend(light.origin + edge);
-    if (light.kind != flat::LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
-    return box;
-}
-
 }  // namespace
 
 Equiangular::Equiangular(const Ray& ray, const Stretch& stretch, const Point3& pivot, double least_height)
@@ -60,7 +45,7 @@ LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empt
     Vec3 half;
     if (scene.lights.nodes.empty()) {
         flat::Light room;
-        const Box box = box_of(flat::light_at(scene, 0, 0.5, room));
+        const Box box = flat::bounds_of(flat::light_at(scene, 0, 0.5, room));
         pivot_ = box.center();
         half = box.diagonal() / 2;
     } else {
