@@ -6,7 +6,6 @@
 
 #include "compile/groups.h"
 #include "compile/lights.h"
-#include "compile/list.h"
 #include "core/plane_normal.h"
 #include "limn/core/error.h"
 
@@ -221,7 +220,6 @@ flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     reserve_places(out);
     // A boundary that is met twice by the same triangle would be left when it is entered.
     build_trees(out, cut_triangles && out.medium_shapes.empty());
-    list_primitives(out);
     judge_memory(out);
     name_objects(out);
     place_media(out);

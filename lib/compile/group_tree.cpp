@@ -11,6 +11,7 @@
 #include "accel/clip_triangle.h"
 #include "accel/float_box.h"
 #include "accel/slab.h"
+#include "compile/list.h"
 #include "compile/pack.h"
 #include "core/bounds.h"
 #include "core/mesh_triangle.h"
@@ -80,10 +81,8 @@ void GroupTree::add(const PrimitiveRange& range, std::uint32_t row) {
         for (std::uint32_t i = 0; i < stored; ++i) {
             others_.push_back(bounds_of(range, i));
             bounds_.extend(others_.back());
-            packed_error_ = std::max(packed_error_, packed_error_of(range, i));
             extent_ = std::max(extent_, accel::finite_extent(others_.back()));
         }
-        if (stored > 0) scene_.kinds |= flat::bit(range.kind);
     }
 }
 
@@ -113,6 +112,7 @@ void GroupTree::measure_mesh(const Part& part) {
         });
     extent_ = std::max(extent_, accel::finite_extent(found.bounds));
     bounds_.extend(found.bounds);
+    mesh_bounds_.extend(found.bounds);
     scene_.degenerate += found.degenerate;
     scene_.stored_primitives += part.count - found.degenerate;
     if (part.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
@@ -197,12 +197,49 @@ void GroupTree::scale_boxes(double scale) {
     }
 }
 
+// Leaves out of the tree what is listed beside it.
+void GroupTree::list() {
+    if (list_all(scene_)) return;
+    std::vector<Candidate> candidates;
+    std::size_t next = 0;
+    for (const Part& part : parts_)
+        for (std::size_t i = 0; part.range.kind != PrimitiveKind::mesh && i < part.count; ++i)
+            candidates.push_back({references_[part.first + i], others_[next++]});
+    const std::vector<bool> is_listed = list_large(scene_, candidates, mesh_bounds_);
+    Box rest = mesh_bounds_;
+    for (std::size_t i = 0; i < is_listed.size(); ++i) {
+        if (is_listed[i])
+            others_[i] = Box();
+        else
+            rest.extend(others_[i]);
+    }
+    const accel::FloatBox box = accel::to_float_box(rest);
+    std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
+}
+
+void GroupTree::note_what_is_left() {
+    std::size_t next = 0;
+    for (const Part& part : parts_)
+        for (std::size_t i = 0; part.range.kind != PrimitiveKind::mesh && i < part.count; ++i) {
+            if (others_[next++].is_empty()) continue;
+            packed_error_ = std::max(packed_error_, packed_error_of(part.range, static_cast<std::uint32_t>(i)));
+            scene_.kinds |= flat::bit(part.range.kind);
+        }
+}
+
 void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     group.bounds = bounds_;
     group.extent = extent_;
-    group.packed_error = accel::round_up(packed_error_);
     // Where float serves, boxes stay as they are.
     group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
+    if (&group == &scene_.groups.front()) list();
+    note_what_is_left();
+    if (&group == &scene_.groups.front()) {
+        constexpr unsigned kPlanar =
+            flat::bit(PrimitiveKind::mesh) | flat::bit(PrimitiveKind::triangle) | flat::bit(PrimitiveKind::quad);
+        scene_.list.rest_is_planar = (scene_.kinds & ~kPlanar) == 0;
+    }
+    group.packed_error = accel::round_up(packed_error_);
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).
     const TriangleClip clip(scene_, references_);

@@ -15,7 +15,7 @@ public:
     // `row` of Scene::ranges. The groups of instances are built already. \throws ArgumentError if there are too many
     void add(const PrimitiveRange& range, std::uint32_t row);
 
-    // Sets the group's root, bounds, extent and scale.
+    // Sets the group's root, bounds, extent and scale; of the scene itself Scene::list, too.
     void finish(flat::Group& group, bool cut_triangles);
 
 private:
@@ -26,6 +26,8 @@ private:
     };
 
     void measure_mesh(const Part& part);
+    void list();
+    void note_what_is_left();
     Box bounds_of(const PrimitiveRange& range, std::uint32_t element) const;
     double packed_error_of(const PrimitiveRange& range, std::uint32_t element) const;
     void scale_boxes(double scale);
@@ -34,8 +36,8 @@ private:
     std::vector<Part> parts_;
     std::vector<flat::Reference> references_;
     std::vector<accel::FloatBox> boxes_;
-    std::vector<Box> others_;  // of what is not in a mesh: not yet in float
-    Box bounds_;
+    std::vector<Box> others_;  // of what is not in a mesh: not yet in float; empty where it is listed
+    Box bounds_, mesh_bounds_;
     double extent_ = 0;  // the largest finite coordinate
     double packed_error_ = 0;
 };

@@ -53,6 +53,8 @@ std::optional<double> uniform_scale(const Transform& m) {
 
 // Of an emitter in instances of instances of instances more copies than these are left to scattering.
 constexpr std::size_t kMaxLights = std::size_t{1} << 22;
+// Triangles of meshes are worked out anew for each use where they would be more.
+constexpr std::size_t kMostOwn = std::size_t{1} << 14;
 // Of moving instances around an emitter: where it may be is known from all combinations of their ends.
 constexpr int kMostMoving = 4;
 
@@ -129,7 +131,8 @@ private:
         const bool planar = range.kind == PrimitiveKind::mesh || range.kind == PrimitiveKind::triangle ||
                             range.kind == PrimitiveKind::quad;
         const Transform inv = inverse(seen.at0);
-        const bool placed = planar && (seen.moving > 0 || range.kind == PrimitiveKind::mesh);
+        const bool are_many = scene_.lights.own.size() + range.count > kMostOwn;
+        const bool placed = planar && (seen.moving > 0 || (range.kind == PrimitiveKind::mesh && are_many));
         const auto place = static_cast<std::uint32_t>(scene_.lights.places.size());
         std::size_t found = items_.size();
         for (std::uint64_t e = 0; e < range.count && items_.size() < kMaxLights; ++e) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "core/mesh_triangle.h"
 #include "core/settle.h"
@@ -16,29 +18,77 @@ using flat::PrimitiveList;
 constexpr double kInstanceError = 8 * kRoundoff;
 // How thin a primitive may be, and how small beside the scene, for its weights to be worth computing in float.
 constexpr double kThinnest = 0x1p-12, kSmallest = 0x1p-12;
+// What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be asked by most of them
+// (measured: docs/performance.md).
+constexpr double kLarge = 0.1;
+constexpr std::size_t kMostLarge = 24;
+// So few beside meshes are all listed: the tree is then one of triangles alone, and smaller.
+constexpr std::size_t kFew = 16;
 
 double sum_abs(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// Infinite where a side is.
+double half_area(const Box& box) {
+    if (box.is_empty()) return 0;
+    const Vec3 d = box.diagonal();
+    return max_abs(d) < kInfinity ? d.x * d.y + d.y * d.z + d.z * d.x : kInfinity;
+}
 
 class Lister {
 public:
     explicit Lister(flat::Scene& scene) : scene_(scene), root_(flat::group_at(scene, GroupId::root)) {}
 
-    void run() {
-        const bool is_in_range = root_.scale == 1 && root_.extent > 0x1p-20 && root_.extent < 0x1p39;
-        if (!is_in_range || scene_.stored_primitives > PrimitiveList::kMost || !add_group(root_, 0, nullptr, 0)) return;
-        if (entries_.empty() || entries_.size() > PrimitiveList::kMost) return;
-        const auto rank = [](const PrimitiveList::Entry& e) {
-            return e.kind == PrimitiveKind::quad ? 0 : e.kind == PrimitiveKind::sphere ? 2 : 1;
-        };
-        std::ranges::stable_sort(entries_, {}, rank);
-        PrimitiveList list;
-        for (const PrimitiveList::Entry& e : entries_)
-            ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles : list.spheres);
-        list.entries = std::move(entries_);
-        if (pack(list)) scene_.list = std::move(list);
+    // False if not all can be listed.
+    bool list_all() {
+        if (!is_in_range() || scene_.stored_primitives > PrimitiveList::kMost || !add_group(root_, 0, nullptr, 0))
+            return false;
+        if (entries_.empty() || entries_.size() > PrimitiveList::kMost) return false;
+        pack();
+        scene_.list.is_all = true;
+        return true;
+    }
+
+    // The largest first, as long as they are large beside what is left.
+    std::vector<bool> list_large(std::span<const Candidate> candidates, const Box& others) {
+        std::vector<bool> is_listed(candidates.size(), false);
+        if (!is_in_range()) return is_listed;
+        std::vector<std::size_t> order(candidates.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return half_area(candidates[i].box); });
+        std::vector<Box> rest(order.size() + 1, others);  // from each on
+        for (std::size_t i = order.size(); i-- > 0;) rest[i] = merge(rest[i + 1], candidates[order[i]].box);
+        const bool are_few = candidates.size() <= kFew;
+        Box passed_over;
+        for (std::size_t i = 0; i < order.size() && entries_.size() < kMostLarge; ++i) {
+            const Candidate& c = candidates[order[i]];
+            if (!are_few && !(half_area(c.box) >= kLarge * half_area(merge(rest[i], passed_over)))) break;
+            is_listed[order[i]] = add_candidate(c.reference);
+            if (!is_listed[order[i]]) passed_over.extend(c.box);
+        }
+        if (!entries_.empty()) pack();
+        return is_listed;
     }
 
 private:
+    bool is_in_range() const { return root_.scale == 1 && root_.extent > 0x1p-20 && root_.extent < 0x1p39; }
+
+    // With all that an instance holds.
+    bool add_candidate(const flat::Reference& reference) {
+        const PrimitiveRange& range = scene_.ranges[reference.range];
+        if (range.kind != PrimitiveKind::instance)
+            return add(range, reference.element, range.first_number + reference.element, nullptr, 0);
+        const std::size_t before = entries_.size();
+        if (add_instance(range, range.first_number)) return true;
+        entries_.resize(before);
+        return false;
+    }
+
+    bool add_instance(const PrimitiveRange& range, std::uint64_t number) {
+        const flat::Instance& instance = scene_.instances[range.first_row];
+        return !instance.moving && add_group(flat::group_at(scene_, instance.group), number,
+                                             &instance.world_from_object0, range.first_row);
+    }
+
     // Whether all of the group can be listed.
     bool add_group(const flat::Group& group, std::uint64_t first_number, const Transform* matrix,
                    std::uint32_t instance) {
@@ -46,10 +96,7 @@ private:
             const PrimitiveRange& range = scene_.ranges[group.first_range + i];
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance) {
-                const flat::Instance& inner = scene_.instances[range.first_row];
-                if (matrix || inner.moving) return false;
-                if (!add_group(flat::group_at(scene_, inner.group), number, &inner.world_from_object0, range.first_row))
-                    return false;
+                if (matrix || !add_instance(range, number)) return false;
                 continue;
             }
             if (range.kind == PrimitiveKind::medium) continue;  // apart
@@ -104,11 +151,34 @@ private:
             e.corner = transform_point(*matrix, e.corner);
             e.edge_u = transform_vector(*matrix, e.edge_u), e.edge_v = transform_vector(*matrix, e.edge_v);
         }
+        if (!(e.kind == PrimitiveKind::sphere ? e.radius > kSmallest * root_.extent : is_plane_clear(e))) return false;
         entries_.push_back(e);
         return true;
     }
 
-    bool pack(PrimitiveList& list) const {
+    // Whether float can tell the weights of its edges.
+    bool is_plane_clear(const PrimitiveList::Entry& e) const {
+        const Vec3 n = cross(e.edge_u, e.edge_v);
+        const double edges = max_abs(e.edge_u) * max_abs(e.edge_v);
+        return max_abs(n) > kThinnest * edges && e.error < 0x1p-40 * root_.extent &&
+               spread_of(e) * root_.extent < 1 / kSmallest;
+    }
+
+    // The larger sum of the magnitudes of what makes the weights.
+    static double spread_of(const PrimitiveList::Entry& e) {
+        const Weights w(e);
+        return std::max(sum_abs(w.u), sum_abs(w.v));
+    }
+
+    void pack() {
+        const auto rank = [](const PrimitiveList::Entry& e) {
+            return e.kind == PrimitiveKind::quad ? 0 : e.kind == PrimitiveKind::sphere ? 2 : 1;
+        };
+        std::ranges::stable_sort(entries_, {}, rank);
+        PrimitiveList& list = scene_.list;
+        for (const PrimitiveList::Entry& e : entries_)
+            ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles : list.spheres);
+        list.entries = std::move(entries_);
         const auto padded = [](std::uint32_t n) {
             return (n + static_cast<std::uint32_t>(PrimitiveList::kAlign) - 1) / PrimitiveList::kAlign *
                    PrimitiveList::kAlign;
@@ -117,26 +187,28 @@ private:
         list.sphere_stride = static_cast<std::uint32_t>(padded(list.spheres));
         list.planar.assign(PrimitiveList::kPlanarRows * list.planar_stride, 0);
         list.round.assign(PrimitiveList::kSphereRows * list.sphere_stride, 0);
-        for (std::uint32_t i = 0; i < list.planars(); ++i)
-            if (!pack_planar(list.entries[i], list, i)) return false;
+        for (std::uint32_t i = 0; i < list.planars(); ++i) pack_planar(list.entries[i], list, i);
         for (std::uint32_t i = 0; i < list.spheres; ++i) {
             const PrimitiveList::Entry& e = list.entries[list.planars() + i];
-            if (!(e.radius > kSmallest * root_.extent)) return false;
             float* rows = list.round.data() + i;
             for (std::size_t a = 0; a < 3; ++a) rows[a * list.sphere_stride] = static_cast<float>(e.corner[a]);
             rows[PrimitiveList::kRadius * list.sphere_stride] = static_cast<float>(e.radius);
         }
-        return true;
     }
 
-    bool pack_planar(const PrimitiveList::Entry& e, PrimitiveList& list, std::uint32_t i) const {
-        const Vec3 n = cross(e.edge_u, e.edge_v);
-        const double size = max_abs(n), edges = max_abs(e.edge_u) * max_abs(e.edge_v);
-        if (!(size > kThinnest * edges) || !(e.error < 0x1p-40 * root_.extent)) return false;
-        const double squared = dot(n, n);
-        const Vec3 normal = n / size, u = cross(e.edge_v, n) / squared, v = cross(n, e.edge_u) / squared;
-        const double spread = std::max(sum_abs(u), sum_abs(v));
-        if (!(spread * root_.extent < 1 / kSmallest)) return false;
+    // normal . x is the same all over the plane; u . x and v . x go from 0 to 1 along an edge, but for where they
+    // start.
+    struct Weights {
+        Vec3 normal, u, v;
+        explicit Weights(const PrimitiveList::Entry& e) {
+            const Vec3 n = cross(e.edge_u, e.edge_v);
+            const double squared = dot(n, n);
+            normal = n / max_abs(n), u = cross(e.edge_v, n) / squared, v = cross(n, e.edge_u) / squared;
+        }
+    };
+
+    static void pack_planar(const PrimitiveList::Entry& e, PrimitiveList& list, std::uint32_t i) {
+        const auto [normal, u, v] = Weights(e);
         const Vec3 corner = e.corner - Point3{};
         const double offset = dot(normal, corner), u_offset = dot(u, corner), v_offset = dot(v, corner);
         const auto put = [&](std::size_t row, double x) {
@@ -147,8 +219,7 @@ private:
             put(PrimitiveList::kU + a, u[a]), put(PrimitiveList::kV + a, v[a]);
         }
         put(PrimitiveList::kOffset, offset), put(PrimitiveList::kUOffset, u_offset);
-        put(PrimitiveList::kVOffset, v_offset), put(PrimitiveList::kSpread, 2 * spread * (1 + 0x1p-20));
-        return true;
+        put(PrimitiveList::kVOffset, v_offset), put(PrimitiveList::kSpread, 2 * spread_of(e) * (1 + 0x1p-20));
     }
 
     flat::Scene& scene_;
@@ -158,6 +229,10 @@ private:
 
 }  // namespace
 
-void list_primitives(flat::Scene& scene) { Lister(scene).run(); }
+bool list_all(flat::Scene& scene) { return Lister(scene).list_all(); }
+
+std::vector<bool> list_large(flat::Scene& scene, std::span<const Candidate> candidates, const Box& others) {
+    return Lister(scene).list_large(candidates, others);
+}
 
 }  // namespace limn::compiler

@@ -37,9 +37,10 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
     const PlanarAnswer answer =
         planar_answer(ray, ray.coordinate_error(reach), 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
+        const bool against = turned != (ray.direction_z < 0);
         const double edge = larger(max_abs(edge_u), max_abs(edge_v));
-        if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), turned != (ray.direction_z < 0), edge, 0,
-                      max_abs(to_corner)))
+        if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), against, edge, 0, max_abs(to_corner)) ||
+            is_beyond(ray, edge_u, edge_v, to_corner, against, search.t_max))
             return {Decision::miss};
     }
     return answer;

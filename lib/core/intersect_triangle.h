@@ -37,9 +37,10 @@ inline PlanarAnswer filter_triangle(const Point3& a, const Point3& b, const Poin
     const PlanarAnswer answer =
         planar_answer(ray, ray.coordinate_error(reach), 5 * e / std::abs(det), depth, z, wb / det, wc / det, search);
     if (answer.decision == Decision::unsure && search.t_min >= 0) {
+        const bool turned = (det < 0) == (ray.direction_z < 0);  // the normal, against the ray
+        if (is_beyond(ray, b - a, c - a, qa, turned, search.t_max)) return {Decision::miss};
         const Vec3 ab = qb - qa, ac = qc - qa;
         const double edge = larger(max_abs(ab), max_abs(ac)), edge_error = kRoundoff * (2 * reach + edge);
-        const bool turned = (det < 0) == (ray.direction_z < 0);  // the normal, against the ray
         if (is_behind(ray, dot(cross(ab, ac), qa), turned, edge, edge_error, max_abs(qa))) return {Decision::miss};
     }
     return answer;

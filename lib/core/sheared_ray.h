@@ -82,6 +82,20 @@ inline bool is_behind(const ShearedRay& ray, double product, bool against, doubl
     return std::abs(product) > error && (product < 0) != against;
 }
 
+// Whether a plane lies beyond the end of a search: that of a lamp, whose shadow rays end just before it, and which from
+// beside it the t of a search does not tell. The end is seen from q, from the origin to a point of the plane; the
+// edges u and v are off by their own rounding, q - t_max d by 3 u (|q| + t_max |d|), the rest is as above. That is far
+// more than what t is rounded by. Only for rays as they were given.
+inline bool is_beyond(const ShearedRay& ray, const Vec3& u, const Vec3& v, const Vec3& q, bool against, double t_max) {
+    if (!(t_max < kInfinity) || ray.absolute != 0 || ray.direction_error != 0) return false;
+    const Vec3 way = t_max * ray.frame->ray.direction, rest = q - way;
+    const double edge = larger(max_abs(u), max_abs(v));
+    const double product = dot(cross(u, v), rest);
+    const double error =
+        edge * edge * kRoundoff * (52 * max_abs(rest) + 18 * (max_abs(q) + max_abs(way))) * (1 + 0x1p-30) + 0x1p-900;
+    return std::abs(product) > error && (product < 0) == against;
+}
+
 // The hit at depth `z`, computed as a weighted mean by at most 8 operations; its weights are off by `weight_error`, u
 // and v among them. Over the shape z varies by `depth`.
 inline PlanarAnswer planar_answer(const ShearedRay& ray, double coordinate_error, double weight_error, double depth,

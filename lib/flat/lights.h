@@ -34,8 +34,8 @@ struct Light {
     Vec3 position_error;  // of points computed on it
 };
 
-// Emitters of one range where instances put it, whose numbers are those of the range: triangles of a mesh, and planar
-// shapes that instances move.
+// Emitters of one range where instances put it, whose numbers are those of the range: triangles of a large mesh, and
+// planar shapes that instances move.
 struct LightPlace {
     std::uint32_t range = 0;           // row of Scene::ranges
     std::uint32_t first_instance = 0;  // in LightTable::instances; outermost first

@@ -1,4 +1,5 @@
-// All primitives of a scene of a few, which are tested one and all: sooner done than walking through a tree.
+// Primitives that are tested one and all: those of a scene of a few, which is sooner done than walking through a tree,
+// and those that are so large beside the others that most rays would come upon them in the tree.
 #pragma once
 
 #include <cstddef>
@@ -47,6 +48,9 @@ struct PrimitiveList {
     std::uint32_t quads = 0, triangles = 0, spheres = 0;
     std::uint32_t planar_stride = 0, sphere_stride = 0;
     std::vector<float> planar, round;
+    bool is_all = false;  // else there are more in the root's tree, where those that are listed do not stand
+    bool rest_is_planar = false;  // triangles and parallelograms alone, in no instance
+    float rest_lower[3] = {}, rest_upper[3] = {};  // of what is in that tree
 
     bool empty() const { return entries.empty(); }
     std::uint32_t planars() const { return quads + triangles; }

@@ -109,7 +109,7 @@ struct Scene {
     std::vector<Reference> references;
     HugeVector<Node> nodes;
     HugeVector<std::uint32_t> blocks;            // see Block
-    PrimitiveList list;                          // of small scenes, used beside the tree
+    PrimitiveList list;                          // of small scenes, and of large primitives beside the tree
     bool is_larger_than_cache = false;           // so that batches of rays are better off waiting for memory by turns
     std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
     std::vector<std::uint32_t> object_of;        // by number, in scenes of few primitives, where a search would show

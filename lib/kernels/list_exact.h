@@ -53,13 +53,14 @@ bool ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, c
                   [&](const RayFrame& inner) { return is_usable(inner.ray) && ask_listed(scene, e, inner, query); });
 }
 
-// Each in turn, until the query has its answer: for rays that float cannot hold.
+// Each in turn, until the query has its answer: for rays that float cannot hold. Whether it has.
 template <class Query>
-void ask_all_listed(const flat::Scene& scene, const Ray& ray, Query& query) {
+bool ask_all_listed(const flat::Scene& scene, const Ray& ray, Query& query) {
     for (const flat::PrimitiveList::Entry& e : scene.list.entries) {
         ask_listed(scene, e, ray, query);
-        if (query.ended()) return;
+        if (query.ended()) return true;
     }
+    return false;
 }
 
 }  // namespace limn::kernels

@@ -7,6 +7,7 @@
 #define LIMN_KERNELS_LIST_PACKET_INL_H
 #endif
 
+#include "kernels/box_ray.h"
 #include "kernels/exact_filters-inl.h"
 #include "kernels/list-inl.h"
 #include "kernels/list_exact.h"
@@ -42,7 +43,8 @@ public:
         set_up(extent);
     }
 
-    void run() {
+    // Returns the lanes that may still meet what is not listed.
+    std::uint32_t run() {
         const RayLanes d;
         LaneRay<RayLanes> ray{hn::Load(d, o_[0]),         hn::Load(d, o_[1]), hn::Load(d, o_[2]),  hn::Load(d, d_[0]),
                               hn::Load(d, d_[1]),         hn::Load(d, d_[2]), hn::Load(d, reach_), hn::Load(d, size_),
@@ -65,10 +67,32 @@ public:
             sphere(i, ray);
         }
         for (std::size_t r = 0; r < count_; ++r)
-            if ((odd_ >> r & 1) != 0) ask_all_listed(scene_, rays_[r], queries_[r]);
+            if ((odd_ >> r & 1) != 0 && ask_all_listed(scene_, rays_[r], queries_[r])) odd_ &= ~(1u << r);
+        if (list_.is_all) return 0;
+        std::uint32_t rest = active_ & meets_rest(ray);
+        if (Query::kFirstHit && rest != 0 && list_.rest_is_planar) rest &= ~ends_before_rest(rest);
+        return odd_ | rest;
     }
 
 private:
+    // As BoxRay has it, but for the order.
+    HWY_INLINE std::uint32_t meets_rest(const LaneRay<RayLanes>& ray) const {
+        const RayLanes d;
+        auto enter = hn::Load(d, possible_after_), leave = hn::Load(d, bound_);
+        const auto wider = hn::Mul(hn::Set(d, BoxRay::kWider), ray.reach);
+        const auto cut = [&](RV o, RV direction, std::size_t a) HWY_ATTR {
+            const auto inverse = hn::Div(
+                hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), hn::Set(d, BoxRay::kLeast)), direction));
+            const auto shift = hn::Neg(hn::Mul(o, inverse)), widening = hn::Mul(wider, hn::Abs(inverse));
+            const auto lower = hn::MulAdd(hn::Set(d, list_.rest_lower[a]), inverse, shift),
+                       upper = hn::MulAdd(hn::Set(d, list_.rest_upper[a]), inverse, shift);
+            enter = hn::Max(enter, hn::Sub(hn::Min(lower, upper), widening));
+            leave = hn::Min(leave, hn::Add(hn::Max(lower, upper), widening));
+        };
+        cut(ray.ox, ray.dx, 0), cut(ray.oy, ray.dy, 1), cut(ray.oz, ray.dz, 2);
+        return bits(d, hn::Le(enter, leave));
+    }
+
     void set_up(float extent) {
         const RayLanes d;
         const auto ox = demoted(origin_[0]), oy = demoted(origin_[1]), oz = demoted(origin_[2]);
@@ -169,6 +193,25 @@ private:
             certain = (certain | inside) & active_;
         }
         take(list_.planars() + i, certain, root.near, root.far);
+    }
+
+    // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along some
+    // axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a filter
+    // that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact stage
+    // (is_accurate). The point as computed is off by 2 u of its terms at most.
+    HWY_INLINE std::uint32_t ends_before_rest(std::uint32_t lanes) const {
+        return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
+            const Doubles d;
+            auto apart = hn::FirstN(d, 0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const auto o = hn::Load(d, origin_[a] + h), way = hn::Load(d, direction_[a] + h), end = hn::Add(o, way);
+                const auto error = hn::Mul(hn::Add(hn::Abs(o), hn::Abs(way)), hn::Set(d, 4 * kRoundoff));
+                const auto below = hn::Add(hn::Max(o, end), error), above = hn::Sub(hn::Min(o, end), error);
+                apart = hn::Or(apart, hn::Or(hn::Lt(below, hn::Set(d, double{list_.rest_lower[a]})),
+                                             hn::Gt(above, hn::Set(d, double{list_.rest_upper[a]}))));
+            }
+            return bits(d, hn::And(apart, hn::Lt(hn::Load(d, t_max_ + h), hn::Set(d, 1.0))));
+        });
     }
 
     // The sure hits of some lanes.

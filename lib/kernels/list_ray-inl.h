@@ -69,7 +69,10 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
     };
     const float size = largest(dx, dy, dz), reach = largest(ox, oy, oz) + extent;
     const bool ordinary = size > 0x1p-10f && size < 0x1p10f && reach < 8 * extent;
-    if (HWY_UNLIKELY(!ordinary)) return ask_all_listed(scene, ray, query);
+    if (HWY_UNLIKELY(!ordinary)) {
+        ask_all_listed(scene, ray, query);
+        return;
+    }
     const LaneRay<RayLanes> lanes{hn::Set(d, ox),       hn::Set(d, oy),
                                   hn::Set(d, oz),       hn::Set(d, dx),
                                   hn::Set(d, dy),       hn::Set(d, dz),

@@ -57,7 +57,10 @@ template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
     if constexpr (!Query::kEveryHit) {
-        if (id == GroupId::root && !scene.list.empty()) return search_list(scene, ray, frame, query);
+        if (id == GroupId::root && !scene.list.empty()) {
+            search_list(scene, ray, frame, query);
+            if (scene.list.is_all || query.ended()) return;
+        }
     }
     const flat::Group& group = flat::group_at(scene, id);
     with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
@@ -179,12 +182,14 @@ void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
 }
 void settle_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
 
+// `rest`: by packets, those that may still meet what is not listed.
 template <class Query>
-void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* rest) {
     HWY_ALIGN std::uint32_t winners[kMostRays + kPacket];
     for (std::size_t first = 0; first < count; first += kPacket)
-        ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
-            .run();
+        rest[first / kPacket] =
+            ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
+                .run();
     settle_listed(scene, rays, count, winners, queries);
 }
 
@@ -208,27 +213,42 @@ bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count,
 
 template <class Query>
 void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
-    if (!scene.list.empty()) return search_list(scene, rays, count, queries);
+    std::uint32_t open[kMostRays / kPacket + 1];  // by packets
+    if (!scene.list.empty()) {
+        search_list(scene, rays, count, queries, open);
+        if (scene.list.is_all) return;
+    } else {
+        std::fill(std::begin(open), std::end(open), (std::uint32_t{1} << kPacket) - 1);
+    }
     const flat::Group& root = flat::group_at(scene, GroupId::root);
+    // visit(i) for each open ray of the packet that starts at `first`.
+    const auto for_open = [&](std::size_t first, const auto& visit) HWY_ATTR {
+        const std::size_t some = std::min(kPacket, count - first);
+        std::uint32_t lanes = open[first / kPacket] & ((std::uint32_t{1} << some) - 1);
+        for (; lanes != 0; lanes &= lanes - 1) visit(first + static_cast<std::size_t>(std::countr_zero(lanes)));
+    };
     if (scene.kinds != kMeshes) {
         return with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-            for (std::size_t i = 0; i < count; ++i)
-                search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+            for (std::size_t first = 0; first < count; first += kPacket)
+                for_open(first, [&](std::size_t i) HWY_ATTR {
+                    search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+                });
         });
     }
     const float spread = packet_spread(scene);
     HWY_ALIGN Interleaved<Query> interleaved(scene);
     for (std::size_t first = 0; first < count; first += kPacket) {
-        const std::size_t some = std::min(kPacket, count - first), end = first + some;
-        if (some > 1 && are_alike(rays + first, some, spread, root) &&
+        const std::size_t some = std::min(kPacket, count - first);
+        const bool are_all_open = (~open[first / kPacket] & ((std::uint32_t{1} << some) - 1)) == 0;
+        if (some > 1 && are_all_open && are_alike(rays + first, some, spread, root) &&
             search_packet(scene, rays + first, some, queries + first))
             continue;
-        for (std::size_t i = first; i < end; ++i) {
+        for_open(first, [&](std::size_t i) HWY_ATTR {
             if (scene.is_larger_than_cache)
                 interleaved.add(rays[i], queries[i]);
             else
                 search_group<kMeshes>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
-        }
+        });
     }
     interleaved.finish();
 }

@@ -111,10 +111,10 @@ TEST_CASE("Light tree: each light has one rank, and its number leads to it", "[c
     });
 }
 
-TEST_CASE("Light tree: a mesh that shines takes less than 100 bytes a triangle more than one that does not",
+TEST_CASE("Light tree: a large mesh that shines takes less than 100 bytes a triangle more than one that does not",
           "[compile][lights]") {
     MeshData grid;
-    constexpr std::uint32_t kSide = 60;
+    constexpr std::uint32_t kSide = 100;
     for (std::uint32_t j = 0; j <= kSide; ++j)
         for (std::uint32_t i = 0; i <= kSide; ++i)
             grid.vertices.push_back(
@@ -125,11 +125,22 @@ TEST_CASE("Light tree: a mesh that shines takes less than 100 bytes a triangle m
             grid.triangles.push_back({a, a + 1, c + 1});
             grid.triangles.push_back({a, c + 1, c});
         }
-    const auto bytes = [&](const std::shared_ptr<const Material>& m) {
-        return compiler::flatten(zoo_of("mesh", {std::make_shared<Mesh>(grid, m)}).scene).memory_bytes;
+    const auto flattened = [&](const std::shared_ptr<const Material>& m) {
+        return compiler::flatten(zoo_of("mesh", {std::make_shared<Mesh>(grid, m)}).scene);
     };
-    const double more = static_cast<double>(bytes(lamp(1)) - bytes(std::make_shared<Lambertian>(Color{})));
-    CHECK(more / (2 * kSide * kSide) < 100);
+    const flat::Scene lit = flattened(lamp(1)), dark = flattened(std::make_shared<Lambertian>(Color{}));
+    CHECK(static_cast<double>(lit.memory_bytes - dark.memory_bytes) / (2 * kSide * kSide) < 100);
+
+    REQUIRE(lit.lights.size() == grid.triangles.size());
+    for (std::size_t rank = 0; rank < lit.lights.size(); rank += 97) {
+        const flat::Light light = light_of(lit, rank, 0);
+        const Index3 t = grid.triangles[light.number];
+        const auto at = [&](std::uint32_t i) {
+            return Point3{grid.vertices[i].x, grid.vertices[i].y, grid.vertices[i].z};
+        };
+        REQUIRE(light.kind == flat::LightKind::triangle);
+        REQUIRE((light.origin == at(t.a) && light.edge_u == at(t.b) - at(t.a) && light.edge_v == at(t.c) - at(t.a)));
+    }
 }
 
 TEST_CASE("Light tree: lights all in one place, or in one line, make no endless tree", "[compile][lights]") {

@@ -103,6 +103,33 @@ TEST_CASE("filter_quad: what it decides is exactly so", "[core][filter]") {
     }
 }
 
+TEST_CASE("is_beyond: planes that it says a search ends before are met exactly after that", "[core][filter]") {
+    Random random(44);
+    int beyond = 0, told = 0, wrong = 0;
+    for (int i = 0; i < kRays; ++i) {
+        const Point3 q = some_point(random);
+        const Vec3 e = some_point(random) - q, f = some_point(random) - q, normal = cross(e, f);
+        const Point3 target = q + (random.uniform(0.1, 0.9) * e + random.uniform(0.1, 0.9) * f);
+        // Many along the plane, as seen from a ceiling that a lamp hangs under.
+        const Vec3 away = random.uniform(-1, 1) * e + random.uniform(-1, 1) * f;
+        const Point3 origin = target + away + random.log_uniform(1e-9, 1) * random.sign() * normal;
+        const RayFrame frame(Ray{.origin = origin, .direction = target - origin});
+        const Vec3 d = frame.ray.direction;
+        const double along = dot(normal, d);
+        PlanarHit hit{};
+        if (!(std::abs(along) > 1e-12 * max_abs(normal) * max_abs(d))) continue;  // its sign is in doubt
+        if (!settle_quad(q, e, f, frame, {0, kInfinity}, hit)) continue;
+        const double t_max = hit.t * (1 + random.sign() * std::exp2(-random.uniform(20, 56)));
+        const bool is_beyond_it = !settle_quad(q, e, f, frame, {0, t_max}, hit);
+        const bool says_so = is_beyond(ShearedRay(frame), e, f, q - origin, along < 0, t_max);
+        beyond += is_beyond_it, told += says_so, wrong += says_so && !is_beyond_it;
+    }
+    CHECK(wrong == 0);
+    CHECK(told > beyond / 4);
+    CHECK(told < beyond);  // it must leave those open that end within rounding of the plane
+    CHECK(beyond > kRays / 4);
+}
+
 TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie within their bounds", "[core][filter]") {
     for (const bool instanced : {false, true}) {
         Random random(43);
