@@ -159,20 +159,6 @@ HWY_INLINE FirstRoot<D> first_root(D d, const ListedSphere<D>& m, T possible_aft
     return r;
 }
 
-// Where the origin is of a sphere, by exact signs: outside and going away, so that nothing is hit; inside, so that the
-// second root is ahead and the first is not. p = o - c; p.p - r^2 is off by 8 u (L^2 + r^2), L the sum of p's
-// magnitudes, p.d by 4 u L times that of d.
-enum class Side { unknown, leaving, inside };
-inline Side side_of(const PrimitiveList::Entry& e, const Ray& ray) {
-    const Vec3 p = ray.origin - e.corner, v = ray.direction;
-    const double reach = std::abs(p.x) + std::abs(p.y) + std::abs(p.z), r2 = e.radius * e.radius;
-    const double power = dot(p, p) - r2, error = 9 * kRoundoff * (reach * reach + r2);
-    if (power < -error) return Side::inside;
-    const double away = dot(p, v);
-    const bool leaves = power > error && away > 5 * kRoundoff * reach * (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
-    return leaves ? Side::leaving : Side::unknown;
-}
-
 }  // namespace limn::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

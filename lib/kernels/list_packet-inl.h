@@ -12,6 +12,7 @@
 #include "kernels/list-inl.h"
 #include "kernels/list_exact.h"
 #include "kernels/queries.h"
+#include "kernels/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -181,10 +182,11 @@ private:
             std::uint32_t inside = 0;
             for (std::uint32_t unsure = open & ~certain; unsure != 0; unsure &= unsure - 1) {
                 const auto r = static_cast<std::size_t>(std::countr_zero(unsure));
-                const Side side = (leaving_ >> r & 1) != 0 ? side_of(list_.entries[number], rays_[r]) : Side::unknown;
+                const PrimitiveList::Entry& e = list_.entries[number];
+                const Side side = (leaving_ >> r & 1) != 0 ? side_of(e.corner, e.radius, rays_[r]) : Side::unknown;
                 if (side == Side::inside && (ahead >> r & 1) != 0)
                     inside |= 1u << r;
-                else if (side != Side::leaving)
+                else if (side != Side::missed)
                     ask(r, number);
             }
             const auto within = mask_of(inside);
@@ -195,9 +197,9 @@ private:
         take(list_.planars() + i, certain, root.near, root.far);
     }
 
-    // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along some
-    // axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a filter
-    // that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact stage
+    // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along
+    // some axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a
+    // filter that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact stage
     // (is_accurate). The point as computed is off by 2 u of its terms at most.
     HWY_INLINE std::uint32_t ends_before_rest(std::uint32_t lanes) const {
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {

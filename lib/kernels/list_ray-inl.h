@@ -146,7 +146,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         }
         for (std::uint32_t unsure = bits(d, open) & ~certain_bits; unsure != 0; unsure &= unsure - 1) {
             const PrimitiveList::Entry& e = list.entries[number + static_cast<std::uint32_t>(std::countr_zero(unsure))];
-            if (ray.t_min >= 0 && side_of(e, ray) == Side::leaving) continue;
+            if (ray.t_min >= 0 && side_of(e.corner, e.radius, ray) == Side::missed) continue;
             ask_listed(scene, e, ray, query);
             if (query.ended()) return;
             const float limit = above(limited(query.limit()));

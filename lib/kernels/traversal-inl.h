@@ -16,6 +16,7 @@
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 #include "kernels/sphere-inl.h"
+#include "kernels/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -331,6 +332,9 @@ private:
             return (hits.near_found && query_.report({hits.near, 0, 0}, number, radius > 0)) ||
                    (hits.far_found && query_.report({hits.far, 0, 0}, number, radius < 0));
         } else {
+            const Ray& ray = frame_.ray;
+            if (frame_.outer == nullptr && ray.t_min >= 0 && side_of(center, std::abs(radius), ray) == Side::missed)
+                return false;
             PlanarHit hit{};
             return exact_.sphere(center, std::abs(radius), search(), hit.t) && query_.report(hit, number, false);
         }

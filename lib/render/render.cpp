@@ -55,6 +55,8 @@ public:
           most_samples_(settings.error || settings.time_limit ? settings.max_samples_per_pixel
                                                               : settings.samples_per_pixel),
           adaptive_((settings.error || settings.time_limit) && !settings.uniform),
+          has_lens_or_motion_(camera.aperture_angle > 0 || scene_.features.moving_spheres ||
+                              scene_.features.moving_instances || scene_.features.foreign_shapes),
           film_(settings.width, settings.height) {}
 
     void run() {
@@ -163,13 +165,16 @@ private:
     }
 
     void set_camera_rays(std::span<tracing::Path> paths, const std::vector<std::pair<int, int>>& pixels) const {
-        // Drawn whether needed or not, so that each dimension keeps its meaning.
+        // In the pixel, on the lens, in time.
         kernels::SobolLanes lanes;
-        kernels::Lane numbers[5];
+        kernels::Lane numbers[5] = {};
         for (std::size_t first = 0; first < paths.size(); first += kernels::kShaded) {
             const std::span some = paths.subspan(first, std::min(kernels::kShaded, paths.size() - first));
-            tracing::Sampler::draw_many<5>(
-                some.size(), [&](std::size_t i) -> tracing::Sampler& { return some[i].sampler; }, lanes, numbers);
+            const auto sampler_at = [&](std::size_t i) -> tracing::Sampler& { return some[i].sampler; };
+            if (has_lens_or_motion_)
+                tracing::Sampler::draw_many<5>(some.size(), sampler_at, lanes, numbers);
+            else
+                tracing::Sampler::draw_many<2>(some.size(), sampler_at, lanes, numbers);
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const auto [x, y] = pixels[first + i];
                 const double dx = settings_.antialias ? numbers[0][i] : 0.5;
@@ -213,7 +218,7 @@ private:
     const CameraRays camera_;
     const RenderSettings& settings_;
     const int most_samples_;  // a pixel, in the mean
-    const bool adaptive_;
+    const bool adaptive_, has_lens_or_motion_;
     tracing::Film film_;
     // From the pilot on, where samples are adaptive.
     std::vector<float> rates_;

@@ -3,6 +3,7 @@
 #include "core/intersect_quad.h"
 #include "core/intersect_sphere.h"
 #include "core/intersect_triangle.h"
+#include "kernels/sphere_side.h"
 #include "support/random_geometry.h"
 
 using namespace limn;
@@ -128,6 +129,47 @@ TEST_CASE("is_beyond: planes that it says a search ends before are met exactly a
     CHECK(told > beyond / 4);
     CHECK(told < beyond);  // it must leave those open that end within rounding of the plane
     CHECK(beyond > kRays / 4);
+}
+
+TEST_CASE("side_of: spheres that it says a ray leaves or ends before are not met, and what is within is",
+          "[core][filter]") {
+    Random random(45);
+    int missed = 0, inside = 0, unknown = 0, wrong = 0;
+    for (int i = 0; i < kRays; ++i) {
+        const Point3 c = some_point(random);
+        const double r = random.chance(0.5) ? random.uniform(0.5, 3) : random.log_uniform(1e-6, 1e6);
+        const auto near_surface = [&] {
+            const double off = random.chance(0.2) ? 0 : random.sign() * random.log_uniform(1e-17, 1e-3);
+            return c + (r * (1 + off)) * random.unit();
+        };
+        const bool leaves = random.chance(0.5);
+        Ray ray{.origin = leaves ? near_surface() : some_point(random), .direction = {}, .t_min = 0};
+        ray.direction = (leaves ? some_point(random) : near_surface()) - ray.origin;
+        if (random.chance(0.3))
+            ray.direction = ray.direction - dot(ray.direction, normalize(ray.origin - c)) * normalize(ray.origin - c);
+        if (!leaves || random.chance(0.5)) ray.t_max = 1 - random.log_uniform(1e-16, 1e-6);
+        if (!is_usable(ray)) continue;
+        const RayFrame frame(ray);
+        const SphereHits exact = settle_sphere(c, r, frame, nullptr, nullptr, {0, ray.t_max});
+        const SphereHits ever = settle_sphere(c, r, frame, nullptr, nullptr, {-kInfinity, kInfinity});
+        double t = 0;
+        switch (kernels::side_of(c, r, ray)) {
+            case kernels::Side::missed:
+                ++missed;
+                wrong += exact.near_found || exact.far_found;
+                wrong += intersect_sphere(c, r, SphereRay(frame), {0, ray.t_max}, t);
+                break;
+            case kernels::Side::inside:
+                ++inside;
+                wrong += !ever.near_found || !ever.far_found || ever.near > 0 || ever.far < 0;
+                break;
+            case kernels::Side::unknown: ++unknown; break;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(missed > kRays / 10);
+    CHECK(inside > kRays / 10);
+    CHECK(unknown > kRays / 10);
 }
 
 TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie within their bounds", "[core][filter]") {
