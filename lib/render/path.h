@@ -71,23 +71,23 @@ private:
         void clear() { paths.clear(), rays.clear(); }
         void add(std::uint32_t path, const Ray& ray) { paths.push_back(path), rays.push_back(ray); }
     };
-    // Vertices of one lobe.
-    struct Group {
-        kernels::VertexLanes lanes;
-        kernels::SobolLanes samplers;
+    // Whose vertices are shaded together.
+    struct Company {
         std::array<std::uint32_t, kernels::kShaded> paths;
-        std::array<double, kernels::kShaded> times;
         std::array<bool, kernels::kShaded> ask_lights;
+        kernels::SobolLanes samplers;
+    };
+    // Vertices of one lobe.
+    struct Group : Company {
+        kernels::VertexLanes lanes;
+        std::array<double, kernels::kShaded> times;
         std::array<flat::Light, kernels::kShaded> lights;  // those that are not kept anywhere
     };
     // Vertices on all other materials.
-    struct Others {
+    struct Others : Company {
         std::size_t count = 0;
         std::array<SurfaceHit, kernels::kShaded> hits;
         std::array<Ray, kernels::kShaded> rays;
-        std::array<std::uint32_t, kernels::kShaded> paths;
-        std::array<bool, kernels::kShaded> ask_lights;
-        kernels::SobolLanes samplers;
         kernels::Lane light_numbers[3], numbers[3];
     };
 
@@ -108,8 +108,8 @@ private:
     void gather(std::uint32_t path, const Ray& ray, kernels::Lobe lobe, const Surface& vertex, bool ask_lights);
     void shade_group(kernels::Lobe lobe);
     void sample_lights(kernels::Lobe lobe);
-    template <std::size_t n, class SomeGroup>
-    void draw(SomeGroup& group, std::size_t count, Use use, kernels::Lane* numbers);
+    template <std::size_t n>
+    void draw(Company& company, std::size_t count, Use use, kernels::Lane* numbers);
     void shade_others();
     void shade_other(std::size_t i);
     Group& group_of(kernels::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }

@@ -158,14 +158,14 @@ void PathTracer::shade_other(std::size_t i) {
     go_on(path, survives, scattered->pdf, leave(vertex, scattered->direction, ray.time));
 }
 
-template <std::size_t n, class SomeGroup>
-void PathTracer::draw(SomeGroup& group, std::size_t count, Use use, kernels::Lane* numbers) {
+template <std::size_t n>
+void PathTracer::draw(Company& company, std::size_t count, Use use, kernels::Lane* numbers) {
     const auto sampler_of = [&](std::size_t i) -> Sampler& {
-        const std::uint32_t path = group.paths[i];
+        const std::uint32_t path = company.paths[i];
         paths_[path].sampler.seek(heads_[path].segment, use);
         return paths_[path].sampler;
     };
-    Sampler::draw_many<n>(count, sampler_of, group.samplers, numbers);
+    Sampler::draw_many<n>(count, sampler_of, company.samplers, numbers);
 }
 
 }  // namespace limn::tracing
