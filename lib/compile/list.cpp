@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "core/mesh_triangle.h"
 #include "core/settle.h"
@@ -54,7 +54,7 @@ public:
         if (!is_in_range()) return is_listed;
         std::vector<std::size_t> order(candidates.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return half_area(candidates[i].box); });
+        std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(-half_area(candidates[i].box), i); });
         std::vector<Box> rest(order.size() + 1, others);  // from each on
         for (std::size_t i = order.size(); i-- > 0;) rest[i] = merge(rest[i + 1], candidates[order[i]].box);
         const bool are_few = candidates.size() <= kFew;
@@ -85,8 +85,8 @@ private:
 
     bool add_instance(const PrimitiveRange& range, std::uint64_t number) {
         const flat::Instance& instance = scene_.instances[range.first_row];
-        return !instance.moving && add_group(flat::group_at(scene_, instance.group), number,
-                                             &instance.world_from_object0, range.first_row);
+        return !instance.moving &&
+               add_group(flat::group_at(scene_, instance.group), number, &instance.world_from_object0, range.first_row);
     }
 
     // Whether all of the group can be listed.
@@ -174,7 +174,7 @@ private:
         const auto rank = [](const PrimitiveList::Entry& e) {
             return e.kind == PrimitiveKind::quad ? 0 : e.kind == PrimitiveKind::sphere ? 2 : 1;
         };
-        std::ranges::stable_sort(entries_, {}, rank);
+        std::ranges::sort(entries_, {}, [&](const PrimitiveList::Entry& e) { return std::pair(rank(e), e.number); });
         PrimitiveList& list = scene_.list;
         for (const PrimitiveList::Entry& e : entries_)
             ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles : list.spheres);

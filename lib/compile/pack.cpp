@@ -55,7 +55,8 @@ private:
     void sort_by_kind(const accel::Leaf& leaf) {
         const auto kind_of = [&](std::uint32_t id) { return range_of(id).kind; };
         const std::span ids = std::span(bvh_.ids).subspan(leaf.first, leaf.count);
-        if (!std::ranges::is_sorted(ids, {}, kind_of)) std::ranges::stable_sort(ids, {}, kind_of);
+        if (std::ranges::is_sorted(ids, {}, kind_of)) return;
+        std::ranges::sort(ids, {}, [&](std::uint32_t id) { return std::pair(kind_of(id), id); });
     }
 
     // How many of the ids from `first` on share a block. `last`: where the leaf ends.
