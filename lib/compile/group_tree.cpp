@@ -11,7 +11,6 @@
 #include "accel/clip_triangle.h"
 #include "accel/float_box.h"
 #include "accel/slab.h"
-#include "compile/list.h"
 #include "compile/pack.h"
 #include "core/bounds.h"
 #include "core/mesh_triangle.h"
@@ -79,9 +78,9 @@ void GroupTree::add(const PrimitiveRange& range, std::uint32_t row) {
     } else {
         scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
         for (std::uint32_t i = 0; i < stored; ++i) {
-            others_.push_back(bounds_of(range, i));
-            bounds_.extend(others_.back());
-            extent_ = std::max(extent_, accel::finite_extent(others_.back()));
+            others_.push_back({{row, i}, bounds_of(range, i)});
+            bounds_.extend(others_.back().box);
+            extent_ = std::max(extent_, accel::finite_extent(others_.back().box));
         }
     }
 }
@@ -180,7 +179,7 @@ void GroupTree::scale_boxes(double scale) {
     for (const Part& part : parts_) {
         if (part.range.kind != PrimitiveKind::mesh) {
             for (std::size_t i = 0; i < part.count; ++i, ++next) {
-                const Box& box = others_[next];
+                const Box& box = others_[next].box;
                 boxes_[part.first + i] = accel::to_float_box(box, scale);
             }
             continue;
@@ -200,31 +199,25 @@ void GroupTree::scale_boxes(double scale) {
 // Leaves out of the tree what is listed beside it.
 void GroupTree::list() {
     if (list_all(scene_)) return;
-    std::vector<Candidate> candidates;
-    std::size_t next = 0;
-    for (const Part& part : parts_)
-        for (std::size_t i = 0; part.range.kind != PrimitiveKind::mesh && i < part.count; ++i)
-            candidates.push_back({references_[part.first + i], others_[next++]});
-    const std::vector<bool> is_listed = list_large(scene_, candidates, mesh_bounds_);
+    const std::vector<bool> is_listed = list_large(scene_, others_, mesh_bounds_);
     Box rest = mesh_bounds_;
     for (std::size_t i = 0; i < is_listed.size(); ++i) {
         if (is_listed[i])
-            others_[i] = Box();
+            others_[i].box = Box();
         else
-            rest.extend(others_[i]);
+            rest.extend(others_[i].box);
     }
     const accel::FloatBox box = accel::to_float_box(rest);
     std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
 }
 
 void GroupTree::note_what_is_left() {
-    std::size_t next = 0;
-    for (const Part& part : parts_)
-        for (std::size_t i = 0; part.range.kind != PrimitiveKind::mesh && i < part.count; ++i) {
-            if (others_[next++].is_empty()) continue;
-            packed_error_ = std::max(packed_error_, packed_error_of(part.range, static_cast<std::uint32_t>(i)));
-            scene_.kinds |= flat::bit(part.range.kind);
-        }
+    for (const Candidate& other : others_) {
+        if (other.box.is_empty()) continue;
+        const PrimitiveRange& range = scene_.ranges[other.reference.range];
+        packed_error_ = std::max(packed_error_, packed_error_of(range, other.reference.element));
+        scene_.kinds |= flat::bit(range.kind);
+    }
 }
 
 void GroupTree::finish(flat::Group& group, bool cut_triangles) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "accel/wide_bvh.h"
+#include "compile/list.h"
 #include "flat/scene.h"
 
 namespace limn::compiler {
@@ -36,7 +37,7 @@ private:
     std::vector<Part> parts_;
     std::vector<flat::Reference> references_;
     std::vector<accel::FloatBox> boxes_;
-    std::vector<Box> others_;  // of what is not in a mesh: not yet in float; empty where it is listed
+    std::vector<Candidate> others_;  // what is not in a mesh, its box not yet in float; empty where it is listed
     Box bounds_, mesh_bounds_;
     double extent_ = 0;  // the largest finite coordinate
     double packed_error_ = 0;

@@ -19,7 +19,7 @@ constexpr double kInstanceError = 8 * kRoundoff;
 // How thin a primitive may be, and how small beside the scene, for its weights to be worth computing in float.
 constexpr double kThinnest = 0x1p-12, kSmallest = 0x1p-12;
 // What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be asked by most of them
-// (measured: docs/performance.md).
+// (measured: docs/speed-against-error.md).
 constexpr double kLarge = 0.1;
 constexpr std::size_t kMostLarge = 24;
 // So few beside meshes are all listed: the tree is then one of triangles alone, and smaller.
@@ -54,12 +54,16 @@ public:
         if (!is_in_range()) return is_listed;
         std::vector<std::size_t> order(candidates.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(-half_area(candidates[i].box), i); });
-        std::vector<Box> rest(order.size() + 1, others);  // from each on
-        for (std::size_t i = order.size(); i-- > 0;) rest[i] = merge(rest[i + 1], candidates[order[i]].box);
+        // Of many, no more come into question than a list may hold.
+        const std::size_t some = std::min(order.size(), PrimitiveList::kMost);
+        std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(some), {},
+                                  [&](std::size_t i) { return std::pair(-half_area(candidates[i].box), i); });
+        std::vector<Box> rest(some + 1, others);  // from each on
+        for (std::size_t i = some; i < order.size(); ++i) rest[some].extend(candidates[order[i]].box);
+        for (std::size_t i = some; i-- > 0;) rest[i] = merge(rest[i + 1], candidates[order[i]].box);
         const bool are_few = candidates.size() <= kFew;
         Box passed_over;
-        for (std::size_t i = 0; i < order.size() && entries_.size() < kMostLarge; ++i) {
+        for (std::size_t i = 0; i < some && entries_.size() < kMostLarge; ++i) {
             const Candidate& c = candidates[order[i]];
             if (!are_few && !(half_area(c.box) >= kLarge * half_area(merge(rest[i], passed_over)))) break;
             is_listed[order[i]] = add_candidate(c.reference);
