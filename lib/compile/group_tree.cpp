@@ -227,11 +227,6 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
     if (&group == &scene_.groups.front()) list();
     note_what_is_left();
-    if (&group == &scene_.groups.front()) {
-        constexpr unsigned kPlanar =
-            flat::bit(PrimitiveKind::mesh) | flat::bit(PrimitiveKind::triangle) | flat::bit(PrimitiveKind::quad);
-        scene_.list.rest_is_planar = (scene_.kinds & ~kPlanar) == 0;
-    }
     group.packed_error = accel::round_up(packed_error_);
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).

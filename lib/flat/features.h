@@ -25,6 +25,9 @@ inline constexpr bool kHasSmoothNormals = is_built("normals");
 
 constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
 
+inline constexpr unsigned kPlanarKinds =
+    bit(PrimitiveKind::triangle) | bit(PrimitiveKind::quad) | bit(PrimitiveKind::mesh);
+
 // The kinds of primitives that there may be in a tree.
 inline constexpr unsigned kBuiltKinds =
     ~((kHasMotion ? 0 : bit(PrimitiveKind::moving_sphere)) | (kHasInstances ? 0 : bit(PrimitiveKind::instance)) |

@@ -49,7 +49,6 @@ struct PrimitiveList {
     std::uint32_t planar_stride = 0, sphere_stride = 0;
     std::vector<float> planar, round;
     bool is_all = false;  // else there are more in the root's tree, where those that are listed do not stand
-    bool rest_is_planar = false;  // triangles and parallelograms alone, in no instance
     float rest_lower[3] = {}, rest_upper[3] = {};  // of what is in that tree
 
     bool empty() const { return entries.empty(); }

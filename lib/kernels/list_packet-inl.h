@@ -71,7 +71,8 @@ public:
             if ((odd_ >> r & 1) != 0 && ask_all_listed(scene_, rays_[r], queries_[r])) odd_ &= ~(1u << r);
         if (list_.is_all) return 0;
         std::uint32_t rest = active_ & meets_rest(ray);
-        if (Query::kFirstHit && rest != 0 && list_.rest_is_planar) rest &= ~ends_before_rest(rest);
+        const bool is_planar = (scene_.kinds & ~flat::kPlanarKinds) == 0;  // what stands in trees, and in no instance
+        if (Query::kFirstHit && rest != 0 && is_planar) rest &= ~ends_before_rest(rest);
         return odd_ | rest;
     }
 

@@ -28,7 +28,6 @@ constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
 constexpr unsigned kMeshesAndAsked =
     kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign) & flat::kBuiltKinds;
 constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
-constexpr unsigned kFlat = kinds(PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = flat::kBuiltKinds;
@@ -39,7 +38,7 @@ HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return visit(std::integral_constant<unsigned, kMeshes>{});
     if (covers(kMeshesAndAsked)) return visit(std::integral_constant<unsigned, kMeshesAndAsked>{});
-    if (covers(kFlat)) return visit(std::integral_constant<unsigned, kFlat>{});
+    if (covers(flat::kPlanarKinds)) return visit(std::integral_constant<unsigned, flat::kPlanarKinds>{});
     if (covers(kSpheres)) return visit(std::integral_constant<unsigned, kSpheres>{});
     if (covers(kStill)) return visit(std::integral_constant<unsigned, kStill>{});
     visit(std::integral_constant<unsigned, kAll>{});
@@ -213,19 +212,21 @@ bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count,
 
 template <class Query>
 void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    const auto lanes_from = [&](std::size_t first) {
+        return (std::uint32_t{1} << std::min(kPacket, count - first)) - 1;
+    };
     std::uint32_t open[kMostRays / kPacket + 1];  // by packets
     if (!scene.list.empty()) {
         search_list(scene, rays, count, queries, open);
         if (scene.list.is_all) return;
     } else {
-        std::fill(std::begin(open), std::end(open), (std::uint32_t{1} << kPacket) - 1);
+        for (std::size_t first = 0; first < count; first += kPacket) open[first / kPacket] = lanes_from(first);
     }
     const flat::Group& root = flat::group_at(scene, GroupId::root);
     // visit(i) for each open ray of the packet that starts at `first`.
     const auto for_open = [&](std::size_t first, const auto& visit) HWY_ATTR {
-        const std::size_t some = std::min(kPacket, count - first);
-        std::uint32_t lanes = open[first / kPacket] & ((std::uint32_t{1} << some) - 1);
-        for (; lanes != 0; lanes &= lanes - 1) visit(first + static_cast<std::size_t>(std::countr_zero(lanes)));
+        for (std::uint32_t lanes = open[first / kPacket]; lanes != 0; lanes &= lanes - 1)
+            visit(first + static_cast<std::size_t>(std::countr_zero(lanes)));
     };
     if (scene.kinds != kMeshes) {
         return with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
@@ -239,7 +240,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
     HWY_ALIGN Interleaved<Query> interleaved(scene);
     for (std::size_t first = 0; first < count; first += kPacket) {
         const std::size_t some = std::min(kPacket, count - first);
-        const bool are_all_open = (~open[first / kPacket] & ((std::uint32_t{1} << some) - 1)) == 0;
+        const bool are_all_open = open[first / kPacket] == lanes_from(first);
         if (some > 1 && are_all_open && are_alike(rays + first, some, spread, root) &&
             search_packet(scene, rays + first, some, queries + first))
             continue;
