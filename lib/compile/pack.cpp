@@ -179,7 +179,8 @@ private:
         static_assert(flat::kWidth == accel::kWidth);
         flat::Node to;
         for (std::size_t i = 0; i < flat::kWidth; ++i) {
-            for (std::size_t a = 0; a < 3; ++a) to.lower[a][i] = from.lower[a][i], to.upper[a][i] = from.upper[a][i];
+            for (std::size_t a = 0; a < 3; ++a)
+                to.planes[a][i] = from.lower[a][i], to.planes[3 + a][i] = from.upper[a][i];
             const std::uint32_t child = from.child[i];
             if (child == accel::WideNode::kAbsent)
                 to.child[i] = flat::kNothing;

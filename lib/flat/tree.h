@@ -20,7 +20,7 @@ inline constexpr Child kNothing = 0xffffffffu;
 
 // Boxes are scaled by Group::scale and rounded outward to float.
 struct alignas(64) Node {
-    float lower[3][kWidth], upper[3][kWidth];  // of the children; of an absent one +infinity and -infinity
+    float planes[6][kWidth];  // of the children: lower x y z, upper x y z; of an absent one +infinity and -infinity
     Child child[kWidth];
     // By the signs of a ray's direction, bit a for a negative direction[a]: the children as such rays tend to meet
     // them, four bits each, the FARTHEST lowest, absent ones first.

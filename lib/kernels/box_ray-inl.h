@@ -6,11 +6,21 @@
 #define LIMN_KERNELS_BOX_RAY_INL_H
 #endif
 
+#include <cstddef>
+
 #include "kernels/box_ray.h"
 #include "kernels/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
+
+// The four doubles that begin `offset` bytes into a ray. As bytes: they are no array.
+template <std::size_t kOffset, class D>
+HWY_INLINE hn::Vec<D> load_from(D d, const Ray& ray) {
+    static_assert(kOffset + 4 * sizeof(double) <= sizeof(Ray));
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&ray);
+    return hn::BitCast(d, hn::LoadU(hn::Repartition<std::uint8_t, D>(), bytes + kOffset));
+}
 
 // `ray` is what frame.ray holds: where it has just been copied to it cannot be loaded from at once; nor can `out`,
 // whose parts are stored one by one, be copied.
@@ -18,9 +28,9 @@ HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group&
 #if HWY_MAX_BYTES >= 32
     const hn::FixedTag<double, 4> wide;
     const hn::FixedTag<float, 4> d;
-    const auto origin = hn::LoadU(wide, &ray.origin.x);
+    const auto origin = load_from<offsetof(Ray, origin)>(wide, ray);
     const auto high = hn::DemoteTo(d, origin);
-    const auto direction = hn::DemoteTo(d, hn::LoadU(wide, &ray.direction.x));
+    const auto direction = hn::DemoteTo(d, load_from<offsetof(Ray, direction)>(wide, ray));
     hn::Store(high, d, out.high);
     hn::Store(direction, d, out.direction);
     hn::Store(hn::DemoteTo(d, hn::Sub(origin, hn::PromoteTo(wide, high))), d, out.low);

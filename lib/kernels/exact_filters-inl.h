@@ -6,6 +6,7 @@
 #define LIMN_KERNELS_EXACT_FILTERS_INL_H
 #endif
 
+#include "core/coordinate.h"
 #include "core/filter.h"
 #include "core/ray_frame.h"
 #include "core/sheared_ray.h"
@@ -248,11 +249,11 @@ HWY_INLINE SphereAnswers<D> filter_spheres(D d, const SphereQuestion<D>& q) {
 HWY_INLINE Decision settle_one(const RayFrame& frame, const Search& search, const Point3& center, double radius,
                                PlanarHit& hit) {
     const hn::CappedTag<double, 1> d;
-    const double* const o = &frame.ray.origin.x;
-    const double* const v = &frame.ray.direction.x;
+    const Ray& ray = frame.ray;
     SphereQuestion<hn::CappedTag<double, 1>> q;
     for (std::size_t a = 0; a < 3; ++a)
-        q.origin[a] = hn::Set(d, o[a]), q.direction[a] = hn::Set(d, v[a]), q.center[a] = hn::Set(d, (&center.x)[a]);
+        q.origin[a] = hn::Set(d, ray.origin[a]), q.direction[a] = hn::Set(d, ray.direction[a]),
+        q.center[a] = hn::Set(d, center[a]);
     q.radius = hn::Set(d, radius);
     q.origin_error = hn::Set(d, frame.origin_error), q.direction_error = hn::Set(d, frame.direction_error);
     q.t_min = hn::Set(d, search.t_min), q.t_max = hn::Set(d, search.t_max);
@@ -269,11 +270,11 @@ HWY_INLINE Decision settle_one(const RayFrame& frame, const Search& search, cons
     PlanarQuestion<hn::CappedTag<double, 1>> q;
     for (std::size_t k = 0; k < 3; ++k) {
         const unsigned axis = axes.of[k];
-        q.origin[k] = hn::Set(d, (&frame.ray.origin.x)[axis]);
-        q.direction[k] = hn::Set(d, (&frame.ray.direction.x)[axis]);
-        q.vertex[k] = hn::Set(d, (&a.x)[axis]);
-        q.vertex[3 + k] = hn::Set(d, (&b.x)[axis]);
-        q.vertex[6 + k] = hn::Set(d, (&c.x)[axis]);
+        q.origin[k] = hn::Set(d, coordinate(frame.ray.origin, axis));
+        q.direction[k] = hn::Set(d, coordinate(frame.ray.direction, axis));
+        q.vertex[k] = hn::Set(d, coordinate(a, axis));
+        q.vertex[3 + k] = hn::Set(d, coordinate(b, axis));
+        q.vertex[6 + k] = hn::Set(d, coordinate(c, axis));
     }
     q.origin_error = hn::Set(d, frame.origin_error), q.direction_error = hn::Set(d, frame.direction_error);
     q.t_min = hn::Set(d, search.t_min), q.t_max = hn::Set(d, search.t_max);

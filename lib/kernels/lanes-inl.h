@@ -31,6 +31,11 @@ HWY_INLINE std::uint32_t bits(D d, hn::Mask<D> mask) {
 }
 HWY_INLINE std::uint32_t bits(M mask) { return bits(Lanes(), mask); }
 
+// From a row of a block, whose words stand for floats.
+HWY_INLINE V load_floats(const std::uint32_t* words) {
+    return hn::BitCast(Lanes(), hn::LoadU(hn::RebindToUnsigned<Lanes>(), words));
+}
+
 template <class T>
 HWY_INLINE T max_abs(T a, T b, T c) {
     return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c)));

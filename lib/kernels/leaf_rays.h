@@ -20,7 +20,8 @@ HWY_INLINE float absolute_error(const BoxRay& ray, float coordinate_error) {
 // Without branches, which could not be predicted: magnitudes compare as their bits do.
 HWY_INLINE unsigned longest_axis(const float* v) {
     const auto bits = [&](std::size_t a) { return std::bit_cast<std::uint32_t>(v[a]) << 1; };
-    const unsigned is_y = bits(1) > bits(0), is_z = (bits(2) > bits(0)) & (bits(2) > bits(1));
+    const unsigned is_y = bits(1) > bits(0), over_x = bits(2) > bits(0), over_y = bits(2) > bits(1);
+    const unsigned is_z = over_x & over_y;
     return is_z * 2 + (is_y & ~is_z);
 }
 

@@ -36,8 +36,8 @@ public:
         for (std::size_t i = 0; i < kPacket; ++i) {
             const Ray& ray = rays[i < count ? i : 0];
             for (std::size_t a = 0; a < 3; ++a) {
-                origin_[a][i] = (&ray.origin.x)[a];
-                direction_[a][i] = (&ray.direction.x)[a];
+                origin_[a][i] = ray.origin[a];
+                direction_[a][i] = ray.direction[a];
             }
             t_min_[i] = ray.t_min, t_max_[i] = i < count ? queries[i].limit() : -kInfinity;
         }

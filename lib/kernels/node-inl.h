@@ -9,6 +9,7 @@
 #include <hwy/cache_control.h>
 
 #include <bit>
+#include <cstddef>
 
 #include "accel/wide_bvh.h"
 #include "flat/scene.h"
@@ -72,9 +73,10 @@ struct Eight {
 };
 
 HWY_INLINE void prefetch(const flat::Scene& scene, flat::Child child) {
-    const char* leaf = reinterpret_cast<const char*>(scene.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf));
-    const char* node = reinterpret_cast<const char*>(scene.nodes.data() + child);
-    const char* first = (child & flat::kLeaf) != 0 ? leaf : node;
+    const bool is_leaf = (child & flat::kLeaf) != 0;
+    const void* const at = is_leaf ? static_cast<const void*>(scene.blocks.data()) : scene.nodes.data();
+    const std::size_t offset = is_leaf ? std::size_t{8} * (child & ~flat::kLeaf) : sizeof(flat::Node) * child;
+    const auto* const first = static_cast<const std::byte*>(at) + offset;
     for (std::size_t line = 0; line < 4; ++line) hwy::Prefetch(first + 64 * line);
 }
 
@@ -121,7 +123,7 @@ HWY_INLINE flat::Child choose(const flat::Scene& scene, const flat::Node& node, 
 // BoxRay in vectors.
 struct NodeTest {
     V inverse[3], near_shift[3], far_shift[3], t_min;
-    std::size_t near_row[3], far_row[3];  // of lower and upper as one array of six rows
+    std::size_t near_plane[3], far_plane[3];  // of the six of a box
     unsigned octant;
 
     explicit NodeTest(const BoxRay& ray) : t_min(hn::Set(Lanes(), ray.t_min)), octant(ray.octant) {
@@ -130,34 +132,35 @@ struct NodeTest {
             near_shift[a] = hn::Set(Lanes(), ray.near_shift[a]);
             far_shift[a] = hn::Set(Lanes(), ray.far_shift[a]);
             const bool negative = (ray.octant >> a & 1) != 0;
-            near_row[a] = a + (negative ? 3 : 0);
-            far_row[a] = a + (negative ? 0 : 3);
+            near_plane[a] = a + (negative ? 3 : 0);
+            far_plane[a] = a + (negative ? 0 : 3);
         }
     }
 
-    // `row`: how long the rows are.
-    HWY_INLINE V enter(const float* planes, std::size_t row) const {
-        const Lanes d;
-        const auto x = hn::MulAdd(hn::LoadU(d, planes + near_row[0] * row), inverse[0], near_shift[0]);
-        const auto y = hn::MulAdd(hn::LoadU(d, planes + near_row[1] * row), inverse[1], near_shift[1]);
-        const auto z = hn::MulAdd(hn::LoadU(d, planes + near_row[2] * row), inverse[2], near_shift[2]);
+    // plane(p): that of the six, of several boxes.
+    template <class Plane>
+    HWY_INLINE V enter(const Plane& plane) const {
+        const auto x = hn::MulAdd(plane(near_plane[0]), inverse[0], near_shift[0]);
+        const auto y = hn::MulAdd(plane(near_plane[1]), inverse[1], near_shift[1]);
+        const auto z = hn::MulAdd(plane(near_plane[2]), inverse[2], near_shift[2]);
         return hn::Max(hn::Max(x, y), hn::Max(z, t_min));
     }
-    HWY_INLINE V leave(const float* planes, std::size_t row, V t_max) const {
-        const Lanes d;
-        const auto x = hn::MulAdd(hn::LoadU(d, planes + far_row[0] * row), inverse[0], far_shift[0]);
-        const auto y = hn::MulAdd(hn::LoadU(d, planes + far_row[1] * row), inverse[1], far_shift[1]);
-        const auto z = hn::MulAdd(hn::LoadU(d, planes + far_row[2] * row), inverse[2], far_shift[2]);
+    template <class Plane>
+    HWY_INLINE V leave(const Plane& plane, V t_max) const {
+        const auto x = hn::MulAdd(plane(far_plane[0]), inverse[0], far_shift[0]);
+        const auto y = hn::MulAdd(plane(far_plane[1]), inverse[1], far_shift[1]);
+        const auto z = hn::MulAdd(plane(far_plane[2]), inverse[2], far_shift[2]);
         return hn::Min(hn::Min(x, y), hn::Min(z, t_max));
     }
 
     // Which of the boxes in a block are met, and where.
     HWY_INLINE Candidates test_boxes(const flat::BlockView& block, std::size_t count, float t_max) const {
         const Lanes d;
-        const auto* rows = reinterpret_cast<const float*>(block.rows(count));
+        const std::uint32_t* const rows = block.rows(count);
         Candidates found;
         for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-            const auto near = enter(rows + i, count), far = leave(rows + i, count, hn::Set(d, t_max));
+            const auto plane = [&](std::size_t p) HWY_ATTR { return load_floats(rows + p * count + i); };
+            const auto near = enter(plane), far = leave(plane, hn::Set(d, t_max));
             found.add(hn::And(hn::Le(near, far), hn::FirstN(d, count - i)), hn::FirstN(d, 0), near, far, i);
         }
         return found;
@@ -169,9 +172,9 @@ struct NodeTest {
         const flat::Node& node = scene.nodes[at];
         Eight eight;
         for (std::size_t i = 0; i < kVectors; ++i) {
-            const float* planes = node.lower[0] + i * hn::Lanes(d);
-            eight.near[i] = enter(planes, flat::kWidth);
-            eight.met[i] = hn::Le(eight.near[i], leave(planes, flat::kWidth, hn::Set(d, t_max)));
+            const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(d, node.planes[p] + i * hn::Lanes(d)); };
+            eight.near[i] = enter(plane);
+            eight.met[i] = hn::Le(eight.near[i], leave(plane, hn::Set(d, t_max)));
         }
         return choose(scene, node, octant, eight, stack);
     }

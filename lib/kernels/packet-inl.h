@@ -53,8 +53,8 @@ public:
             auto near = t_min_, far = hn::Set(d, t_max);
             for (std::size_t a = 0; a < 3; ++a) {
                 const bool is_negative = (octant_ >> a & 1) != 0;
-                const float* lower = node.lower[a] + i * hn::Lanes(d);
-                const float* upper = node.upper[a] + i * hn::Lanes(d);
+                const float* lower = node.planes[a] + i * hn::Lanes(d);
+                const float* upper = node.planes[3 + a] + i * hn::Lanes(d);
                 const auto to_near = hn::Sub(hn::Load(d, is_negative ? upper : lower), near_from_[a]);
                 const auto to_far = hn::Sub(hn::Load(d, is_negative ? lower : upper), far_from_[a]);
                 near = hn::Max(near, hn::Min(hn::Mul(to_near, slow_[a]), hn::Mul(to_near, fast_[a])));

@@ -97,20 +97,18 @@ template <bool kQuad>
 HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t count, const PlanarRay& ray, float t_min,
                                   float t_max) {
     const Lanes d;
-    const auto* rows = reinterpret_cast<const float*>(block.rows(count));
+    const std::uint32_t* const rows = block.rows(count);
     const auto high_x = hn::Set(d, ray.high[0]), low_x = hn::Set(d, ray.low[0]);
     const auto high_y = hn::Set(d, ray.high[1]), low_y = hn::Set(d, ray.low[1]);
     const auto high_z = hn::Set(d, ray.high[2]), low_z = hn::Set(d, ray.low[2]);
     const auto shear_x = hn::Set(d, ray.shear_x), shear_y = hn::Set(d, ray.shear_y);
-    const float* x = rows + ray.x * count;
-    const float* y = rows + ray.y * count;
-    const float* z = rows + ray.z * count;
+    const std::uint32_t *x = rows + ray.x * count, *y = rows + ray.y * count, *z = rows + ray.z * count;
     const std::size_t vertex = 3 * count;
 
     Candidates found;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto seen = [&](const float* row, auto high, auto low) {
-            return hn::Sub(hn::Sub(hn::LoadU(d, row + i), high), low);
+        const auto seen = [&](const std::uint32_t* row, auto high, auto low) {
+            return hn::Sub(hn::Sub(load_floats(row + i), high), low);
         };
         SeenVertices<V> p;
         p.az = seen(z, high_z, low_z), p.bz = seen(z + vertex, high_z, low_z);
@@ -134,7 +132,7 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
         const auto dropped = hn::Or(hn::Gt(near, hn::Set(d, t_max)), hn::Lt(far, hn::Set(d, t_min)));
         open = hn::AndNot(hn::Or(missed, dropped), open);
         if (ray.starts_at_origin && !hn::AllFalse(d, hn::And(open, hn::Lt(near, hn::Zero(d))))) {
-            const auto load = [&](const float* row) HWY_ATTR { return hn::LoadU(d, row + i); };
+            const auto load = [&](const std::uint32_t* row) HWY_ATTR { return load_floats(row + i); };
             const auto ux = hn::Sub(load(x + vertex), load(x)), vx = hn::Sub(load(x + 2 * vertex), load(x)),
                        uy = hn::Sub(load(y + vertex), load(y)), vy = hn::Sub(load(y + 2 * vertex), load(y)),
                        uz = hn::Sub(load(z + vertex), load(z)), vz = hn::Sub(load(z + 2 * vertex), load(z));

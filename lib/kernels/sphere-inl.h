@@ -19,10 +19,10 @@ template <bool kMoving>
 HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t count, const RoundRay& ray, float time,
                                    float t_min, float t_max) {
     const Lanes d;
-    const auto* rows = reinterpret_cast<const float*>(block.rows(count));
+    const std::uint32_t* const rows = block.rows(count);
     Candidates found;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto row = [&](std::size_t r) { return hn::LoadU(d, rows + r * count + i); };
+        const auto row = [&](std::size_t r) { return load_floats(rows + r * count + i); };
         const auto seen = [&](std::size_t a) {
             auto center = row(a);
             if constexpr (kMoving) center = hn::MulAdd(hn::Set(d, time), hn::Sub(row(3 + a), center), center);

@@ -25,14 +25,13 @@ public:
         const std::size_t i = size_++;
         const Ray& ray = frame.ray;
         const PermutedAxes axes(ray.direction);
-        const double* const o = &ray.origin.x;
-        const double* const d = &ray.direction.x;
         for (std::size_t k = 0; k < 3; ++k) {
-            origin_[k][i] = o[axes.of[k]];
-            direction_[k][i] = d[axes.of[k]];
-            vertex_[k][i] = (&a.x)[axes.of[k]];
-            vertex_[3 + k][i] = (&b.x)[axes.of[k]];
-            vertex_[6 + k][i] = (&c.x)[axes.of[k]];
+            const unsigned axis = axes.of[k];
+            origin_[k][i] = coordinate(ray.origin, axis);
+            direction_[k][i] = coordinate(ray.direction, axis);
+            vertex_[k][i] = coordinate(a, axis);
+            vertex_[3 + k][i] = coordinate(b, axis);
+            vertex_[6 + k][i] = coordinate(c, axis);
         }
         origin_error_[i] = frame.origin_error, direction_error_[i] = frame.direction_error;
         t_min_[i] = search.t_min, t_max_[i] = search.t_max;

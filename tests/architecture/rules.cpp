@@ -191,6 +191,24 @@ Violations check_flat(const SourceTree& tree) {
     return found;
 }
 
+Violations check_pointers(const SourceTree& tree) {
+    static const std::regex coordinate(R"(&[A-Za-z_]\w*((\.|->)\w+|\[\w*\])*(\.|->)[xyz]\b)");  // `a & b.x` has spaces
+    static const std::regex indexed(R"(\(&\w+((\.|->|\[)[\w\]]+)+\)\s*\[)");
+    static const std::regex cast(R"(\breinterpret_cast\s*<(?!\s*(const\s+)?)"
+                                 R"((char|unsigned char|std::byte|std::u?int8_t|std::u?intptr_t)\b)[^>]*>)");
+    // Highway gathers from a pointer to the kind of number that lies there, among others.
+    static const std::regex gathers(R"(lib/kernels/light_choice\.cpp)");
+    Violations found;
+    for (const SourceFile& file : tree) {
+        if (!is_public(file) && !is_lib(file)) continue;
+        find_all(file, coordinate, "no pointer to one coordinate reaches another", found);
+        find_all(file, indexed, "no pointer to a member reaches another", found);
+        if (!std::regex_match(file.path, gathers))
+            find_all(file, cast, "objects are read as what they are, or as bytes", found);
+    }
+    return found;
+}
+
 Violations check_lengths(const SourceTree& tree) {
     static const std::regex figure(R"(examples/figures/fig\d\d_\w+\.cpp)"), custom(R"(examples/custom_\w+\.cpp)");
     Violations found;

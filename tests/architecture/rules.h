@@ -30,6 +30,10 @@ Violations check_virtuals(const SourceTree& tree);
 /// lib/flat has no virtual function and no pointer to a described object.
 Violations check_flat(const SourceTree& tree);
 
+/// In include/limn and lib no pointer to a coordinate or other member is taken in order to reach the next one, and no
+/// object is read through a pointer to another type but as bytes: compilers make use of both being undefined.
+Violations check_pointers(const SourceTree& tree);
+
 /// Files can be read in one sitting: 400 lines; 80 in cmake/, 25 and 60 for the examples, 60 of code for a figure.
 Violations check_lengths(const SourceTree& tree);
 

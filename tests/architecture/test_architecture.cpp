@@ -52,6 +52,10 @@ TEST_CASE("The flat scene has no virtual function and no pointer to an object", 
     require_none(check_flat(the_house()));
 }
 
+TEST_CASE("No pointer reaches beyond the member that it was taken of", "[architecture]") {
+    require_none(check_pointers(the_house()));
+}
+
 TEST_CASE("Every file can be read in one sitting", "[architecture]") { require_none(check_lengths(the_house())); }
 
 TEST_CASE("The floors stand in the architecture paper word for word", "[architecture]") {
@@ -168,6 +172,27 @@ TEST_CASE("An object in the flat scene is reported", "[architecture]") {
     CHECK(check_flat(tree) == Violations{"lib/flat/a.h:2: dispatch in the flat scene: virtual",
                                          "lib/flat/a.h:1: a described object in the flat scene: Material*",
                                          "lib/flat/b.h:1: a described object in the flat scene: _ptr<const Hittable"});
+}
+
+TEST_CASE("A pointer that reaches beyond its member is reported", "[architecture]") {
+    const SourceTree tree{
+        {"lib/kernels/a.h",
+         "double d = (&v.x)[axis];\nconst double* p = &ray.origin.x;\nload(&rays[i].direction.x);\nload(&p->y, &x);\n"},
+        {"lib/kernels/b.h",
+         "auto* f = reinterpret_cast<const float*>(words);\n"
+         "auto* c = reinterpret_cast<const char*>(words);\nauto* g = (&t.row)[1];\nvoid h(int (&row)[2]);\n"},
+        {"lib/kernels/light_choice.cpp", "auto* f = reinterpret_cast<const float*>(nodes);\n"},
+        {"lib/kernels/c.h", "bool b = a.y && p.x;\nauto n = bits & m.x;\nauto* q = &x;\nfloat& r = v.x;\n"},
+        {"apps/bench/d.cpp", "double d = (&v.x)[1];\n"}};
+    CHECK(check_pointers(tree) ==
+          Violations{"lib/kernels/a.h:1: no pointer to one coordinate reaches another: &v.x",
+                     "lib/kernels/a.h:2: no pointer to one coordinate reaches another: &ray.origin.x",
+                     "lib/kernels/a.h:3: no pointer to one coordinate reaches another: &rays[i].direction.x",
+                     "lib/kernels/a.h:4: no pointer to one coordinate reaches another: &p->y",
+                     "lib/kernels/a.h:1: no pointer to a member reaches another: (&v.x)[",
+                     "lib/kernels/b.h:3: no pointer to a member reaches another: (&t.row)[",
+                     "lib/kernels/b.h:1: objects are read as what they are, or as bytes: "
+                     "reinterpret_cast<const float*>"});
 }
 
 TEST_CASE("A file that is too long is reported", "[architecture]") {

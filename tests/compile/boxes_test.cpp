@@ -68,7 +68,7 @@ TEST_CASE("CompiledScene: a box in float is the smallest around the one in doubl
         const double scale = compiled.flat().groups.front().scale;
         Box box = ball->bounds();
         for (std::size_t a = 0; a < 3; ++a) {
-            const float lower = node.lower[a][0], upper = node.upper[a][0];
+            const float lower = node.planes[a][0], upper = node.planes[3 + a][0];
             box.lower[a] *= scale, box.upper[a] *= scale;
             CHECK((lower <= box.lower[a] && std::nextafter(lower, kFar) > box.lower[a]));
             CHECK((upper >= box.upper[a] && std::nextafter(upper, -kFar) < box.upper[a]));

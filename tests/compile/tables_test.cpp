@@ -47,15 +47,15 @@ void visit(const flat::Scene& scene, flat::Child child, Seen& seen, int depth = 
     const flat::Node& node = scene.nodes.at(child);
     for (std::size_t i = 0; i < flat::kWidth; ++i) {
         if (node.child[i] == flat::kNothing) {
-            CHECK(node.lower[0][i] > node.upper[0][i]);
+            CHECK(node.planes[0][i] > node.planes[3][i]);
             continue;
         }
         if ((node.child[i] & flat::kLeaf) == 0) {
             const flat::Node& child_node = scene.nodes.at(node.child[i]);
             for (std::size_t k = 0; k < flat::kWidth && child_node.child[k] != flat::kNothing; ++k)
                 for (std::size_t a = 0; a < 3; ++a) {
-                    CHECK(child_node.lower[a][k] >= node.lower[a][i]);
-                    CHECK(child_node.upper[a][k] <= node.upper[a][i]);
+                    CHECK(child_node.planes[a][k] >= node.planes[a][i]);
+                    CHECK(child_node.planes[3 + a][k] <= node.planes[3 + a][i]);
                 }
         }
         visit(scene, node.child[i], seen, depth + 1);
@@ -118,8 +118,8 @@ TEST_CASE("Trees: in a node the boxes are those of the shapes, rounded outward t
         const flat::Node& node = scene.nodes.at(scene.groups.at(0).root);
         const double lower = x, upper = x + std::abs(x), scale = scene.groups[0].scale;
         const float inf = std::numeric_limits<float>::infinity();
-        CHECK((node.lower[0][0] <= scale * lower && std::nextafter(node.lower[0][0], inf) > scale * lower));
-        CHECK((node.upper[0][0] >= scale * upper && std::nextafter(node.upper[0][0], -inf) < scale * upper));
+        CHECK((node.planes[0][0] <= scale * lower && std::nextafter(node.planes[0][0], inf) > scale * lower));
+        CHECK((node.planes[3][0] >= scale * upper && std::nextafter(node.planes[3][0], -inf) < scale * upper));
         CHECK(scene.groups[0].bounds == Box{{lower, 0.5, 0.5}, {upper, 1, 1}});
         CHECK(scene.groups[0].extent == std::max(1.0, std::max(std::abs(lower), std::abs(upper))));
     }

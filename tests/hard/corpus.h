@@ -126,6 +126,20 @@ inline void add_instances(Corpus& c, Random& random) {
         c.add(std::make_shared<Instance>(mesh, m));  // these overlap in many vertices
 }
 
+/// Walls of quads around a mesh: shapes in a list beside a tree.
+inline void add_room(Corpus& c, Random& random) {
+    add_meshes(c);
+    const Vec3 side[3] = {{40, 0.125, 0}, {0, 40, 0.25}, {0.5, 0, 40}};
+    for (std::size_t a = 0; a < 3; ++a)
+        for (const double sign : {-1.0, 1.0}) {
+            const Vec3 &u = side[a], &v = side[(a + 1) % 3];
+            Point3 center = draw_point(random, 1);
+            center[(a + 2) % 3] += sign * 9;
+            c.add(std::make_shared<Quad>(center - 0.5 * u - 0.5 * v, u, v, nullptr));
+            c.points.push_back(center);
+        }
+}
+
 }  // namespace corpus
 
 inline Corpus make_corpus() {
@@ -137,6 +151,13 @@ inline Corpus make_corpus() {
     corpus::add_instances(c, random);
     return c;
 }
+
+/// The same, of some kinds of shape alone: compiled scenes have code of their own for these.
+struct CorpusPart {
+    const char* name;
+    void (*add)(Corpus&, Random&);
+    std::string hits;  // the digest of the answers
+};
 
 /// Ray number `i` of the corpus; every tenth is of the same kind.
 inline Ray corpus_ray(const Corpus& c, Random& random, int i) {

@@ -1,0 +1,34 @@
+// The searches, of which each instruction set has its own. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_SEARCHES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_SEARCHES_INL_H
+#undef LIMN_KERNELS_SEARCHES_INL_H
+#else
+#define LIMN_KERNELS_SEARCHES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "kernels/queries.h"
+#include "kernels/traverse.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+// A group of primitives, numbered from `first` on, against a ray.
+void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                    Closest& query);
+void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                Any<false>& query);
+void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                     Any<true>& query);
+void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                  Every& query);
+
+// The whole scene against up to kMostRays rays.
+void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries);
+void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any<false>* queries);
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

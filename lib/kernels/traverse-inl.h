@@ -1,0 +1,286 @@
+// The searches for one instruction set. Per-target include guard, as Highway has it.
+#if defined(LIMN_KERNELS_TRAVERSE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_KERNELS_TRAVERSE_INL_H
+#undef LIMN_KERNELS_TRAVERSE_INL_H
+#else
+#define LIMN_KERNELS_TRAVERSE_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "kernels/list_packet-inl.h"
+#include "kernels/list_ray-inl.h"
+#include "kernels/packet-inl.h"
+#include "kernels/searches-inl.h"
+#include "kernels/traversal-inl.h"
+#include "kernels/winners-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::kernels::HWY_NAMESPACE {
+
+template <class... Kinds>
+constexpr unsigned kinds(Kinds... kind) {
+    return (flat::bit(kind) | ...);
+}
+
+// The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
+constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
+constexpr unsigned kMeshesAndAsked =
+    kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign) & flat::kBuiltKinds;
+constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
+constexpr unsigned kStill =
+    kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
+constexpr unsigned kAll = flat::kBuiltKinds;
+
+// visit(the smallest of the sets that has all kinds of the scene).
+template <class Visit>
+HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
+    const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
+    if (covers(kMeshes)) return visit(std::integral_constant<unsigned, kMeshes>{});
+    if (covers(kMeshesAndAsked)) return visit(std::integral_constant<unsigned, kMeshesAndAsked>{});
+    if (covers(flat::kPlanarKinds)) return visit(std::integral_constant<unsigned, flat::kPlanarKinds>{});
+    if (covers(kSpheres)) return visit(std::integral_constant<unsigned, kSpheres>{});
+    if (covers(kStill)) return visit(std::integral_constant<unsigned, kStill>{});
+    visit(std::integral_constant<unsigned, kAll>{});
+}
+
+template <unsigned kKinds, class Query>
+HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
+                             std::uint64_t first_number, Query& query) {
+    BoxRay box;
+    set_up(ray, frame, group, box);
+    Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
+}
+
+template <class Query>
+void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
+            Query& query) {
+    if constexpr (!Query::kEveryHit) {
+        if (id == GroupId::root && !scene.list.empty()) {
+            search_list(scene, ray, frame, query);
+            if (scene.list.is_all || query.ended()) return;
+        }
+    }
+    const flat::Group& group = flat::group_at(scene, id);
+    with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
+                          HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query); });
+}
+
+constexpr float kPacketTriangles = 4;
+
+// How far rays may part, in their directions and of the extent, to be traced together: over more triangles than there
+// are lanes a packet does more work than its rays one by one.
+float packet_spread(const flat::Scene& scene) {
+    const auto across = std::sqrt(static_cast<float>(scene.stored_primitives));  // triangles from side to side
+    return std::min(1 / 16.0f, kPacketTriangles / across);
+}
+
+// Whether the rays go much the same way, so that they meet much the same boxes.
+bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Group& root) {
+    const Ray& first = rays[0];
+    const double near = double{spread} * max_abs(first.direction), beside = double{spread} * root.extent;
+    for (std::size_t i = 1; i < count; ++i)
+        if (!(max_abs(rays[i].direction - first.direction) < near && max_abs(rays[i].origin - first.origin) < beside))
+            return false;
+    return true;
+}
+
+// Rays that go different ways, some at a time by turns: while what one needs comes from memory, others go on.
+template <class Query>
+class Interleaved {
+public:
+    explicit Interleaved(const flat::Scene& scene) : scene_(scene), root_(flat::group_at(scene, GroupId::root)) {}
+
+    HWY_INLINE void add(const Ray& ray, Query& query) {
+        if (root_.root == flat::kNothing) return;
+        while (active_ == kSlots) turn();
+        Slot& slot = slots_[order_[active_++]];
+        slot.frame.emplace(ray);
+        set_up(ray, *slot.frame, root_, slot.box);
+        slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query);
+        slot.stack.size = 0;
+        slot.next = root_.root;
+    }
+
+    void finish() {
+        while (active_ > 0) turn();
+    }
+
+private:
+    static constexpr std::size_t kSlots = 8;
+    using One = Traversal<kMeshes, Query>;
+    struct Slot {
+        std::optional<RayFrame> frame;
+        BoxRay box;
+        alignas(64) std::byte storage[sizeof(One)];
+        One* traversal;
+        Stack stack;
+        flat::Child next;
+    };
+
+    HWY_INLINE void turn() {
+        for (std::size_t i = 0; i < active_;) {
+            Slot& slot = slots_[order_[i]];
+            if (slot.traversal->advance(slot.stack, slot.next))
+                ++i;
+            else
+                std::swap(order_[i], order_[--active_]);
+        }
+    }
+
+    const flat::Scene& scene_;
+    const flat::Group& root_;
+    std::size_t active_ = 0;
+    std::array<std::uint8_t, kSlots> order_ = [] {
+        std::array<std::uint8_t, kSlots> all{};
+        for (std::size_t i = 0; i < kSlots; ++i) all[i] = static_cast<std::uint8_t>(i);
+        return all;
+    }();
+    std::array<Slot, kSlots> slots_;
+};
+
+// The exact answers for the winners of a list.
+void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count, const std::uint32_t* winners,
+                   Closest* queries) {
+    ManyWinners quads, triangles;
+    ManySphereWinners spheres;
+    const auto answer = [&](std::uint32_t r, Decision decision, const PlanarHit& hit) {
+        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
+        if (decision == Decision::hit) queries[r].report(hit, e.number, false);
+        if (decision == Decision::unsure) ask_listed(scene, e, rays[r], queries[r]);
+    };
+    const auto add = [&](const PrimitiveList::Entry& e, const RayFrame& frame, std::uint32_t r) {
+        const Search search{frame.ray.t_min, queries[r].limit()};
+        if (e.kind == PrimitiveKind::quad) {
+            const flat::Quad& q = scene.quads[e.row];
+            quads.add(frame, search, q.corner, q.edge_u, q.edge_v, r);
+            if (quads.is_full()) quads.settle<true>(answer);
+        } else if (e.kind == PrimitiveKind::sphere) {
+            spheres.add(frame, search, e.corner, e.radius, r);
+            if (spheres.is_full()) spheres.settle(answer);
+        } else {
+            const TriangleVertices t = triangle_listed(scene, e);
+            triangles.add(frame, search, t.a, t.b, t.c, r);
+            if (triangles.is_full()) triangles.settle<false>(answer);
+        }
+    };
+    for (std::uint32_t r = 0; r < count; ++r) {
+        if (winners[r] == ListPacket<Closest>::kNone) continue;
+        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
+        const RayFrame frame(rays[r]);
+        if (!e.is_instanced)
+            add(e, frame, r);
+        else
+            inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) {
+                if (is_usable(inner.ray)) add(e, inner, r);
+            });
+    }
+    quads.settle<true>(answer);
+    triangles.settle<false>(answer);
+    spheres.settle(answer);
+}
+void settle_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
+
+// `rest`: by packets, those that may still meet what is not listed.
+template <class Query>
+void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* rest) {
+    HWY_ALIGN std::uint32_t winners[kMostRays + kPacket];
+    for (std::size_t first = 0; first < count; first += kPacket)
+        rest[first / kPacket] =
+            ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
+                .run();
+    settle_listed(scene, rays, count, winners, queries);
+}
+
+// False if the rays cannot be traced as a packet.
+template <class Query>
+bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    std::array<BoxRay, kPacket> boxes;
+    std::vector<RayFrame> frames;
+    frames.reserve(kPacket);
+    for (std::size_t i = 0; i < count; ++i) {
+        frames.emplace_back(rays[i]);
+        set_up(rays[i], frames[i], root, boxes[i]);
+        if (!boxes[i].is_taken_as_it_is || boxes[i].octant != boxes[0].octant ||
+            longest_axis(boxes[i].direction) != longest_axis(boxes[0].direction))
+            return false;
+    }
+    PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), count, queries).run();
+    return true;
+}
+
+template <class Query>
+void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+    const auto lanes_from = [&](std::size_t first) {
+        return (std::uint32_t{1} << std::min(kPacket, count - first)) - 1;
+    };
+    std::uint32_t open[kMostRays / kPacket + 1];  // by packets
+    if (!scene.list.empty()) {
+        search_list(scene, rays, count, queries, open);
+        if (scene.list.is_all) return;
+    } else {
+        for (std::size_t first = 0; first < count; first += kPacket) open[first / kPacket] = lanes_from(first);
+    }
+    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    // visit(i) for each open ray of the packet that starts at `first`.
+    const auto for_open = [&](std::size_t first, const auto& visit) HWY_ATTR {
+        for (std::uint32_t lanes = open[first / kPacket]; lanes != 0; lanes &= lanes - 1)
+            visit(first + static_cast<std::size_t>(std::countr_zero(lanes)));
+    };
+    if (scene.kinds != kMeshes) {
+        return with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+            for (std::size_t first = 0; first < count; first += kPacket)
+                for_open(first, [&](std::size_t i) HWY_ATTR {
+                    search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+                });
+        });
+    }
+    const float spread = packet_spread(scene);
+    HWY_ALIGN Interleaved<Query> interleaved(scene);
+    for (std::size_t first = 0; first < count; first += kPacket) {
+        const std::size_t some = std::min(kPacket, count - first);
+        const bool are_all_open = open[first / kPacket] == lanes_from(first);
+        if (some > 1 && are_all_open && are_alike(rays + first, some, spread, root) &&
+            search_packet(scene, rays + first, some, queries + first))
+            continue;
+        for_open(first, [&](std::size_t i) HWY_ATTR {
+            if (scene.is_larger_than_cache)
+                interleaved.add(rays[i], queries[i]);
+            else
+                search_group<kMeshes>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+        });
+    }
+    interleaved.finish();
+}
+
+void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {
+    search_many(scene, rays, count, queries);
+}
+void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any<false>* queries) {
+    search_many(scene, rays, count, queries);
+}
+
+void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                    Closest& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                Any<false>& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                     Any<true>& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                  Every& query) {
+    search(scene, id, ray, frame, first, query);
+}
+
+}  // namespace limn::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
