@@ -1,5 +1,5 @@
 // The codec of limn's programs: that of a module, which is loaded when a picture is to be read or written. OpenImageIO
-// comes with 260 libraries, which take ten times as long to load as most commands take.
+// comes with 260 libraries, which take a fifth of a second and more to load.
 #include "io/image_codec.h"
 #include "module.h"
 

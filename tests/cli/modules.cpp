@@ -54,8 +54,8 @@ TEST_CASE("Modules: OpenImageIO is loaded for pictures, and for nothing else", "
     const Folder folder;
     const std::string model = folder.write("a.obj", house_obj()), picture = folder.path("a.png");
     save_image(Image(2, 1), picture);
-    const auto loads = [](const Words& arguments) {
-        Words words = {"LD_DEBUG=files", LIMN_PROGRAM};
+    const auto loads = [](const Words& arguments, const std::string& program = LIMN_PROGRAM) {
+        Words words = {"LD_DEBUG=files", program};
         words.insert(words.end(), arguments.begin(), arguments.end());
         const Outcome outcome = run("/usr/bin/env", words);
         CHECK(outcome.status == 0);
@@ -67,6 +67,7 @@ TEST_CASE("Modules: OpenImageIO is loaded for pictures, and for nothing else", "
     CHECK_FALSE(loads({"render", "--help"}));
     CHECK_FALSE(loads({"info", model}));
     CHECK_FALSE(loads({"trace", model}));
+    CHECK_FALSE(loads({"--help"}, TINY_FIGURE_PROGRAM));
     CHECK(loads({"info", picture}));
     CHECK(loads({"compare", picture, picture}));
     CHECK(loads({"render", model, "-o", picture, "--size", "2x2", "--spp", "1"}));
