@@ -4,9 +4,11 @@ if(PROJECT_IS_TOP_LEVEL)
     if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
         set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
     endif()
-    set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
     set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
     option(LIMN_WARNINGS_AS_ERRORS "Treat warnings in limn's own code as errors" ON)
+endif()
+if(NOT CMAKE_RUNTIME_OUTPUT_DIRECTORY)  # programs and the modules that they load lie together
+    set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 endif()
 
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

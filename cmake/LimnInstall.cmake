@@ -11,9 +11,11 @@ install(TARGETS limn_core limn_io limn_limn EXPORT limn
 install(EXPORT limn NAMESPACE limn:: FILE limn-targets.cmake DESTINATION "${package_dir}")
 if(LIMN_BUILD_APPS)
     install(TARGETS limn RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-    if(TARGET limn_bench_embree)
-        install(TARGETS limn_bench_embree LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/limn")
-    endif()
+    foreach(module limn_openimageio limn_bench_embree)
+        if(TARGET ${module})
+            install(TARGETS ${module} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/limn")
+        endif()
+    endforeach()
 endif()
 
 configure_package_config_file(

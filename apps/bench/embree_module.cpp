@@ -7,6 +7,7 @@
 #include "bench/embree_subjects.h"
 #include "bench/peer_module.h"
 #include "limn/core/error.h"
+#include "module.h"
 
 namespace limn::bench {
 
@@ -141,6 +142,8 @@ private:
 
 }  // namespace limn::bench
 
-extern "C" void limn_bench_peers(std::vector<std::shared_ptr<const limn::bench::Contender>>& peers) {
+extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
+
+extern "C" void limn_module(std::vector<std::shared_ptr<const limn::bench::Contender>>& peers) {
     for (const bool robust : {false, true}) peers.push_back(std::make_shared<limn::bench::EmbreeContender>(robust));
 }

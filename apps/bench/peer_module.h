@@ -11,10 +11,10 @@
 
 namespace limn::bench {
 
-// The contenders that the modules beside the program bring; none where a module is not there. In `notes`: why not.
+// The contenders that modules bring (common/module.h); none where a module is not there. In `notes`: why not.
 std::vector<std::shared_ptr<const Contender>> load_peers(std::vector<std::string>& notes);
 
-// What a module exports, as limn_bench_peers.
+// What a module exports, as limn_module.
 using PeerList = void(std::vector<std::shared_ptr<const Contender>>&);
 
 }  // namespace limn::bench

@@ -1,5 +1,5 @@
-// Picture files as they are stored, before any transfer function is undone. Two sources implement this: image_oiio.cpp
-// and, for a build without OpenImageIO, image_stb.cpp.
+// Picture files as they are stored, before any transfer function is undone. Implemented by image_oiio.cpp or, in a
+// build without OpenImageIO, image_stb.cpp; in limn's own programs by apps/common/image_loader.cpp.
 #pragma once
 
 #include <cstddef>
@@ -52,5 +52,15 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
 StoredImage decode_file(const std::string& path);
 Facts decode_facts(const std::string& path);
 ImageInfo decode_info(const std::string& path);
+
+// These functions as a module gives them (apps/common/image_module.cpp).
+struct ImageCodec {
+    decltype(limn::can_encode)* can_encode;
+    decltype(limn::encode)* encode;
+    decltype(limn::decode)* decode;
+    decltype(limn::decode_file)* decode_file;
+    decltype(limn::decode_facts)* decode_facts;
+    decltype(limn::decode_info)* decode_info;
+};
 
 }  // namespace limn

@@ -113,15 +113,21 @@ TEST_CASE("An include up the stairs is reported", "[architecture]") {
 }
 
 TEST_CASE("A private or missing header is reported where it does not belong", "[architecture]") {
-    const SourceTree tree{{"include/limn/core/a.h", "#include \"limn/core/none.h\"\n#include \"core/secret.h\"\n"},
-                          {"lib/core/secret.h", "#include \"limn/core/a.h\"\n#include \"core/none.h\"\n"},
-                          {"lib/io/x.cpp", "#include \"core/secret.h\"\n#include \"stb_image.h\"\n"},
-                          {"apps/limn/main.cpp", "#include <limn/core/a.h>\n#include \"core/secret.h\"\n"},
-                          {"examples/e.cpp", "#include \"../lib/core/secret.h\"\n#include \"common/f.h\"\n"}};
+    const SourceTree tree{
+        {"include/limn/core/a.h", "#include \"limn/core/none.h\"\n#include \"core/secret.h\"\n"},
+        {"lib/core/secret.h", "#include \"limn/core/a.h\"\n#include \"core/none.h\"\n"},
+        {"lib/io/x.cpp", "#include \"core/secret.h\"\n#include \"stb_image.h\"\n"},
+        {"lib/io/image_codec.h", ""},
+        {"apps/common/image_loader.cpp", "#include \"io/image_codec.h\"\n#include \"core/secret.h\"\n"},
+        {"apps/common/other.cpp", "#include \"io/image_codec.h\"\n"},
+        {"apps/limn/main.cpp", "#include <limn/core/a.h>\n#include \"core/secret.h\"\n"},
+        {"examples/e.cpp", "#include \"../lib/core/secret.h\"\n#include \"common/f.h\"\n"}};
     CHECK(check_quoted_includes(tree) ==
           Violations{"include/limn/core/a.h:1: there is no public header limn/core/none.h",
                      "include/limn/core/a.h:2: core/secret.h is private to lib",
                      "lib/core/secret.h:2: there is no header core/none.h",
+                     "apps/common/image_loader.cpp:2: core/secret.h is private to lib",
+                     "apps/common/other.cpp:1: io/image_codec.h is private to lib",
                      "apps/limn/main.cpp:2: core/secret.h is private to lib",
                      "examples/e.cpp:1: ../lib/core/secret.h climbs out of its folder"});
 }

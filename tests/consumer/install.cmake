@@ -15,3 +15,10 @@ foreach(file IN LISTS files)
     endif()
 endforeach()
 file(RENAME "${FIRST}" "${MOVED}")
+
+# With its module, in whatever folder.
+if(APPS)
+    file(WRITE "${MOVED}/a.obj" "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    execute_process(COMMAND "${MOVED}/bin/limn" render a.obj -o a.png --size 2x2 --spp 1 --quiet
+                    WORKING_DIRECTORY "${MOVED}" COMMAND_ERROR_IS_FATAL ANY)
+endif()

@@ -1,0 +1,32 @@
+// The codec of limn's programs: that of a module, which is loaded when a picture is to be read or written. OpenImageIO
+// comes with 260 libraries, which take a fifth of a second and more to load.
+#include "io/image_codec.h"
+#include "module.h"
+
+namespace limn {
+
+namespace {
+
+const ImageCodec& codec() {
+    static const auto* const loaded = static_cast<const ImageCodec*>(app::load_module("limn_openimageio"));
+    return *loaded;
+}
+
+}  // namespace
+
+// Asked before a picture is rendered: then is the time to say that there is no module.
+bool can_encode(FileFormat format) { return codec().can_encode(format); }
+
+std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) { return codec().encode(job, path); }
+
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
+    return codec().decode(format, bytes, path, most);
+}
+
+StoredImage decode_file(const std::string& path) { return codec().decode_file(path); }
+
+Facts decode_facts(const std::string& path) { return codec().decode_facts(path); }
+
+ImageInfo decode_info(const std::string& path) { return codec().decode_info(path); }
+
+}  // namespace limn

@@ -1,0 +1,8 @@
+// The codec through OpenImageIO, as a module.
+#include "io/image_codec.h"
+#include "module.h"
+
+extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
+
+extern "C" const limn::ImageCodec limn_module{limn::can_encode,  limn::encode,       limn::decode,
+                                              limn::decode_file, limn::decode_facts, limn::decode_info};
