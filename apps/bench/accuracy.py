@@ -94,10 +94,11 @@ def main():
     faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
     if compared and not compared["passed"]:
         faults.append("hard cases: the builds differ")
-    head = {**head, "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
+    head = {**head, "faults": len(faults), "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
     accuracy_plots.draw(groups, ROOT / "docs/accuracy")
     write("accuracy", accuracy_tables.report(head, groups, cases, all_rays, compared, faults))
-    kept.forget()
+    if not faults:
+        kept.forget()
     for fault in faults:
         print(f"accuracy: {fault}", file=sys.stderr)
     print(f"docs/accuracy.md: {len(faults)} faults", file=sys.stderr)

@@ -80,8 +80,9 @@ def measure_all(full, models):
                       for n in (GROWTH_FULL if full else GROWTH)] for scene in FULL_SIZE}
     truth = kept("truth", lambda: judge(full, models))
     instructions = kept("instructions", lambda: performance_instructions.measure(RAW, BIN, full, say))
-    raw = {"table": table, "growth": growth, "truth": truth, "instructions": instructions,
-           "faults": performance_tables.faults(table, content, truth), "head": {**head, "minutes": kept.minutes()}}
+    faults = performance_tables.faults(table, content, truth)
+    raw = {"table": table, "growth": growth, "truth": truth, "instructions": instructions, "faults": faults,
+           "head": {**head, "faults": len(faults), "minutes": kept.minutes()}}
     (RAW / "all.json").write_text(json.dumps(raw, indent=1))
     kept.forget()
     return raw

@@ -112,9 +112,10 @@ def origin(name, command=None):
 
 
 def stamp(head):
-    """The beginning of a part's first line."""
+    """The beginning of a part's first line. `faults`: how much of it is not as it must be."""
+    faults = f", **{head['faults']} wrong**" if head.get("faults") else ""
     return (f"Written by `{head['command']}`; do not edit. {head['date']}, commit {head['commit']}, "
-            f"sources {head['sources']}, {head['processor']}, {head['cores']} cores")
+            f"sources {head['sources']}{faults}, {head['processor']}, {head['cores']} cores")
 
 
 def markers(name):
@@ -146,11 +147,13 @@ def state(report, root=ROOT):
     if text is None:
         return "not in its document"
     command = re.search(r"[Ww]ritten by `([^`]+)`", text)
-    sources = re.search(r"\bsources ([0-9a-f]{12})\b", text)
+    sources = re.search(r"\bsources ([0-9a-f]{12})\b(, \*\*\d+ wrong\*\*)?", text)
     if not command or not sources:
         return "does not say what it measured"
     if sources[1] != digest(report.sources, root):
         return "older than its sources"
+    if sources[2]:
+        return sources[2].strip(" ,*")
     return "fresh" if command[1] == report.command else f"written by {command[1]}"
 
 

@@ -45,8 +45,8 @@ class Freshness(Tree):
         self.write()
         self.assertEqual(self.state(), "fresh")
 
-    def write(self, command=REPORT.command):
-        head = {"command": command, "date": "d", "commit": "abc", "processor": "p", "cores": 2,
+    def write(self, command=REPORT.command, faults=0):
+        head = {"command": command, "date": "d", "commit": "abc", "processor": "p", "cores": 2, "faults": faults,
                 "sources": reports.digest(REPORT.sources, self.root)}
         reports.write("accuracy", reports.stamp(head) + ".\n\nnumbers", self.root)
 
@@ -88,6 +88,10 @@ class Freshness(Tree):
     def test_is_that_of_the_command_that_is_wanted(self):
         self.write("./build.sh accuracy")
         self.assertEqual(self.state(), "written by ./build.sh accuracy")
+
+    def test_lacks_where_something_is_wrong(self):
+        self.write(faults=3)
+        self.assertEqual(self.state(), "3 wrong")
 
     def test_needs_a_digest_and_a_place(self):
         reports.write("accuracy", "Written by `./build.sh accuracy`, once.", self.root)

@@ -162,7 +162,7 @@ def save_kept(kept):
 def report(head, results, full):
     killed = sum(bool(r["killers"]) for _, r in results)
     columns = ["room", "fault", "caught by"] + ["tests"] * full + ["seconds"]
-    lines = [f"{reports.stamp(head)}.", "",
+    lines = [f"{reports.stamp({**head, 'faults': len(results) - killed})}.", "",
              f"{len(results)} faults, each put into limn alone: the suite notices {killed} of them. Named is the first "
              "test that failed; the seconds include building. Together they took "
              f"{sum(r['seconds'] for _, r in results) / 60:.0f} minutes.", "",
