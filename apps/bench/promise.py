@@ -66,7 +66,7 @@ def main():
     full = parser.parse_args().full
     seeds = ("--seeds", "200") if full else ("--seeds", "50", "--searched", "12")
     head = origin("promise", "./build.sh promise" + (" --full" if full else ""))
-    folder = RAW / head["sources"]  # stops and references of other sources do not count
+    folder = RAW / (head["sources"] + "-full" * full)  # what was measured otherwise does not count
     folder.mkdir(parents=True, exist_ok=True)
     rates = measure("limn_sampler_rates", folder / "sampler_rates.json")
     promises = measure("limn_promise", folder / "promise.json", "--folder", folder, *seeds)
