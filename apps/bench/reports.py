@@ -4,7 +4,9 @@
     reports.py                    a line for each part: fresh, or why not, and what renews it
     reports.py names              the names
     reports.py state NAME         the line of one; exit status 77 unless it is fresh, which CTest counts as skipped
-    reports.py write NAME         makes standard input the part, below a line that says where it comes from
+    reports.py digest NAME        that of the sources as they are
+    reports.py write NAME DIGEST  makes standard input the part, below a line that says where it comes from; DIGEST is
+                                  what the sources had when they were measured
 
 A part stands in its document between `<!-- NAME: begin -->` and `<!-- NAME: end -->`. Its first line holds the command,
 the commit, and a digest of the sources that it measures.
@@ -207,8 +209,10 @@ def main(arguments):
     elif arguments[0] == "state" and len(arguments) == 2:
         print(line(report_of(arguments[1])))
         return 0 if state(report_of(arguments[1])) == "fresh" else 77
-    elif arguments[0] == "write" and len(arguments) == 2:
-        head = origin(arguments[1])
+    elif arguments[0] == "digest" and len(arguments) == 2:
+        print(digest(report_of(arguments[1]).sources))
+    elif arguments[0] == "write" and len(arguments) == 3:
+        head = {**origin(arguments[1]), "sources": arguments[2]}
         write(arguments[1], stamp(head) + ".\n\n" + sys.stdin.read())
     else:
         sys.exit(__doc__)
