@@ -29,7 +29,7 @@ CORE = ("CMakeLists.txt", "cmake", "include", "lib", "-include/limn/io", "-lib/i
 IO = ("include/limn/io", "lib/io")
 FIGURES = ("apps/common", "examples/figures")
 BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt")
-ALL = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "-*.py")
+ALL = ("CMakeLists.txt", "cmake", "include", "lib", "apps", "examples", "-*.py")
 
 
 @dataclass(frozen=True)
