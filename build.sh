@@ -7,17 +7,22 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
-       ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--reuse] [--again]
+       ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
+       ./build.sh release [--renew]
 
   figures      render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
+  gallery      the figures in the README, with their seconds and errors
   convergence  speed against error beside Mitsuba, Cycles and LuxCore: docs/speed-against-error.md
+  promise      how often a render to an error keeps it: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
-  mutants      faults that the suite must catch
+  mutants      faults that the suite must catch: docs/mutants.md
   docs         the API reference: build/docs/html/index.html
+  release      whether all reports are of these sources, and claims true; --renew makes those anew that are not
 
---full takes the longer form where there is one; bench measures the models too.
+--full takes the longer form where there is one; bench measures the models too. Reports go on where they were
+interrupted, as long as the sources stay the same.
 TEXT
     exit 2
 }
@@ -95,7 +100,7 @@ for option in "$@"; do
         export LIMN_FULL=1
     elif [[ $command == bench && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
-    elif [[ $command == convergence ]]; then
+    elif [[ $command == convergence || $command == release ]]; then
         others+=("$option")
     else
         usage
@@ -114,8 +119,18 @@ case $command in
         # Mitsuba is slow without; not every Debian has it.
         ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}" "${others[@]}"
-        # Unless a part alone was asked for.
-        [[ ${#others[@]} -gt 0 ]] || /usr/bin/python3 apps/bench/promise.py "${full[@]}"
+        ;;
+    promise)
+        build
+        /usr/bin/python3 apps/bench/promise.py "${full[@]}"
+        ;;
+    gallery)
+        install_missing python3 git
+        /usr/bin/python3 apps/bench/gallery.py
+        ;;
+    release)
+        install_missing python3 git
+        /usr/bin/python3 -B apps/bench/release.py "${full[@]}" "${others[@]}"
         ;;
     accuracy)
         install_missing libembree-dev python3 python3-matplotlib python3-numpy

@@ -1,14 +1,13 @@
 """The accuracy report: docs/accuracy.md and its plots.
 
 Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more
-rays than the suite has; with --full also tests/hard/builds.sh. Exit status 0 only if limn is wrong nowhere; the report
-is written in any case.
+rays than the suite has; with --full also tests/hard/builds.sh. Interrupted, it goes on where it was. Exit status 0 only
+if limn is wrong nowhere; the report is written in any case.
 
 Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
 """
 
 import argparse
-import datetime
 import json
 import os
 import subprocess
@@ -18,7 +17,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import accuracy_plots
 import accuracy_tables
-from machine import ROOT, commit, processor
+from machine import ROOT
+from reports import Kept, origin, write
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/accuracy"
@@ -36,11 +36,10 @@ def measure(group, full):
     if run.returncode != 0:
         sys.exit(f"accuracy: limn_accuracy {group} ended with status {run.returncode}")
     (RAW / f"{group}.json").write_text(run.stdout)
-    result = json.loads(run.stdout)
-    return result, result["groups"][0]
+    return json.loads(run.stdout)
 
 
-def hard_cases(all_rays):
+def hard_cases(all_rays, kept):
     """Every case of tests/hard in a process of its own: name, passed, seconds. None where there is no such program."""
     program = BIN / "test_hard"
     if not program.exists():
@@ -60,9 +59,8 @@ def hard_cases(all_rays):
         return {"case": name, "passed": done.returncode == 0, "seconds": seconds}
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        cases = list(pool.map(run, [name.strip() for name in names if name.strip()]))
-    (RAW / "hard.json").write_text(json.dumps(cases, indent=1))
-    return cases
+        return list(pool.map(lambda name: kept(f"hard case: {name}", lambda: run(name), lambda case: case["passed"]),
+                             [name.strip() for name in names if name.strip()]))
 
 
 def builds(full):
@@ -82,26 +80,25 @@ def main():
                                                                        "takes hours")
     arguments = parser.parse_args()
     full, all_rays = arguments.full, (arguments.hard_cases or ("all" if arguments.full else "tenth")) == "all"
-    started = time.monotonic()
     RAW.mkdir(parents=True, exist_ok=True)
+    head = origin("accuracy", "./build.sh accuracy" + (" --full" if full else ""))
+    kept = Kept(RAW / "kept.json", sources=head["sources"], full=full, all_rays=all_rays)
+    head = kept("head", lambda: head)
 
-    groups, result = [], {}
-    for name in GROUPS:
-        result, group = measure(name, full)
-        groups.append(group)
-    cases, compared = hard_cases(all_rays), builds(full)
+    results = [kept(name, lambda: measure(name, full)) for name in GROUPS]
+    groups = [result["groups"][0] for result in results]
+    cases = hard_cases(all_rays, kept)
+    compared = kept("builds", lambda: builds(full), lambda table: table is None or table["passed"])
 
     faults = accuracy_tables.faults(groups)
     faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
     if compared and not compared["passed"]:
         faults.append("hard cases: the builds differ")
-    head = {
-        "command": "./build.sh accuracy" + (" --full" if full else ""),
-        "date": str(datetime.date.today()), "commit": commit(), "processor": processor(), "cores": os.cpu_count(),
-        "compiler": result["compiler"], "embree": result["embree"], "minutes": (time.monotonic() - started) / 60,
-    }
+    head = {**head, "faults": len(faults), "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
     accuracy_plots.draw(groups, ROOT / "docs/accuracy")
-    (ROOT / "docs/accuracy.md").write_text(accuracy_tables.report(head, groups, cases, all_rays, compared, faults))
+    write("accuracy", accuracy_tables.report(head, groups, cases, all_rays, compared, faults))
+    if not faults:
+        kept.forget()
     for fault in faults:
         print(f"accuracy: {fault}", file=sys.stderr)
     print(f"docs/accuracy.md: {len(faults)} faults", file=sys.stderr)

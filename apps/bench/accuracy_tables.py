@@ -1,5 +1,7 @@
 """The tables of the accuracy report, and what counts as a fault of limn's."""
 
+from reports import stamp
+
 LIMIT_ULPS = 1  # of t in float32 ulps, of u and v in 2^-23
 LIMIT_FURNACE = 1e-3
 DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut and nothing ends by chance
@@ -157,9 +159,7 @@ def hard_section(cases, all_rays, compared):
 
 def report(head, groups, cases, all_rays, compared, found):
     lines = [
-        "# Accuracy", "",
-        f"Written by `{head['command']}`; do not edit. {head['date']}, commit {head['commit']}, {head['processor']}, "
-        f"{head['cores']} cores, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
+        f"{stamp(head)}, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
         (f"Embree {head['embree']} in both modes, in a process of its own."
          if head["embree"] else "Embree is not installed here, so that its columns are missing."), "",
         "Truth is exact arithmetic on the stored numbers (`tests/support/exact_truth.h`); it decides every ray, so that "

@@ -2,28 +2,26 @@
 
 Ten scenes, described once (transport_scenes.cpp) and written for each renderer (peers/). Everybody renders a converged
 reference in two halves, then a ladder of growing sample counts on one thread, with several seeds, all taking turns.
-Raw numbers go to build/convergence/results.json as each scene ends. References are kept there as long as scene and
-renderer stay the same.
+Raw numbers go to build/convergence/results.json, from which --again writes the report anew. Interrupted, it goes on
+with the scene where it was. References are kept as long as scene and renderer stay the same.
 
 Needs limn's programs in build/release/bin, matplotlib, numpy and OpenImageIO for Python; Mitsuba, Blender and LuxCore
 come from PyPI into build/peers where they can. Run through ./build.sh convergence [--full] [--scene NAME ...]
-[--peer NAME ...] [--reuse] [--again]. On a machine that does something else meanwhile its times say little.
+[--peer NAME ...] [--again]. On a machine that does something else meanwhile its times say little.
 """
 
 import argparse
 import datetime
 import json
 import sys
-import time
 
 import convergence_plots
 import convergence_tables
-from convergence_measure import Plan, measure, threads_here
+from convergence_measure import Plan, measure
 from convergence_renderers import PEERS, RAW, Failed, limn_ladder, say, start_peers
-from machine import ROOT, commit, processor
-from paper import write_generated
+from machine import ROOT
+from reports import Kept, origin, write
 
-PAPER = ROOT / "docs/speed-against-error.md"
 RESULTS = RAW / "results.json"
 SHORT = Plan(size=100, seeds=4, growth=4, cap=5, reference=6)  # some thirty minutes on two cores
 FULL = Plan(size=400, seeds=4, growth=4, cap=40, reference=60)  # some four hours
@@ -36,7 +34,6 @@ def parse_arguments():
                         help="only these: " + ", ".join(convergence_tables.SCENES))
     parser.add_argument("--peer", action="append", choices=[*PEERS, "none"], metavar="NAME",
                         help="only these: " + ", ".join(PEERS) + "; none: limn alone")
-    parser.add_argument("--reuse", action="store_true", help="scenes that were measured before are not measured again")
     parser.add_argument("--again", action="store_true", help="write the report from what was measured last")
     for name in ("size", "seeds", "cap", "reference"):
         parser.add_argument(f"--{name}", type=float, metavar="X", help="instead of what the form has: see --full")
@@ -61,27 +58,29 @@ def earlier(plan):
 
 
 def measure_all(arguments):
-    plan, started, session = plan_of(arguments), time.monotonic(), datetime.datetime.now().isoformat("T", "minutes")
+    plan, wanted = plan_of(arguments), [p for p in arguments.peer or PEERS if p != "none"]
+    head = {**origin("convergence", " ".join(["./build.sh convergence", *sys.argv[1:]])), "size": plan.size,
+            "seeds": plan.seeds, "session": datetime.datetime.now().isoformat("T", "minutes")}
     raw = earlier(plan)
-    wanted = [p for p in arguments.peer or PEERS if p != "none"]
     peers, raw["missing"] = start_peers(wanted)
+    kept = Kept(RAW / "kept.json", sources=head["sources"], plan=vars(plan),
+                peers=[[peer.key, peer.about["version"]] for peer in peers])
+    head = kept("head", lambda: head)
     for scene in arguments.scene or convergence_tables.SCENES:
-        if arguments.reuse and all(key in raw["scenes"].get(scene, {}) for key in ["limn", *(p.key for p in peers)]):
-            continue
-        say(f"{scene}, {(time.monotonic() - started) / 60:.0f} minutes so far")
-        rows = measure(scene, limn_ladder() + peers, plan)
+        say(f"{scene}, {kept.minutes():.0f} minutes so far")
+        rows = kept(scene, lambda: measure(scene, limn_ladder() + peers, plan))
         for row in rows.values():
-            row["session"] = session
+            row["session"], row["sources"] = head["session"], head["sources"]
         # Limn's rows go together; peers that were not asked this time keep theirs.
-        kept = {k: row for k, row in raw["scenes"].get(scene, {}).items() if k in PEERS and k not in rows}
-        raw["scenes"][scene] = {**rows, **kept}
-        raw["head"] = {
-            "command": " ".join(["./build.sh convergence", *sys.argv[1:]]), "date": str(datetime.date.today()),
-            "commit": commit(), "processor": processor(), "threads": threads_here(), "size": plan.size,
-            "seeds": plan.seeds, "minutes": (time.monotonic() - started) / 60}
-        RESULTS.write_text(json.dumps(raw, indent=1))
+        others = {k: row for k, row in raw["scenes"].get(scene, {}).items() if k in PEERS and k not in rows}
+        raw["scenes"][scene] = {**rows, **others}
     for peer in peers:
         peer.close()
+    if any(rows["limn"].get("sources") != head["sources"] for rows in raw["scenes"].values()):
+        head["sources"] = "of several sessions"
+    raw["head"] = {**head, "minutes": kept.minutes()}
+    RESULTS.write_text(json.dumps(raw, indent=1))
+    kept.forget()
     return raw
 
 
@@ -93,8 +92,8 @@ def main():
     except (Failed, FileNotFoundError) as problem:
         sys.exit(f"convergence: {problem}")
     convergence_plots.draw(raw["scenes"], ROOT / "docs/speed-against-error/curves.svg")
-    write_generated(PAPER, convergence_tables.report(raw))
-    say(str(PAPER.relative_to(ROOT)))
+    write("convergence", convergence_tables.report(raw))
+    say("docs/speed-against-error.md")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import statistics
 
 import convergence_numbers as numbers
+from reports import stamp
 
 ERRORS = (1e-2, 1e-3, 1e-4)
 GOAL = 0.5  # limn's seconds to relMSE 1e-3 over those of the best peer
@@ -141,8 +142,7 @@ def who(scenes):
 def report(raw):
     head, scenes = raw["head"], {s: raw["scenes"][s] for s in SCENES if s in raw["scenes"]}
     pixels = head["size"] ** 2
-    lines = [f"Written by `{head['command']}`: {head['date']}, commit {head['commit']}, {head['processor']}, "
-             f"{head['threads']} threads, {head['size']}x{head['size']} pixels, depth 10, {head['seeds']} seeds, "
+    lines = [f"{stamp(head)}, {head['size']}x{head['size']} pixels, depth 10, {head['seeds']} seeds, "
              f"{head['minutes']:.0f} minutes.", ""] + who(scenes)
     lines += [f"- without {key}: {why}" for key, why in raw.get("missing", {}).items()]
     lines += ["", "### Seconds to relMSE 1e-3, one thread", "",

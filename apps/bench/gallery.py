@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Puts the pictures of `./build.sh figures` into docs/gallery, their seconds and errors under them in the README."""
+"""Runs `./build.sh figures`; puts the pictures into docs/gallery, their seconds and errors under them in the README."""
 
 import json
 import re
 import shutil
-from pathlib import Path
+import subprocess
+import sys
 
-ROOT = Path(__file__).resolve().parents[2]
+from machine import ROOT
+from reports import origin, part, report_of, stamp, write
+
 FIGURES = ROOT / "build/figures"
 GALLERY = ROOT / "docs/gallery"
-README = ROOT / "README.md"
 
 # A cell of the table: picture, title, and what an earlier run wrote under it.
 CELL = re.compile(r"\(docs/gallery/(?P<name>fig\d\d_\w+)\.png\)<br>(?P<title>[^|<]*?)(?:<br>[^|]*?)? \|")
@@ -23,10 +25,13 @@ def cell(match):
 
 
 def main():
-    text, cells = CELL.subn(cell, README.read_text())
+    head = origin("gallery")
+    subprocess.run([ROOT / "build.sh", "figures"], check=True)
+    table = part(report_of("gallery"))
+    text, cells = CELL.subn(cell, table[table.index("| | | |"):])
     if cells != len(list(GALLERY.glob("*.png"))):
-        raise SystemExit(f"{README} shows {cells} pictures, {GALLERY} has another number")
-    README.write_text(text)
+        sys.exit(f"gallery: README.md shows {cells} pictures, {GALLERY} has another number")
+    write("gallery", f"{stamp(head)}.\n\n{text}")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,11 @@ def processor():
     return platform.processor()
 
 
+def git(*arguments):
+    return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True).stdout.strip()
+
+
 def commit():
-    described = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True)
-    return described.stdout.strip() or "unknown"
+    """That of the tree; "-dirty" where more is changed than documents, as a report that was just written is."""
+    changed = git("status", "--porcelain", "--", ".", ":!docs", ":!*.md")
+    return (git("rev-parse", "--short=7", "HEAD") or "unknown") + ("-dirty" if changed else "")

@@ -1,31 +1,29 @@
 """The performance report: the generated part of docs/performance.md, and its plots.
 
 Runs limn bench (the table, and how building and tracing grow with the scene), limn_bench_truth, and
-limn_count_instructions under callgrind in builds without one feature each. Raw numbers go to build/bench/*.json, from
-which --again writes the report anew. Prose outside the markers in docs/performance.md stays as it is. Exit status 0
-unless an answer is wrong or a measurement fails: what is slow is marked, not punished.
+limn_count_instructions under callgrind in builds without one feature each. Interrupted, it goes on where it was. Raw
+numbers go to build/bench/all.json, from which --again writes the report anew. Prose outside the markers in
+docs/performance.md stays as it is. Exit status 0 unless an answer is wrong or a measurement fails: what is slow is
+marked, not punished.
 
 Needs limn's programs in build/release/bin, valgrind, cmake and matplotlib. Run through ./build.sh bench [--full]
 [MODEL.obj ...]. On a machine that does something else meanwhile its times say little.
 """
 
 import argparse
-import datetime
 import json
 import os
 import subprocess
 import sys
-import time
 
 import performance_instructions
 import performance_plots
 import performance_tables
-from machine import ROOT, commit, processor
-from paper import write_generated
+from machine import ROOT
+from reports import Kept, origin, write
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/bench"
-PAPER = ROOT / "docs/performance.md"
 
 # Triangles of the growing scenes, and how many `--scale 1` has.
 GROWTH = [1e3, 1e4, 1e5, 5e5, 2e6]
@@ -37,14 +35,10 @@ def say(text):
     print(f"bench: {text}", file=sys.stderr, flush=True)
 
 
-def save(name, result):
-    (RAW / f"{name}.json").write_text(json.dumps(result, indent=1))
-    return result
-
-
 def limn_bench(name, *arguments):
     """Runs limn bench and returns its JSON, and whether it was content with its answers."""
     path = RAW / f"{name}.json"
+    path.unlink(missing_ok=True)
     run = subprocess.run([BIN / "limn", "bench", "--json", path, *map(str, arguments)],
                          stdout=subprocess.DEVNULL)
     if not path.exists():
@@ -59,18 +53,12 @@ def measure_table(full, models):
     return limn_bench("table", *names, *models, "--rays", rays, "--rounds", rounds)
 
 
-def measure_growth(full):
-    grown = {}
-    for scene, size in FULL_SIZE.items():
-        grown[scene] = []
-        for n in GROWTH_FULL if full else GROWTH:
-            say(f"{scene} of {n:.0e} triangles")
-            result, _ = limn_bench("growing", "--scene", scene, "--scale", n / size, "--rays", "65536", "--rounds", "3",
-                                   "--build-rounds", "1" if n > 4e6 else "3", "--threads", "1",
-                                   "--kind", "primary", "--kind", "diffuse1")
-            grown[scene].append(result["scenes"][0])
-    (RAW / "growing.json").unlink(missing_ok=True)
-    return save("growth", grown)
+def measure_grown(scene, n):
+    say(f"{scene} of {n:.0e} triangles")
+    result, _ = limn_bench("growing", "--scene", scene, "--scale", n / FULL_SIZE[scene], "--rays", "65536", "--rounds",
+                           "3", "--build-rounds", "1" if n > 4e6 else "3", "--threads", "1", "--kind", "primary",
+                           "--kind", "diffuse1")
+    return result["scenes"][0]
 
 
 def judge(full, models):
@@ -79,21 +67,25 @@ def judge(full, models):
                          stdout=subprocess.PIPE, text=True)
     if not run.stdout:
         sys.exit(f"bench: limn_bench_truth ended with status {run.returncode}")
-    return save("truth", json.loads(run.stdout))
+    return json.loads(run.stdout)
 
 
 def measure_all(full, models):
-    started = time.monotonic()
-    table, content = measure_table(full, models)
-    raw = {"table": table, "growth": measure_growth(full), "truth": judge(full, models),
-           "instructions": save("instructions", performance_instructions.measure(RAW, BIN, full, say))}
-    raw["faults"] = performance_tables.faults(table, content, raw["truth"])
-    raw["head"] = {
-        "command": "./build.sh bench" + (" --full" if full else ""), "date": str(datetime.date.today()),
-        "commit": commit(), "processor": processor(), "cores": os.cpu_count(),
-        "minutes": (time.monotonic() - started) / 60,
-    }
-    return save("all", raw)
+    command = "./build.sh bench" + (" --full" if full else "")
+    head = origin("performance", " ".join([command, *models]))
+    kept = Kept(RAW / "kept.json", sources=head["sources"], full=full, models=models)
+    head = kept("head", lambda: head)
+    table, content = kept("table", lambda: measure_table(full, models))
+    growth = {scene: [kept(f"{scene} {n:.0e}", lambda: measure_grown(scene, n))
+                      for n in (GROWTH_FULL if full else GROWTH)] for scene in FULL_SIZE}
+    truth = kept("truth", lambda: judge(full, models))
+    instructions = kept("instructions", lambda: performance_instructions.measure(RAW, BIN, full, say))
+    faults = performance_tables.faults(table, content, truth)
+    raw = {"table": table, "growth": growth, "truth": truth, "instructions": instructions, "faults": faults,
+           "head": {**head, "faults": len(faults), "minutes": kept.minutes()}}
+    (RAW / "all.json").write_text(json.dumps(raw, indent=1))
+    kept.forget()
+    return raw
 
 
 def main():
@@ -110,7 +102,7 @@ def main():
            else measure_all(arguments.full, arguments.models))
 
     performance_plots.draw(raw, ROOT / "docs/performance")
-    write_generated(PAPER, performance_tables.report(raw))
+    write("performance", performance_tables.report(raw))
     for fault in raw["faults"]:
         say(fault)
     say(f"docs/performance.md: {len(raw['faults'])} faults, "

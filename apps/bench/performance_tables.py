@@ -2,6 +2,8 @@
 
 import statistics
 
+from reports import stamp
+
 GOAL_DEFAULT, GOAL_ROBUST, GOAL_BATCH, GOAL_BUILD = 1.0, 1.3, 1.3, 1.0
 GOAL_SCALING, GOAL_BYTES, GOAL_INSTRUCTIONS = 1.9, 64, 1.01
 RATIOS = (("single_to_default", GOAL_DEFAULT), ("single_to_robust", GOAL_ROBUST), ("batch_to_best", GOAL_BATCH))
@@ -222,8 +224,7 @@ def report(raw):
     head, short = raw["head"], missed(raw)
     cells = sum(row[key] is not None for s in raw["table"]["scenes"] for row in s["rows"] for key, _ in RATIOS)
     of_rays = sum(1 for line in short if line.rsplit(": ", 1)[-1] in dict(RATIOS))
-    lines = [f"Written by `{head['command']}`: {head['date']}, commit {head['commit']}, {head['processor']}, "
-             f"{head['cores']} cores, Embree {raw['table']['versions'].get('Embree', 'is not installed')}, "
+    lines = [f"{stamp(head)}, Embree {raw['table']['versions'].get('Embree', 'is not installed')}, "
              f"{head['minutes']:.0f} minutes. Only ratios of one run compare.", "",
              f"Of {cells} ratios of rays {cells - of_rays} reach their goal.", "",
              "![Ratios of single rays and batches](performance/ratios.svg)", ""]

@@ -1,20 +1,19 @@
 """What `--error` promises and what the samplers give, measured: the last chapter of docs/speed-against-error.md.
 
-Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run by ./build.sh convergence [--full].
+Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run through ./build.sh promise
+[--full].
 """
 
 import argparse
-import datetime
 import json
 import math
 import subprocess
 
-from machine import ROOT, commit, processor
-from paper import write_generated
+from machine import ROOT
+from reports import origin, stamp, write
 
 BIN = ROOT / "build/release/bin"
-RAW = ROOT / "build/convergence"
-REPORT = ROOT / "docs/speed-against-error.md"
+RAW = ROOT / "build/promise"
 TITLES = {"cornell": "Cornell box", "bouncing": "bouncing spheres", "glass": "glass", "smoke": "smoke",
           "fireflies": "fireflies"}
 
@@ -24,10 +23,9 @@ def measure(program, out, *options):
     return json.loads(out.read_text())
 
 
-def promise_lines(rows):
+def promise_lines(head, rows):
     stops, kept = sum(r["stops"] for r in rows), sum(r["kept"] for r in rows)
-    lines = ["Written by `./build.sh convergence`; do not edit. "
-             f"{datetime.date.today()}, commit {commit()}, {processor()}.", "",
+    lines = [f"{stamp(head)}.", "",
              f"Each scene is rendered to a target with {rows[0]['stops']} seeds, {rows[0]['size']}x{rows[0]['size']} pixels, and each "
              "picture is compared with a reference in two halves whose mean has at most a thirtieth of that error. Kept: the "
              "true relMSE is at or under the target. The overshoot is in samples, over the fewest (by bisection) at which "
@@ -65,11 +63,14 @@ def rate_lines(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--full", action="store_true", help="200 seeds for each scene instead of 50")
-    seeds = ("--seeds", "200") if parser.parse_args().full else ("--seeds", "50", "--searched", "12")
-    RAW.mkdir(parents=True, exist_ok=True)
-    rates = measure("limn_sampler_rates", RAW / "sampler_rates.json")
-    promises = measure("limn_promise", RAW / "promise.json", "--folder", RAW / "promise", *seeds)
-    write_generated(REPORT, "\n".join(promise_lines(promises) + rate_lines(rates)), "promise")
+    full = parser.parse_args().full
+    seeds = ("--seeds", "200") if full else ("--seeds", "50", "--searched", "12")
+    head = origin("promise", "./build.sh promise" + (" --full" if full else ""))
+    folder = RAW / (head["sources"] + "-full" * full)  # what was measured otherwise does not count
+    folder.mkdir(parents=True, exist_ok=True)
+    rates = measure("limn_sampler_rates", folder / "sampler_rates.json")
+    promises = measure("limn_promise", folder / "promise.json", "--folder", folder, *seeds)
+    write("promise", "\n".join(promise_lines(head, promises) + rate_lines(rates)))
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::vector<std::string> scenes = promise_names();
     int seeds = 200, searched = 24, threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    std::string folder = "build/convergence/promise", json;
+    std::string folder = "build/promise", json;
 };
 
 Json to_json(const Stop& s) {

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-// What relMSE adds to the squared reference (design.md section 4): keeps dark pixels from dominating.
+// What relMSE adds to the squared reference, so that dark pixels do not dominate.
 inline constexpr double kDarkness = 0.01;
 
 // The reference's value whose two halves these are.

@@ -45,7 +45,7 @@ class Faults(unittest.TestCase):
 
 
 class Report(unittest.TestCase):
-    head = {"command": "./build.sh accuracy", "date": "d", "commit": "c", "processor": "p", "cores": 2,
+    head = {"command": "./build.sh accuracy", "date": "d", "commit": "c", "processor": "p", "cores": 2, "sources": "s",
             "compiler": "12", "embree": "3", "minutes": 3}
 
     def test_every_group_has_its_table(self):

@@ -171,8 +171,8 @@ def row(name, c, difference=0.0, **more):
 
 
 class Report(unittest.TestCase):
-    head = {"command": "c", "date": "d", "commit": "x", "processor": "p", "threads": 2, "size": 2, "seeds": 4,
-            "minutes": 3}
+    head = {"command": "c", "date": "d", "commit": "x", "processor": "p", "cores": 2, "sources": "s", "size": 2,
+            "seeds": 4, "minutes": 3}
 
     def report(self, **rows):
         raw = {"head": self.head, "scenes": {"smoke": rows}, "missing": {"cycles": "pip cannot install bpy"}}

@@ -36,7 +36,8 @@ def raw(scenes=None, more=1.0, aside=1.0):
             "instructions": {"whole": {"primary_single": 100.0 * more},
                              "without": {"media": {"counts": counts, "times": times}},
                              "foreign": {"counts": {"primary_single": 100.0 * more * aside}, "times": times}},
-            "head": {"command": "x", "date": "today", "commit": "c", "processor": "p", "cores": 2, "minutes": 1}}
+            "head": {"command": "x", "date": "today", "commit": "c", "processor": "p", "cores": 2, "sources": "s",
+                     "minutes": 1}}
 
 
 class Goals(unittest.TestCase):

@@ -3,13 +3,16 @@
 
 Applies the patches beside this file, one at a time, to a copy of the source tree, builds it, and runs the tests until
 one fails: first those that the patch suspects, then the whole suite. A fault that nothing notices is a test that is
-missing. Run through ./build.sh mutants [--full], or with the names of some mutants.
+missing. What was found is kept as long as the sources, the patch and the tests that noticed it stay the same: an
+interrupted run goes on where it was. Run through ./build.sh mutants [--full], or with the names of some mutants, which
+are then tried anew.
 """
 
 import argparse
 import contextlib
-import datetime
 import filecmp
+import functools
+import hashlib
 import json
 import os
 import re
@@ -23,12 +26,18 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 from mutant import ROOT, MutantError, load_mutants
 
+sys.path.append(str(ROOT / "apps/bench"))
+import reports
+
 WORK = ROOT / "build/mutants"
 SOURCE = WORK / "source"
-REPORT = ROOT / "docs/mutants.md"
+KEPT = WORK / "kept.json"
 HANGS = 120  # seconds: some ten times what the slowest test takes
-# Half the time of -O3 to compile. What is folded and rounded stays the same: limn builds without -ffast-math.
-FLAGS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DLIMN_WARNINGS_AS_ERRORS=OFF", f"-DLIMN_TEST_TIMEOUT={HANGS}"]
+# Half the time of -O3 to compile. What is folded and rounded stays the same: limn builds without -ffast-math. Kernels
+# for AVX2 and the fallback alone: all instruction sets share their sources, so that a fault of one is a fault of all.
+ONE_TARGET = "-UHWY_DISABLED_TARGETS '-DHWY_DISABLED_TARGETS=HWY_SSSE3|HWY_SSE4|HWY_AVX3'"
+FLAGS = [f"-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG {ONE_TARGET}", "-DLIMN_WARNINGS_AS_ERRORS=OFF",
+         f"-DLIMN_TEST_TIMEOUT={HANGS}"]
 COSTS = SOURCE / "build/release/Testing/Temporary/CTestCostData.txt"  # ctest's notes: lines of name, runs, seconds
 QUICK_FIRST = WORK / "quick_first.txt"
 
@@ -121,27 +130,67 @@ def killers(mutant, full):
         return tests
 
 
-def write_report(results, seconds, full):
-    killed = sum(bool(r["killers"]) for r in results)
+@functools.cache
+def digest(patterns):
+    return reports.digest(patterns)
+
+
+def mark(mutant, tests, full):
+    """What the answer `tests` for a mutant hangs on: all that is built, the patch, and the room of the test that
+    failed, or all rooms."""
+    room = tests[0].split(":")[0] if tests and not full else "consumer"
+    judges = ("tests", "-tests/mutants")
+    if room != "consumer" and (ROOT / "tests" / room).is_dir():
+        judges = ("tests/CMakeLists.txt", "tests/*.h", "tests/support", f"tests/{room}")
+    patch = (ROOT / f"tests/mutants/{mutant.name}.patch").read_text()
+    return hashlib.sha256(repr((digest(reports.ALL), digest(judges), patch, full)).encode()).hexdigest()[:12]
+
+
+def load_kept(mutants, full):
+    """What earlier runs found that still holds, by the names of mutants."""
+    kept = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    return {m.name: kept[m.name] for m in mutants
+            if m.name in kept and kept[m.name]["mark"] == mark(m, kept[m.name]["killers"], full)}
+
+
+def save_kept(kept):
+    beside = KEPT.with_suffix(".new")
+    beside.write_text(json.dumps(kept, indent=1))
+    beside.replace(KEPT)
+
+
+def report(head, results, full):
+    killed = sum(bool(r["killers"]) for _, r in results)
     columns = ["room", "fault", "caught by"] + ["tests"] * full + ["seconds"]
-    lines = ["# Mutants", "",
-             f"Written by `./build.sh mutants{' --full' * full}` on {datetime.date.today()}; do not edit.", "",
-             f"{len(results)} faults, the patches in `tests/mutants`, each put into limn alone: the suite notices "
-             f"{killed} of them. Named is the first test that failed; the seconds include building. All took "
-             f"{seconds / 60:.0f} minutes on {os.cpu_count()} processors.", "",
+    lines = [f"{reports.stamp({**head, 'faults': len(results) - killed})}.", "",
+             f"{len(results)} faults, each put into limn alone: the suite notices {killed} of them. Named is the first "
+             "test that failed; the seconds include building. Together they took "
+             f"{sum(r['seconds'] for _, r in results) / 60:.0f} minutes.", "",
              f"| {' | '.join(columns)} |", "|" + "---|" * (3 + full) + "---:|"]
-    for r in results:
-        cells = [r["room"], r["fault"], r["killers"][0].replace("|", "\\|") if r["killers"] else "**nothing**"]
+    for mutant, r in results:
+        cells = [mutant.room, mutant.fault, r["killers"][0].replace("|", "\\|") if r["killers"] else "**nothing**"]
         cells += [str(len(r["killers"]))] * full + [f"{r['seconds']:.0f}"]
         lines.append(f"| {' | '.join(cells)} |")
-    REPORT.write_text("\n".join(lines) + "\n")
+    return "\n".join(lines)
 
 
-def kill_all(mutants, full, whole):
-    start = time.monotonic()
+def summary(results, broken):
+    print(f"\n{'room':10}{'mutants':>8}{'killed':>8}")
+    for room in dict.fromkeys(m.room for m, _ in results):
+        of_room = [bool(r["killers"]) for m, r in results if m.room == room]
+        print(f"{room:10}{len(of_room):8}{sum(of_room):8}")
+    survivors = [m.name for m, r in results if not r["killers"]]
+    for what, names in (("survived", survivors), ("broken", broken)):
+        if names:
+            print(f"{what}: {', '.join(names)}")
+    return 1 if survivors or broken else 0
+
+
+def kill(mutants, full, kept):
+    """Tries the mutants and adds what is found to `kept`; returns the names of those that could not be tried."""
+    broken = []
     print("building and testing without a fault ...", flush=True)
     prepare(mutants, full)
-    results, broken = [], []
     for number, mutant in enumerate(mutants, 1):
         begin = time.monotonic()
         print(f"[{number:3}/{len(mutants)}] {mutant.name:48} ", end="", flush=True)
@@ -153,21 +202,9 @@ def kill_all(mutants, full, whole):
             continue
         seconds = time.monotonic() - begin
         print(f"{seconds:6.1f} s  " + (f'KILLED by "{tests[0]}"' if tests else "SURVIVED"), flush=True)
-        results.append({"name": mutant.name, "room": mutant.room, "fault": mutant.fault, "killers": tests,
-                        "seconds": round(seconds, 1)})
-        (WORK / "results.json").write_text(json.dumps(results, indent=1))
-
-    print(f"\n{'room':10}{'mutants':>8}{'killed':>8}")
-    for room in dict.fromkeys(m.room for m in mutants):
-        of_room = [bool(r["killers"]) for r in results if r["room"] == room]
-        print(f"{room:10}{len(of_room):8}{sum(of_room):8}")
-    survivors = [r["name"] for r in results if not r["killers"]]
-    for what, names in (("survived", survivors), ("broken", broken)):
-        if names:
-            print(f"{what}: {', '.join(names)}")
-    if whole and not broken:
-        write_report(results, time.monotonic() - start, full)
-    return 1 if survivors or broken else 0
+        kept[mutant.name] = {"mark": mark(mutant, tests, full), "killers": tests, "seconds": round(seconds, 1)}
+        save_kept(kept)
+    return broken
 
 
 def main():
@@ -180,8 +217,18 @@ def main():
     unknown = set(arguments.names) - {m.name for m in mutants}
     if unknown:
         raise MutantError("unknown: " + ", ".join(sorted(unknown)))
-    chosen = [m for m in mutants if not arguments.names or m.name in arguments.names]
-    return kill_all(chosen, arguments.full, whole=not arguments.names)
+    head = reports.origin("mutants", "./build.sh mutants" + " --full" * arguments.full)
+    WORK.mkdir(parents=True, exist_ok=True)
+    kept = load_kept(mutants, arguments.full)
+    missing = [m for m in mutants if (m.name in arguments.names if arguments.names else m.name not in kept)]
+    if len(mutants) > len(missing):
+        print(f"{len(missing)} of {len(mutants)} mutants to try")
+    broken = kill(missing, arguments.full, kept) if missing else []
+    results = [(m, kept[m.name]) for m in (missing if arguments.names else mutants) if m.name in kept]
+    status = summary(results, broken)
+    if not arguments.names and not broken:
+        reports.write("mutants", report(head, results, arguments.full))
+    return status
 
 
 if __name__ == "__main__":
