@@ -1,7 +1,6 @@
 // How often `--error` keeps its promise: renders many seeds to a target and measures each against a reference.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
@@ -151,21 +150,29 @@ Json measure(const std::string& name, const Arguments& a, const app::Console& co
 }
 
 int run(int argc, char** argv) {
-    CLI::App cli("Measures how often a render to an error keeps its promise. What was measured before is kept.",
-                 "limn_promise");
+    app::Options options(
+        "limn_promise", "Measures how often a render to an error keeps its promise. What was measured before is kept.");
     Arguments a;
     std::vector<std::string> scenes;
-    const auto integer = [&cli](const std::string& name, int& value, int lowest, const std::string& help) {
-        cli.add_option_function<std::string>(
-            name, [=, &value](const std::string& s) { value = app::parse_integer(name, s, lowest, 1'000'000); }, help);
+    const auto integer = [&options](const std::string& name, int& value, int lowest, const std::string& help) {
+        options.add({.name = name, .value = "N", .help = help, .preset = std::to_string(value)},
+                    [=, &value](const std::string& s) { value = app::parse_integer(name, s, lowest, 1'000'000); });
     };
-    cli.add_option("--scene", scenes, "One scene alone; may be repeated");
+    options.add({.name = "--scene",
+                 .value = "NAME",
+                 .help = "One scene alone; may be repeated",
+                 .preset = "all",
+                 .repeatable = true},
+                [&scenes](const std::string& s) { scenes.push_back(s); });
     integer("--seeds", a.seeds, 1, "Renders of each scene");
     integer("--searched", a.searched, 0, "Of these, those whose fewest samples are looked for");
     integer("--threads", a.threads, 1, "Renders at a time");
-    cli.add_option("--folder", a.folder, "Where stops are kept");
-    cli.add_option("--json", a.json, "Where the summary goes; - is standard output")->required();
-    if (!app::parse_arguments(cli, argc, argv)) return app::kDone;
+    options.add({.name = "--folder", .value = "FOLDER", .help = "Where stops are kept", .preset = a.folder},
+                app::file_name("--folder", a.folder));
+    options.add(
+        {.name = "--json", .value = "FILE", .help = "Where the summary goes; - is standard output", .required = true},
+        app::file_name("--json", a.json));
+    if (!options.parse(argc, argv)) return app::kDone;
     if (!scenes.empty()) a.scenes = scenes;
     fs::create_directories(a.folder);
     Json all = Json::array();

@@ -1,6 +1,5 @@
 #include "json_output.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "parse.h"
@@ -15,10 +14,12 @@ std::string json_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-JsonOption::JsonOption(CLI::App& app) {
-    app.add_option("--json", path_, "Write JSON too; - for standard output, in place of the table")
-        ->type_name("FILE")
-        ->each(file_name("--json"));
+JsonOption::JsonOption(Options& options) {
+    options.add({.name = "--json",
+                 .value = "FILE",
+                 .help = "Write JSON too; - for standard output, in place of the table",
+                 .preset = "the table alone"},
+                file_name("--json", path_));
 }
 
 void JsonOption::check(const std::vector<std::string>& inputs) const {

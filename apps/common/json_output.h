@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "options.h"
 
 namespace limn::app {
 
@@ -23,7 +21,7 @@ std::string json_text(const Json& json);
 class JsonOption {
 public:
     /// Must outlive the parsing.
-    explicit JsonOption(CLI::App& app);
+    explicit JsonOption(Options& options);
 
     /// \throws ArgumentError, FileError if the file cannot be written, or is one of the `inputs`
     void check(const std::vector<std::string>& inputs) const;
