@@ -289,7 +289,8 @@ TEST_CASE("Bad background: a value that is negative or not finite is refused by 
         for (const bool is_top : {false, true})
             for (double Color::*channel : {&Color::r, &Color::g, &Color::b}) {
                 Scene scene;
-                (is_top ? scene.background.top : scene.background.bottom).*channel = value;
+                Color& end = is_top ? scene.background.top : scene.background.bottom;
+                end.*channel = value;
                 CAPTURE(value, is_top);
                 if (std::isfinite(value) && value >= 0) {
                     CHECK_NOTHROW(compile(scene));
