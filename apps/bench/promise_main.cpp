@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
 
 #include "bench/promise.h"
-#include "json_output.h"
 #include "parse.h"
 #include "program.h"
 #include "text_file.h"
@@ -19,7 +19,7 @@ namespace limn::bench {
 
 namespace {
 
-using app::Json;
+using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct Arguments {
@@ -107,16 +107,16 @@ Json summary(const Promise& promise, const std::vector<Stop>& stops) {
             {"stops", stops.size()},
             {"kept", kept},
             {"at_floor", at_floor},
-            {"median_samples", app::json_number(median(samples))},
-            {"estimate_over_error", app::json_number(estimates / errors)},
-            {"median_target_over_error", app::json_number(1 + median(by_error))},
-            {"median_overshoot", app::json_number(median(overshoots))},
+            {"median_samples", median(samples)},
+            {"estimate_over_error", estimates / errors},
+            {"median_target_over_error", 1 + median(by_error)},
+            {"median_overshoot", median(overshoots)},
             {"overshoots_measured", overshoots.size()},
             {"seconds", seconds}};
 }
 
 std::string row(const Json& s) {
-    const auto number = [&s](const char* key) { return s[key].is_null() ? 0.0 : s[key].get<double>(); };
+    const auto number = [&s](const char* key) { return s[key].get<double>(); };
     return fmt::format(
         "{:10s} to {:.1e}: kept {} of {}, estimate / truth {:.3f}, {:.0f} samples, overshoot {:.1f} % ({:.1f} % in "
         "error)",
@@ -177,7 +177,7 @@ int run(int argc, char** argv) {
     fs::create_directories(a.folder);
     Json all = Json::array();
     for (const std::string& name : a.scenes) all.push_back(measure(name, a, {.program = "limn_promise"}));
-    app::write_text(a.json, app::json_text(all));
+    app::write_text(a.json, all.dump(2) + "\n");  // NaN becomes null
     return app::kDone;
 }
 

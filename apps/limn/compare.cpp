@@ -70,19 +70,18 @@ Json json(const ImageMetrics& m, const Arguments& a) {
         {"test", a.test},
         {"reference", a.reference},
         {"valid", m.valid},
-        {"relmse", json_number(m.relative_mse)},
-        {"mse", json_number(m.mse)},
-        {"smape", json_number(m.smape)},
-        {"psnr", json_number(m.psnr_srgb)},
-        {"largest_relative_error",
-         {{"value", json_number(m.largest_relative)}, {"x", m.largest_x}, {"y", m.largest_y}}},
-        {"worst_share", json_number(m.worst_share)},
+        {"relmse", m.relative_mse},
+        {"mse", m.mse},
+        {"smape", m.smape},
+        {"psnr", m.psnr_srgb},
+        {"largest_relative_error", {{"value", m.largest_relative}, {"x", m.largest_x}, {"y", m.largest_y}}},
+        {"worst_share", m.worst_share},
         {"nonfinite", {{"test", m.nonfinite_test}, {"reference", m.nonfinite_reference}}},
     };
     if (m.has_reference_error) {
         json["reference_b"] = a.reference_b;
-        json["reference_relmse"] = json_number(m.reference_relative_mse);
-        json["corrected_relmse"] = json_number(m.corrected_relative_mse);
+        json["reference_relmse"] = m.reference_relative_mse;
+        json["corrected_relmse"] = m.corrected_relative_mse;
         json["reference_too_noisy"] = m.reference_too_noisy;
     }
     return json;
