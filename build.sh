@@ -10,7 +10,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh release [--renew]
 
-  figures      render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
+  figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
   gallery      the figures in the README, with their seconds and errors
   convergence  speed against error beside Mitsuba, Cycles and LuxCore: docs/speed-against-error.md
@@ -44,23 +44,26 @@ install_missing() {
         apt-get install -y -q --no-install-recommends "${missing[@]}" >&2 </dev/null
 }
 
-# Compiler, what the libraries link, and what programs and suite need: the default targets are all of these.
+# Compiler, what the libraries link and what the programs need.
+program_packages=(
+    g++ cmake ninja-build libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev
+    libcli11-dev libfmt-dev nlohmann-json3-dev xplanet-images)
+
+# And what the suite needs: the default targets are all of these.
 install_needs() {
-    install_missing \
-        g++ cmake ninja-build pkg-config python3 \
-        libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev \
-        libcli11-dev libfmt-dev nlohmann-json3-dev \
-        catch2 librapidcheck-dev libboost-dev xplanet-images
+    install_missing "${program_packages[@]}" pkg-config python3 catch2 librapidcheck-dev libboost-dev
 }
 
 build() {
     install_needs
-    cmake --preset release
+    cmake --preset release -DLIMN_BUILD_TESTS=ON
     cmake --build --preset release
 }
 
 figures() {
-    build
+    install_missing "${program_packages[@]}"
+    cmake --preset release -DLIMN_BUILD_TESTS=OFF
+    cmake --build --preset release --target figures
     local out=build/figures program name status failed=0
     mkdir -p "$out"
     rm -f "$out"/fig*

@@ -19,6 +19,7 @@ BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/convergence"
 VENV = ROOT / "build/peers"
 PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and what they are called on PyPI
+WORKER_NEEDS = ("numpy",)  # of peers/*.py, whatever the renderer's own package brings
 
 # An error that is never reached: as many samples as are asked for in the mean, but more where it is noisier.
 NEVER = "--error=1e-300"
@@ -146,7 +147,7 @@ def install_peers(wanted):
     for peer in wanted:
         package = PEERS[peer]
         run = subprocess.run([VENV / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
-                              "--only-binary=:all:", package], capture_output=True, text=True)
+                              "--only-binary=:all:", package, *WORKER_NEEDS], capture_output=True, text=True)
         if run.returncode != 0:
             missing[peer] = f"pip cannot install {package}: {(run.stderr.strip().splitlines() or ['?'])[-1]}"
     return missing

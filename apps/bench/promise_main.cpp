@@ -1,17 +1,16 @@
 // How often `--error` keeps its promise: renders many seeds to a target and measures each against a reference.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
 
 #include "bench/promise.h"
-#include "json_output.h"
 #include "parse.h"
 #include "program.h"
 #include "text_file.h"
@@ -20,7 +19,7 @@ namespace limn::bench {
 
 namespace {
 
-using app::Json;
+using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct Arguments {
@@ -108,16 +107,16 @@ Json summary(const Promise& promise, const std::vector<Stop>& stops) {
             {"stops", stops.size()},
             {"kept", kept},
             {"at_floor", at_floor},
-            {"median_samples", app::json_number(median(samples))},
-            {"estimate_over_error", app::json_number(estimates / errors)},
-            {"median_target_over_error", app::json_number(1 + median(by_error))},
-            {"median_overshoot", app::json_number(median(overshoots))},
+            {"median_samples", median(samples)},
+            {"estimate_over_error", estimates / errors},
+            {"median_target_over_error", 1 + median(by_error)},
+            {"median_overshoot", median(overshoots)},
             {"overshoots_measured", overshoots.size()},
             {"seconds", seconds}};
 }
 
 std::string row(const Json& s) {
-    const auto number = [&s](const char* key) { return s[key].is_null() ? 0.0 : s[key].get<double>(); };
+    const auto number = [&s](const char* key) { return s[key].get<double>(); };
     return fmt::format(
         "{:10s} to {:.1e}: kept {} of {}, estimate / truth {:.3f}, {:.0f} samples, overshoot {:.1f} % ({:.1f} % in "
         "error)",
@@ -151,26 +150,34 @@ Json measure(const std::string& name, const Arguments& a, const app::Console& co
 }
 
 int run(int argc, char** argv) {
-    CLI::App cli("Measures how often a render to an error keeps its promise. What was measured before is kept.",
-                 "limn_promise");
+    app::Options options(
+        "limn_promise", "Measures how often a render to an error keeps its promise. What was measured before is kept.");
     Arguments a;
     std::vector<std::string> scenes;
-    const auto integer = [&cli](const std::string& name, int& value, int lowest, const std::string& help) {
-        cli.add_option_function<std::string>(
-            name, [=, &value](const std::string& s) { value = app::parse_integer(name, s, lowest, 1'000'000); }, help);
+    const auto integer = [&options](const std::string& name, int& value, int lowest, const std::string& help) {
+        options.add({.name = name, .value = "N", .help = help, .preset = std::to_string(value)},
+                    [=, &value](const std::string& s) { value = app::parse_integer(name, s, lowest, 1'000'000); });
     };
-    cli.add_option("--scene", scenes, "One scene alone; may be repeated");
+    options.add({.name = "--scene",
+                 .value = "NAME",
+                 .help = "One scene alone; may be repeated",
+                 .preset = "all",
+                 .repeatable = true},
+                [&scenes](const std::string& s) { scenes.push_back(s); });
     integer("--seeds", a.seeds, 1, "Renders of each scene");
     integer("--searched", a.searched, 0, "Of these, those whose fewest samples are looked for");
     integer("--threads", a.threads, 1, "Renders at a time");
-    cli.add_option("--folder", a.folder, "Where stops are kept");
-    cli.add_option("--json", a.json, "Where the summary goes; - is standard output")->required();
-    if (!app::parse_arguments(cli, argc, argv)) return app::kDone;
+    options.add({.name = "--folder", .value = "FOLDER", .help = "Where stops are kept", .preset = a.folder},
+                app::file_name("--folder", a.folder));
+    options.add(
+        {.name = "--json", .value = "FILE", .help = "Where the summary goes; - is standard output", .required = true},
+        app::file_name("--json", a.json));
+    if (!options.parse(argc, argv)) return app::kDone;
     if (!scenes.empty()) a.scenes = scenes;
     fs::create_directories(a.folder);
     Json all = Json::array();
     for (const std::string& name : a.scenes) all.push_back(measure(name, a, {.program = "limn_promise"}));
-    app::write_text(a.json, app::json_text(all));
+    app::write_text(a.json, all.dump(2) + "\n");  // NaN becomes null
     return app::kDone;
 }
 

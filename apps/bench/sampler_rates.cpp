@@ -1,9 +1,9 @@
 // How fast single pixels converge with either sampler: the variance over seeds of pictures of one pixel, as JSON.
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "figures.h"
 #include "json_output.h"
+#include "parse.h"
 #include "program.h"
 #include "text_file.h"
 
@@ -57,12 +57,16 @@ double relative_variance(const Pixel& pixel, const CompiledScene& scene, Sampler
 }
 
 int run(int argc, char** argv) {
-    CLI::App cli("Measures how fast single pixels converge with either sampler.", "limn_sampler_rates");
+    app::Options options("limn_sampler_rates", "Measures how fast single pixels converge with either sampler.");
     std::string json;
     int seeds = 100;
-    cli.add_option("--seeds", seeds, "Pictures for each variance")->check(CLI::Range(2, 100'000));
-    cli.add_option("--json", json, "Where the result goes; - is standard output")->required();
-    if (!app::parse_arguments(cli, argc, argv)) return app::kDone;
+    options.add(
+        {.name = "--seeds", .value = "N", .help = "Pictures for each variance", .preset = std::to_string(seeds)},
+        [&seeds](const std::string& s) { seeds = app::parse_integer("--seeds", s, 2, 100'000); });
+    options.add(
+        {.name = "--json", .value = "FILE", .help = "Where the result goes; - is standard output", .required = true},
+        app::file_name("--json", json));
+    if (!options.parse(argc, argv)) return app::kDone;
     Json all = Json::array();
     for (const Pixel& pixel : pixels()) {
         const CompiledScene scene = compile(pixel.figure.scene);

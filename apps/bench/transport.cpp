@@ -1,5 +1,5 @@
 // One scene of the convergence report, rendered by limn or described for its peers. Run by convergence.py.
-#include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "bench/describe_scene.h"
 #include "bench/transport_scenes.h"
@@ -19,26 +19,27 @@ std::string list_of_scenes() {
     return list;
 }
 
-void check_scene(const std::string& name) {
-    for (const std::string& known : bench::transport_scene_names())
-        if (name == known) return;
-    app::refuse("SCENE", name, "must be one of " + list_of_scenes());
-}
-
 int transport_main(int argc, char** argv) {
-    CLI::App cli("Renders a scene of the convergence report, or describes it: " + list_of_scenes() + ".",
-                 "limn_transport");
+    app::Options command("limn_transport",
+                         "Renders a scene of the convergence report, or describes it: " + list_of_scenes() + ".");
     std::string scene, description;
     app::RenderOptions options;
     options.command_line = app::command_line(argc, argv);
-    cli.add_option("SCENE", scene, "Which")->required()->each(check_scene);
-    auto* describe = cli.add_option("--describe", description, "Write it as JSON, - for standard output, and stop")
-                         ->type_name("FILE")
-                         ->each(app::file_name("--describe"));
-    app::add_render_options(cli, options);
-    if (!app::parse_arguments(cli, argc, argv)) return app::kDone;
+    command.add({.name = "SCENE", .value = "", .help = "Which", .required = true}, [&scene](const std::string& name) {
+        const std::vector<std::string> known = bench::transport_scene_names();
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            app::refuse("SCENE", name, "must be one of " + list_of_scenes());
+        scene = name;
+    });
+    command.add({.name = "--describe",
+                 .value = "FILE",
+                 .help = "Write it as JSON, - for standard output, and stop",
+                 .preset = "it is rendered"},
+                app::file_name("--describe", description));
+    app::add_render_options(command, options, "SCENE.exr");
+    if (!command.parse(argc, argv)) return app::kDone;
 
-    if (*describe) {
+    if (!description.empty()) {
         app::check_text_path(description);
         const Figure figure = app::from_files([&] { return bench::make_transport_scene(scene); });
         app::write_text(description, app::json_text(bench::describe_scene(figure)));

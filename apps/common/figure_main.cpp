@@ -1,6 +1,7 @@
-#include <CLI/CLI.hpp>
-
 #include "figure.h"
+#include "limn/core/error.h"
+#include "options.h"
+#include "parse.h"
 #include "program.h"
 #include "render_job.h"
 #include "render_options.h"
@@ -16,15 +17,26 @@ Encoding parse_encoding(const std::string& text) {
     app::refuse("--texture-encoding", text, "must be auto, srgb or raw");
 }
 
-void add_texture_options(CLI::App& app, FigureInputs& inputs) {
-    app.add_option("--texture", inputs.texture, "The picture to use")
-        ->type_name("FILE")
-        ->capture_default_str()
-        ->each(app::file_name("--texture"));
-    app.add_option_function<std::string>(
-           "--texture-encoding", [&inputs](const std::string& text) { inputs.texture_encoding = parse_encoding(text); },
-           "How its values become linear: auto goes by the file, raw takes them as they are")
-        ->type_name("auto|srgb|raw");
+const char* name_of(Encoding encoding) {
+    switch (encoding) {
+        case Encoding::automatic: break;
+        case Encoding::srgb: return "srgb";
+        case Encoding::raw: return "raw";
+    }
+    return "auto";
+}
+
+void add_texture_options(app::Options& options, FigureInputs& inputs) {
+    options.add({.name = "--texture",
+                 .value = "FILE",
+                 .help = "The picture to use",
+                 .preset = inputs.texture.empty() ? "none" : inputs.texture},
+                app::file_name("--texture", inputs.texture));
+    options.add({.name = "--texture-encoding",
+                 .value = "auto|srgb|raw",
+                 .help = "How its values become linear: auto goes by the file, raw takes them as they are",
+                 .preset = name_of(inputs.texture_encoding)},
+                [&inputs](const std::string& text) { inputs.texture_encoding = parse_encoding(text); });
 }
 
 }  // namespace
@@ -33,14 +45,21 @@ int figure_main(int argc, char** argv, std::string_view name, const std::functio
                 const std::optional<FigureInputs>& defaults) {
     const std::string program(name);
     return app::run_program(program, [&] {
-        CLI::App cli("Renders " + program + ".exr and " + program + ".png, or what -o names.", program);
+        const std::string exr = program + ".exr", png = program + ".png";
+        app::Options command(program, "Renders the figure.");
         app::RenderOptions options;
         options.command_line = app::command_line(argc, argv);
-        app::add_render_options(cli, options);
+        app::add_render_options(command, options, exr + " and " + png);
         FigureInputs inputs = defaults.value_or(FigureInputs{});
-        if (defaults) add_texture_options(cli, inputs);
-        if (!app::parse_arguments(cli, argc, argv)) return app::kDone;
-        if (options.outputs.empty()) options.outputs = {program + ".exr", program + ".png"};
+        if (defaults) add_texture_options(command, inputs);
+        const auto state = [&] {
+            try {
+                app::state_presets(command, make(defaults.value_or(FigureInputs{})));
+            } catch (const Error&) {  // a file is missing, which --help can do without
+            }
+        };
+        if (!command.parse(argc, argv, state)) return app::kDone;
+        if (options.outputs.empty()) options.outputs = {exr, png};
 
         const app::RenderJob job{.make = [&] { return make(inputs); }, .inputs = {inputs.texture}};
         return app::run_render_job(job, options, {.program = program, .quiet = options.quiet});

@@ -1,24 +1,75 @@
 #include "json_output.h"
 
-#include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "parse.h"
 #include "text_file.h"
 
 namespace limn::app {
 
-Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+namespace {
+
+using Written = nlohmann::ordered_json;
+
+struct Writer {
+    Written operator()(const Json& json) const { return std::visit(*this, json.value()); }
+    Written operator()(const Json::Array& values) const {
+        Written array = Written::array();
+        for (const Json& value : values) array.push_back((*this)(value));
+        return array;
+    }
+    Written operator()(const Json::Object& members) const {
+        Written object = Written::object();
+        for (const auto& [name, value] : members) object[name] = (*this)(value);
+        return object;
+    }
+    template <class Scalar>
+    Written operator()(const Scalar& scalar) const {
+        return scalar;
+    }
+};
+
+// Of a pair in braces: a name and a value.
+bool is_member(const Json& json) {
+    const auto* pair = std::get_if<Json::Array>(&json.value());
+    return pair != nullptr && pair->size() == 2 && std::holds_alternative<std::string>(pair->front().value());
+}
+
+}  // namespace
+
+Json::Json(std::initializer_list<Json> values) : value_(Array(values)) {
+    if (values.size() == 0 || !std::all_of(values.begin(), values.end(), is_member)) return;
+    Object members;
+    for (const Json& value : values) {
+        const Array& pair = std::get<Array>(value.value_);
+        members.emplace_back(std::get<std::string>(pair[0].value_), pair[1]);
+    }
+    value_ = std::move(members);
+}
+
+Json& Json::operator[](const std::string& name) {
+    Object& members = std::get<Object>(value_);
+    for (auto& [key, value] : members)
+        if (key == name) return value;
+    return members.emplace_back(name, nullptr).second;
+}
+
+void Json::update(const Json& object) {
+    for (const auto& [name, value] : std::get<Object>(object.value_)) (*this)[name] = value;
+}
 
 std::string json_text(const Json& json) {
     // Names of files need not be UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return Writer{}(json).dump(2, ' ', false, Written::error_handler_t::replace) + "\n";
 }
 
-JsonOption::JsonOption(CLI::App& app) {
-    app.add_option("--json", path_, "Write JSON too; - for standard output, in place of the table")
-        ->type_name("FILE")
-        ->each(file_name("--json"));
+JsonOption::JsonOption(Options& options) {
+    options.add({.name = "--json",
+                 .value = "FILE",
+                 .help = "Write JSON too; - for standard output, in place of the table",
+                 .preset = "the table alone"},
+                file_name("--json", path_));
 }
 
 void JsonOption::check(const std::vector<std::string>& inputs) const {

@@ -19,17 +19,24 @@ void refuse(std::string_view option, std::string_view text, std::string_view pro
     throw ArgumentError(std::string(option) + " " + std::string(text) + ": " + std::string(problem));
 }
 
-std::function<void(const std::string&)> file_name(std::string option) {
-    return [option = std::move(option)](const std::string& text) {
+Use file_name(std::string option, std::string& path) {
+    return [option = std::move(option), &path](const std::string& text) {
         if (text.empty()) refuse(option, "''", "is not the name of a file");
+        path = text;
     };
 }
 
-std::function<void(const std::string&)> picture_name(std::string option) {
-    return [option = std::move(option)](const std::string& path) {
-        file_name(option)(path);
+Use file_names(std::string option, std::vector<std::string>& paths) {
+    return [option = std::move(option), &paths](const std::string& text) {
+        file_name(option, paths.emplace_back())(text);
+    };
+}
+
+Use picture_names(std::string option, std::vector<std::string>& paths) {
+    return [option = std::move(option), &paths](const std::string& text) {
+        file_name(option, paths.emplace_back())(text);
         try {
-            check_image_name(path);
+            check_image_name(text);
         } catch (const FileError& e) {
             throw ArgumentError(option + " " + e.what());
         }

@@ -5,10 +5,12 @@
 
 #include <array>
 #include <charconv>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
+
+#include "options.h"
 
 namespace limn::app {
 
@@ -28,11 +30,12 @@ Integer parse_integer(std::string_view option, std::string_view text, Integer lo
     return value;
 }
 
-/// The name of a file, which must not be empty: for CLI11's each().
-std::function<void(const std::string&)> file_name(std::string option);
+/// The name of a file, which must not be empty, or of several: for Options::add.
+Use file_name(std::string option, std::string& path);
+Use file_names(std::string option, std::vector<std::string>& paths);
 
-/// The same of a picture to be written: what is wrong with the name alone is wrong in the arguments.
-std::function<void(const std::string&)> picture_name(std::string option);
+/// The same of pictures to be written: what is wrong with the name alone is wrong in the arguments.
+Use picture_names(std::string option, std::vector<std::string>& paths);
 
 double parse_number(std::string_view option, std::string_view text);
 

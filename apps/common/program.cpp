@@ -1,12 +1,9 @@
 #include "program.h"
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
-
-#include "text_file.h"
 
 namespace limn::app {
 
@@ -16,18 +13,6 @@ void Console::note(const std::string& message) const {
 
 void Console::error(const std::string& message) const {
     std::fprintf(stderr, "%s: %s\n", program.c_str(), message.c_str());
-}
-
-bool parse_arguments(CLI::App& app, int argc, const char* const* argv) {
-    try {
-        app.parse(argc, argv);
-        return true;
-    } catch (const CLI::CallForHelp&) {
-        write_text("-", app.help());
-        return false;
-    } catch (const CLI::ParseError& e) {
-        throw ArgumentError(std::string(e.what()) + " (see " + app.get_name() + " --help)");
-    }
 }
 
 int run_program(const std::string& program, const std::function<int()>& body) noexcept {

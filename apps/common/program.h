@@ -1,15 +1,11 @@
 /// \file
-/// How every program reads its arguments, speaks and ends.
+/// How every program speaks and ends.
 #pragma once
 
 #include <functional>
 #include <string>
 
 #include "limn/core/error.h"
-
-namespace CLI {
-class App;
-}
 
 namespace limn::app {
 
@@ -26,11 +22,6 @@ struct Console {
     void note(const std::string& message) const;
     void error(const std::string& message) const;
 };
-
-/// Parses into the variables that the app's options are bound to.
-/// \returns false if the user asked for help, which is then on stdout
-/// \throws ArgumentError for bad usage
-bool parse_arguments(CLI::App& app, int argc, const char* const* argv);
 
 /// Runs a step whose arguments come out of files: what a library function refuses there is a fault of those files, not
 /// of the command line.

@@ -1,8 +1,8 @@
 #include "render_options.h"
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 #include "limn/core/error.h"
@@ -14,12 +14,8 @@ namespace {
 constexpr int kMostSamples = std::numeric_limits<int>::max();
 constexpr int kMostThreads = 1024;
 
-using Use = std::function<void(const std::string& text)>;
-
-CLI::Option* add(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
-                 const Use& use) {
-    return app.add_option_function<std::string>(name, use, help)->type_name(type);
-}
+// Stands for what only the scene can tell: see state_presets.
+constexpr const char* kOfScene = "the scene's own";
 
 double parse_positive(const char* option, const std::string& text) {
     const double value = parse_number(option, text);
@@ -27,36 +23,56 @@ double parse_positive(const char* option, const std::string& text) {
     return value;
 }
 
-void add_numbers(CLI::App& app, RenderOptions& o) {
-    add(app, "--size", "WxH", "Size in pixels", [&o](const std::string& s) { o.size = parse_size("--size", s); });
-    add(app, "--spp", "N", "Samples per pixel",
-        [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
-    add(app, "--error", "E",
-        "Render until the picture's relMSE is at most E, by the upper end of its 95 % interval; --spp is then the most",
-        [&o](const std::string& s) { o.error = parse_positive("--error", s); });
-    add(app, "--time-limit", "SECONDS",
-        "Render no longer than that, with --error until the first of both; --spp is then the most",
-        [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
-    app.add_flag("--uniform", o.uniform, "With --error or --time-limit: as many samples in each pixel");
-    add(app, "--seed", "N", "Another seed gives other noise, the same seed the same picture",
-        [&o](const std::string& s) {
-            o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
-        });
-    add(app, "--threads", "N", "Threads; by default one a processor. The picture does not depend on it",
-        [&o](const std::string& s) { o.threads = parse_integer("--threads", s, 1, kMostThreads); });
-    add(app, "--max-depth", "N|unlimited", "Ray segments a path", [&o](const std::string& s) {
-        o.max_depth = s == "unlimited" ? kUnlimitedDepth : parse_integer("--max-depth", s, 1, kUnlimitedDepth - 1);
-    });
-    add(app, "--estimator", "path|naive", "How light is found: with or without sampling the lamps",
-        [&o](const std::string& s) {
-            if (s != "path" && s != "naive") refuse("--estimator", s, "must be path or naive");
-            o.estimator = s == "path" ? Estimator::path : Estimator::naive;
-        });
-    add(app, "--sampler", "sobol|independent",
-        "Random numbers: spread evenly over each pixel's samples, or independent", [&o](const std::string& s) {
-            if (s != "sobol" && s != "independent") refuse("--sampler", s, "must be sobol or independent");
-            o.sampler = s == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
-        });
+void add_numbers(Options& options, RenderOptions& o) {
+    options.add({.name = "--size", .value = "WxH", .help = "Size in pixels", .preset = kOfScene},
+                [&o](const std::string& s) { o.size = parse_size("--size", s); });
+    options.add({.name = "--spp", .value = "N", .help = "Samples a pixel", .preset = kOfScene},
+                [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
+    options.add({.name = "--error",
+                 .value = "E",
+                 .help = "Render until the picture's relMSE is at most E, by the upper end of its 95 % interval; --spp "
+                         "is then the most",
+                 .preset = "--spp ends the render"},
+                [&o](const std::string& s) { o.error = parse_positive("--error", s); });
+    options.add({.name = "--time-limit",
+                 .value = "SECONDS",
+                 .help = "Render no longer than that, with --error until the first of both; --spp is then the most",
+                 .preset = "none"},
+                [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
+    options.add_flag("--uniform", o.uniform, "With --error or --time-limit: as many samples in each pixel");
+    options.add({.name = "--seed",
+                 .value = "N",
+                 .help = "Another seed gives other noise, the same seed the same picture",
+                 .preset = kOfScene},
+                [&o](const std::string& s) {
+                    o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
+                });
+    options.add({.name = "--threads",
+                 .value = "N",
+                 .help = "Threads, on which the picture does not depend",
+                 .preset = "one for each processor"},
+                [&o](const std::string& s) { o.threads = parse_integer("--threads", s, 1, kMostThreads); });
+    options.add({.name = "--max-depth", .value = "N|unlimited", .help = "Ray segments a path", .preset = kOfScene},
+                [&o](const std::string& s) {
+                    o.max_depth =
+                        s == "unlimited" ? kUnlimitedDepth : parse_integer("--max-depth", s, 1, kUnlimitedDepth - 1);
+                });
+    options.add({.name = "--estimator",
+                 .value = "path|naive",
+                 .help = "How light is found: with or without sampling the lamps",
+                 .preset = kOfScene},
+                [&o](const std::string& s) {
+                    if (s != "path" && s != "naive") refuse("--estimator", s, "must be path or naive");
+                    o.estimator = s == "path" ? Estimator::path : Estimator::naive;
+                });
+    options.add({.name = "--sampler",
+                 .value = "sobol|independent",
+                 .help = "Random numbers: spread evenly over each pixel's samples, or independent",
+                 .preset = kOfScene},
+                [&o](const std::string& s) {
+                    if (s != "sobol" && s != "independent") refuse("--sampler", s, "must be sobol or independent");
+                    o.sampler = s == "sobol" ? SamplerKind::sobol : SamplerKind::independent;
+                });
 }
 
 // Names of channels with commas between them, each once.
@@ -73,48 +89,38 @@ std::vector<std::string> parse_channels(const std::string& text) {
     return names;
 }
 
-void add_camera(CLI::App& app, CameraOptions& o) {
-    const auto option = [&app](const std::string& name, const std::string& type, const std::string& help,
-                               const Use& use) { add(app, name, type, help, use)->group("Camera"); };
-    option("--look-from", "x,y,z", "Where the eye is", [&o](const std::string& s) {
+void add_camera(Options& options, CameraOptions& o) {
+    const auto add = [&options](const char* name, const char* value, const char* help, const Use& use) {
+        options.add({.name = name, .value = value, .help = help, .preset = kOfScene, .group = "Camera"}, use);
+    };
+    add("--look-from", "x,y,z", "Where the eye is", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--look-from", s);
         o.look_from = Point3{x, y, z};
     });
-    option("--look-at", "x,y,z", "What is in the middle of the picture", [&o](const std::string& s) {
+    add("--look-at", "x,y,z", "What is in the middle of the picture", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--look-at", s);
         o.look_at = Point3{x, y, z};
     });
-    option("--vup", "x,y,z", "What is up in the picture", [&o](const std::string& s) {
+    add("--vup", "x,y,z", "What is up in the picture", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--vup", s);
         o.up = Vec3{x, y, z};
         if (*o.up == Vec3{}) refuse("--vup", s, "must not be zero");
     });
-    option("--vfov", "DEG", "Full angle between the top and the bottom of the picture", [&o](const std::string& s) {
+    add("--vfov", "DEG", "Full angle between the top and the bottom of the picture", [&o](const std::string& s) {
         o.vertical_fov = parse_number("--vfov", s);
         if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180))
             refuse("--vfov", s, "must be over 0 and under 180 degrees");
     });
-    option("--aperture-angle", "DEG", "Full angle of the lens seen from the plane in focus; 0: all is sharp",
-           [&o](const std::string& s) {
-               o.aperture_angle = parse_number("--aperture-angle", s);
-               if (!(*o.aperture_angle >= 0 && *o.aperture_angle < 180))
-                   refuse("--aperture-angle", s, "must be at least 0 and under 180 degrees");
-           });
-    option("--focus-dist", "D", "Distance of the plane in focus", [&o](const std::string& s) {
+    add("--aperture-angle", "DEG", "Full angle of the lens seen from the plane in focus; 0: all is sharp",
+        [&o](const std::string& s) {
+            o.aperture_angle = parse_number("--aperture-angle", s);
+            if (!(*o.aperture_angle >= 0 && *o.aperture_angle < 180))
+                refuse("--aperture-angle", s, "must be at least 0 and under 180 degrees");
+        });
+    add("--focus-dist", "D", "Distance of the plane in focus", [&o](const std::string& s) {
         o.focus_distance = parse_number("--focus-dist", s);
         if (!(*o.focus_distance > 0)) refuse("--focus-dist", s, "must be positive");
     });
-}
-
-// Names that later versions will give a meaning to. Refused, so that no script comes to rely on their absence.
-void add_reserved(CLI::App& app) {
-    for (const char* name : {"--shard", "--checkpoint", "--resume"})
-        add(app, name, "X", "",
-            [name](const std::string& s) {
-                refuse(name, s, "this option is reserved and not available in this version");
-            })
-            ->expected(0, 1)
-            ->group("");
 }
 
 template <class Target, class Value>
@@ -133,23 +139,52 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
 
 }  // namespace
 
-void add_render_options(CLI::App& app, RenderOptions& o) {
-    app.add_option("-o,--output", o.outputs, "A picture to write, .exr or .png; may be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->each(picture_name("-o"));
-    add_numbers(app, o);
-    app.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
-    add(app, "--channels", "error,samples",
-        "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples it has",
+void add_render_options(Options& options, RenderOptions& o, const std::string& outputs) {
+    options.add({.name = "-o,--output",
+                 .value = "FILE",
+                 .help = "A picture to write, .exr or .png; may be repeated",
+                 .preset = outputs,
+                 .required = outputs.empty(),
+                 .repeatable = true},
+                picture_names("-o", o.outputs));
+    add_numbers(options, o);
+    options.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
+    options.add(
+        {.name = "--channels",
+         .value = "error,samples",
+         .help = "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples "
+                 "it has",
+         .preset = "none"},
         [&o](const std::string& s) { o.channels = parse_channels(s); });
-    app.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
-    app.add_option("--report", o.report, "Write what was done and how well as JSON; - for standard output")
-        ->type_name("FILE.json")
-        ->each(file_name("--report"));
-    app.add_flag("--quiet", o.quiet, "Say nothing but errors");
-    add_camera(app, o.camera);
-    add_reserved(app);
+    options.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
+    options.add({.name = "--report",
+                 .value = "FILE.json",
+                 .help = "Write what was done and how well as JSON; - for standard output",
+                 .preset = "none"},
+                file_name("--report", o.report));
+    options.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    add_camera(options, o.camera);
+    // Refused, so that no script comes to rely on their absence.
+    for (const char* name : {"--shard", "--checkpoint", "--resume"}) options.reserve(name);
+}
+
+void state_presets(Options& options, const Figure& figure) {
+    const RenderSettings& s = figure.settings;
+    const Camera& c = figure.camera;
+    const auto triple = [](const auto& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+    options.preset("--size", fmt::format("{}x{}", s.width, s.height));
+    options.preset("--spp",
+                   fmt::format("{}; {} with --error or --time-limit", s.samples_per_pixel, s.max_samples_per_pixel));
+    options.preset("--seed", fmt::format("{}", s.seed));
+    options.preset("--max-depth", s.max_depth == kUnlimitedDepth ? "unlimited" : fmt::format("{}", s.max_depth));
+    options.preset("--estimator", s.estimator == Estimator::path ? "path" : "naive");
+    options.preset("--sampler", s.sampler == SamplerKind::sobol ? "sobol" : "independent");
+    options.preset("--look-from", triple(c.look_from));
+    options.preset("--look-at", triple(c.look_at));
+    options.preset("--vup", triple(c.up));
+    options.preset("--vfov", fmt::format("{}", c.vertical_fov));
+    options.preset("--aperture-angle", fmt::format("{}", c.aperture_angle));
+    options.preset("--focus-dist", c.focus_distance ? fmt::format("{}", *c.focus_distance) : "that of --look-at");
 }
 
 void apply(const RenderOptions& o, Figure& figure) {

@@ -8,11 +8,8 @@
 #include <vector>
 
 #include "figure.h"
+#include "options.h"
 #include "parse.h"
-
-namespace CLI {
-class App;
-}
 
 namespace limn::app {
 
@@ -44,9 +41,13 @@ struct RenderOptions {
     std::vector<std::string> all_outputs() const;
 };
 
-/// Adds the options to `app`, bound to `options`, which must outlive the parsing. A value that cannot be right is
-/// refused while parsing, with an ArgumentError that names it; so are the options that later versions will bring.
-void add_render_options(CLI::App& app, RenderOptions& options);
+/// Adds the options, bound to `values`, which must outlive the parsing. A value that cannot be right is refused while
+/// parsing, with an ArgumentError that names it; so are the options that later versions will bring.
+/// \param outputs what is written without -o, for --help; empty: -o is required
+void add_render_options(Options& options, RenderOptions& values, const std::string& outputs = "");
+
+/// Says in --help what the figure has where the command line says nothing.
+void state_presets(Options& options, const Figure& figure);
 
 /// Replaces what the command line names.
 void apply(const RenderOptions& options, Figure& figure);

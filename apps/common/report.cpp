@@ -14,12 +14,12 @@ constexpr const char* kMetric = "relMSE";
 
 Json error_json(const ErrorEstimate& error) {
     return {{"metric", kMetric},
-            {"estimate", json_number(error.estimate)},
-            {"ci95_low", json_number(error.ci95_low)},
-            {"ci95_high", json_number(error.ci95_high)},
+            {"estimate", error.estimate},
+            {"ci95_low", error.ci95_low},
+            {"ci95_high", error.ci95_high},
             {"target", error.target ? Json(*error.target) : Json(nullptr)},
             {"reached", error.target ? Json(error.reached) : Json(nullptr)},
-            {"max_sample_share", json_number(error.max_sample_share)},
+            {"max_sample_share", error.max_sample_share},
             {"reason", error.reason.empty() ? Json(nullptr) : Json(error.reason)}};
 }
 
@@ -53,7 +53,7 @@ std::string report_json(const RenderResult& result, double save_seconds) {
         {"spp", r.samples_per_pixel},
         {"seconds", {{"compile", r.compile_seconds}, {"render", r.render_seconds}, {"save", save_seconds}}},
         {"rays", r.rays},
-        {"mrays_per_second", json_number(static_cast<double>(r.rays) / r.render_seconds * 1e-6)},
+        {"mrays_per_second", static_cast<double>(r.rays) / r.render_seconds * 1e-6},
         {"error", error_json(result.error)},
         {"stopped_by", name_of(r.stopped_by)},
         {"nonfinite_samples", r.nonfinite_samples},

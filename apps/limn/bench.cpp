@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -38,57 +37,61 @@ auto integer_option(const char* option, Integer lowest, Integer highest, Integer
 }
 
 // A repeatable option for some of `names`.
-void add_choice(CLI::App& cli, const std::string& option, const std::string& help,
+void add_choice(Options& options, const std::string& name, const std::string& help, const std::string& preset,
                 const std::vector<std::string>& names, std::vector<std::string>& chosen) {
-    cli.add_option(option, chosen, fmt::format("{} (repeatable): {}", help, fmt::join(names, ", ")))
-        ->type_name("NAME")
-        ->allow_extra_args(false)
-        ->each([&names, option](const std::string& name) {
-            if (std::find(names.begin(), names.end(), name) == names.end())
-                refuse(option, name, fmt::format("is none of {}", fmt::join(names, ", ")));
-        });
+    options.add({.name = name,
+                 .value = "NAME",
+                 .help = fmt::format("{} (repeatable): {}", help, fmt::join(names, ", ")),
+                 .preset = preset,
+                 .repeatable = true},
+                [&names, &chosen, name](const std::string& text) {
+                    if (std::find(names.begin(), names.end(), text) == names.end())
+                        refuse(name, text, fmt::format("is none of {}", fmt::join(names, ", ")));
+                    chosen.push_back(text);
+                });
 }
 
-void add_options(CLI::App& cli, Plan& plan, bool& quiet) {
-    cli.add_option("MODEL", plan.models, "Wavefront OBJ models to measure; without one and without --scene, all scenes")
-        ->each(file_name("MODEL"));
-    add_choice(cli, "--scene", "A scene to measure", bench::scene_names(), plan.scenes);
-    add_choice(cli, "--kind", "Only rays of this kind", bench::ray_kinds(), plan.kinds);
-    cli.add_option_function<std::string>(
-           "--scale",
-           [&plan](const std::string& text) {
-               plan.scale = parse_number("--scale", text);
-               if (!(plan.scale > 0 && plan.scale <= 100)) refuse("--scale", text, "must lie in (0, 100]");
-           },
-           "Multiplies the number of primitives of the scenes")
-        ->type_name("X");
-    cli.add_option_function<std::string>(
-           "--rays", integer_option("--rays", std::size_t{1}, std::size_t{1} << 26, plan.rays), "Rays of each kind")
-        ->type_name("N");
-    cli.add_option_function<std::string>("--rounds", integer_option("--rounds", 1, 1000, plan.rounds),
-                                         "Rounds of each measurement")
-        ->type_name("N");
-    cli.add_option_function<std::string>("--build-rounds", integer_option("--build-rounds", 0, 1000, plan.build_rounds),
-                                         "Rounds of building")
-        ->type_name("N");
-    cli.add_option_function<std::string>(
-           "--threads",
-           [&plan](const std::string& text) { plan.threads = {parse_integer("--threads", text, 1, 1024)}; },
-           "Threads; without it, one and then all")
-        ->type_name("N");
-    cli.add_flag("--quiet", quiet, "Say nothing but errors");
-    cli.footer(kMeaning);
+void add_options(Options& options, Plan& plan, bool& quiet) {
+    const auto text = [](const auto& value) { return fmt::format("{}", value); };
+    options.add({.name = "MODEL",
+                 .value = "",
+                 .help = "Wavefront OBJ models to measure",
+                 .preset = "none, and all scenes without --scene",
+                 .repeatable = true},
+                file_names("MODEL", plan.models));
+    add_choice(options, "--scene", "A scene to measure", "all where no MODEL is given", bench::scene_names(),
+               plan.scenes);
+    add_choice(options, "--kind", "Only rays of this kind", "all", bench::ray_kinds(), plan.kinds);
+    options.add({.name = "--scale",
+                 .value = "X",
+                 .help = "Multiplies the number of primitives of the scenes",
+                 .preset = text(plan.scale)},
+                [&plan](const std::string& s) {
+                    plan.scale = parse_number("--scale", s);
+                    if (!(plan.scale > 0 && plan.scale <= 100)) refuse("--scale", s, "must lie in (0, 100]");
+                });
+    options.add({.name = "--rays", .value = "N", .help = "Rays of each kind", .preset = text(plan.rays)},
+                integer_option("--rays", std::size_t{1}, std::size_t{1} << 26, plan.rays));
+    options.add({.name = "--rounds", .value = "N", .help = "Rounds of each measurement", .preset = text(plan.rounds)},
+                integer_option("--rounds", 1, 1000, plan.rounds));
+    options.add(
+        {.name = "--build-rounds", .value = "N", .help = "Rounds of building", .preset = text(plan.build_rounds)},
+        integer_option("--build-rounds", 0, 1000, plan.build_rounds));
+    options.add({.name = "--threads", .value = "N", .help = "Threads", .preset = "one, and then all"},
+                [&plan](const std::string& s) { plan.threads = {parse_integer("--threads", s, 1, 1024)}; });
+    options.add_flag("--quiet", quiet, "Say nothing but errors");
 }
 
 }  // namespace
 
 int bench_command(int argc, const char* const* argv) {
-    CLI::App cli("Measures rays a second, beside Embree where it is there, on the same rays.", "limn bench");
+    Options options("limn bench", "Measures rays a second, beside Embree where it is there, on the same rays.",
+                    kMeaning);
     Plan plan;
     bool quiet = false;
-    add_options(cli, plan, quiet);
-    const JsonOption json(cli);
-    if (!parse_arguments(cli, argc, argv)) return kDone;
+    add_options(options, plan, quiet);
+    const JsonOption json(options);
+    if (!options.parse(argc, argv)) return kDone;
     json.check(plan.models);
     if (plan.scenes.empty() && plan.models.empty()) plan.scenes = bench::scene_names();
     if (plan.threads.empty()) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <vector>
 
@@ -71,19 +70,18 @@ Json json(const ImageMetrics& m, const Arguments& a) {
         {"test", a.test},
         {"reference", a.reference},
         {"valid", m.valid},
-        {"relmse", json_number(m.relative_mse)},
-        {"mse", json_number(m.mse)},
-        {"smape", json_number(m.smape)},
-        {"psnr", json_number(m.psnr_srgb)},
-        {"largest_relative_error",
-         {{"value", json_number(m.largest_relative)}, {"x", m.largest_x}, {"y", m.largest_y}}},
-        {"worst_share", json_number(m.worst_share)},
+        {"relmse", m.relative_mse},
+        {"mse", m.mse},
+        {"smape", m.smape},
+        {"psnr", m.psnr_srgb},
+        {"largest_relative_error", {{"value", m.largest_relative}, {"x", m.largest_x}, {"y", m.largest_y}}},
+        {"worst_share", m.worst_share},
         {"nonfinite", {{"test", m.nonfinite_test}, {"reference", m.nonfinite_reference}}},
     };
     if (m.has_reference_error) {
         json["reference_b"] = a.reference_b;
-        json["reference_relmse"] = json_number(m.reference_relative_mse);
-        json["corrected_relmse"] = json_number(m.corrected_relative_mse);
+        json["reference_relmse"] = m.reference_relative_mse;
+        json["corrected_relmse"] = m.corrected_relative_mse;
         json["reference_too_noisy"] = m.reference_too_noisy;
     }
     return json;
@@ -92,23 +90,26 @@ Json json(const ImageMetrics& m, const Arguments& a) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-    CLI::App cli(
-        "Prints the error of an image against a reference, or against two independent halves of one, whose own "
-        "error is then subtracted.",
-        "limn compare");
+    Options options("limn compare",
+                    "Prints the error of an image against a reference, or against two independent halves of one, whose "
+                    "own error is then subtracted.");
     Arguments a;
-    cli.add_option("TEST", a.test, "The image in question")->required()->each(file_name("TEST"));
-    cli.add_option("REF", a.reference, "The reference, or one half of it")->required()->each(file_name("REF"));
-    cli.add_option("REF_B", a.reference_b, "The other half of the reference")->each(file_name("REF_B"));
-    cli.add_option(
-           "-o,--output", a.outputs,
-           "Write where the error is: .exr has (x - r)^2 / (r^2 + 0.01) of each value, whose mean is relMSE; .png "
-           "false colours, black to white for 1e-6 to 1; may be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->each(picture_name("-o"));
-    const JsonOption json_option(cli);
-    if (!parse_arguments(cli, argc, argv)) return kDone;
+    const auto image = [&options](const std::string& name, std::string& path, const char* help, bool required) {
+        options.add({.name = name, .value = "", .help = help, .preset = required ? "" : "none", .required = required},
+                    file_name(name, path));
+    };
+    image("TEST", a.test, "The image in question", true);
+    image("REF", a.reference, "The reference, or one half of it", true);
+    image("REF_B", a.reference_b, "The other half of the reference", false);
+    options.add({.name = "-o,--output",
+                 .value = "FILE",
+                 .help = "Write where the error is: .exr has (x - r)^2 / (r^2 + 0.01) of each value, whose mean is "
+                         "relMSE; .png false colours, black to white for 1e-6 to 1; may be repeated",
+                 .preset = "none",
+                 .repeatable = true},
+                picture_names("-o", a.outputs));
+    const JsonOption json_option(options);
+    if (!options.parse(argc, argv)) return kDone;
     const std::vector<std::string> inputs = {a.test, a.reference, a.reference_b};
     check_distinct(a.outputs, inputs);
     for (const std::string& path : a.outputs) check_writable(path);

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 #include <strings.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -131,17 +130,16 @@ Description describe(const std::string& path) {
 }  // namespace
 
 int info_command(int argc, const char* const* argv) {
-    CLI::App cli(
+    Options options(
+        "limn info",
         "Prints what a model holds (a Wavefront OBJ, whose name ends in .obj), or an image: its size, channels and the "
         "facts of the render that made it.",
-        "limn info");
-    std::string file;
-    cli.add_option("FILE", file, "The model or image")->required()->each(file_name("FILE"));
-    JsonOption json_option(cli);
-    cli.footer(
         "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "
         "is\nclosed. Vertices at the same place count as one there, and triangles without an area are left out.");
-    if (!parse_arguments(cli, argc, argv)) return kDone;
+    std::string file;
+    options.add({.name = "FILE", .value = "", .help = "The model or image", .required = true}, file_name("FILE", file));
+    JsonOption json_option(options);
+    if (!options.parse(argc, argv)) return kDone;
     json_option.check({file});
 
     const Description description = describe(file);

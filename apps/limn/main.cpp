@@ -1,9 +1,11 @@
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.h"
 #include "limn/core/error.h"
 #include "limn/render/render.h"
+#include "options.h"
 #include "program.h"
 #include "text_file.h"
 
@@ -11,36 +13,58 @@ namespace limn::app {
 
 namespace {
 
+// After a message, on lines of its own.
 constexpr std::string_view kUsage =
-    "usage: limn render MODEL.obj -o OUT.exr [options]    render a model\n"
-    "       limn compare TEST REF [REF_B] [--json FILE]   the error between two images\n"
+    "\nusage: limn render MODEL.obj -o OUT.exr [options]    render a model\n"
+    "       limn compare TEST REF [REF_B] [options]       the error between two images\n"
     "       limn info FILE [--json FILE]                  what a model or an image holds\n"
     "       limn trace MODEL.obj [options]                which face each ray hits: text or float64 in and out\n"
     "       limn bench [MODEL.obj ...] [options]          rays a second here, beside Embree where it is there\n"
-    "       limn COMMAND --help                           the options of a command\n"
-    "       limn --version\n";
+    "       limn help COMMAND                             the options of a command; limn COMMAND --help too\n"
+    "       limn --version";
 
+struct Command {
+    std::string name;
+    int (*run)(int argc, const char* const* argv);
+};
+const std::vector<Command> kCommands{{"render", render_command},
+                                     {"compare", compare_command},
+                                     {"info", info_command},
+                                     {"trace", trace_command},
+                                     {"bench", bench_command}};
 constexpr std::string_view kReserved[] = {"merge"};
 
-int dispatch(int argc, char** argv) {
-    if (argc < 2) throw ArgumentError("a command is missing\n" + std::string(kUsage));
-    const std::string command = argv[1];
-    if (command == "render") return render_command(argc - 1, argv + 1);
-    if (command == "compare") return compare_command(argc - 1, argv + 1);
-    if (command == "info") return info_command(argc - 1, argv + 1);
-    if (command == "trace") return trace_command(argc - 1, argv + 1);
-    if (command == "bench") return bench_command(argc - 1, argv + 1);
-    for (const std::string_view name : kReserved)
-        if (command == name) throw ArgumentError(command + ": this command is not available in this version");
-    if (argc > 2) throw ArgumentError("'" + command + "' is not a command\n" + std::string(kUsage));
-    if (command == "--version") {
-        write_text("-", "limn " + std::string(version()) + "\n");
-    } else if (command == "--help" || command == "-h") {
-        write_text("-", kUsage);
-    } else {
-        throw ArgumentError("'" + command + "' is not a command\n" + std::string(kUsage));
+const Command& find_command(const std::string& name) {
+    for (const Command& command : kCommands)
+        if (command.name == name) return command;
+    for (const std::string_view reserved : kReserved)
+        if (name == reserved) throw ArgumentError(name + ": this command is not available in this version");
+    std::vector<std::string> words{"help", "--help", "--version"};
+    for (const Command& command : kCommands) words.push_back(command.name);
+    throw ArgumentError("'" + name + "' is not a command" + did_you_mean(name, words) + std::string(kUsage));
+}
+
+int help_command(int argc, const char* const* argv) {
+    if (argc > 2) throw ArgumentError("help: takes the name of one command");
+    if (argc == 2 && std::string_view(argv[1]) != "help") {
+        const char* const words[] = {argv[1], "--help"};
+        return find_command(argv[1]).run(2, words);
     }
+    write_text("-", std::string(kUsage.substr(1)) + "\n");
     return kDone;
+}
+
+int dispatch(int argc, const char* const* argv) {
+    if (argc < 2) throw ArgumentError("a command is missing" + std::string(kUsage));
+    const std::string name = argv[1];
+    if (name == "help") return help_command(argc - 1, argv + 1);
+    if (argc > 2 && name.starts_with('-')) throw ArgumentError(name + ": a command comes first" + std::string(kUsage));
+    if (name == "--help" || name == "-h") return help_command(1, argv);
+    if (name == "--version") {
+        write_text("-", "limn " + std::string(version()) + "\n");
+        return kDone;
+    }
+    return find_command(name).run(argc - 1, argv + 1);
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "commands.h"
@@ -12,33 +11,40 @@ namespace limn::app {
 
 namespace {
 
+// The default settings, and a camera that has the whole box in the picture.
+Figure view_of_box(const Box& box, const RenderOptions& options) {
+    Figure figure;
+    const Size size = options.size.value_or(Size{figure.settings.width, figure.settings.height});
+    figure.camera = frame_box(box, static_cast<double>(size.width) / size.height);
+    return figure;
+}
+
 Figure view_of(const std::string& path, const RenderOptions& options, const Console& console) {
     const Model model = load_obj(path);
     check_distinct(options.all_outputs(), model.files);
     for (const std::string& warning : model.warnings) console.note(warning);
-    Figure figure{.name = std::filesystem::path(path).filename().string(),
-                  .scene = make_viewing_scene(model),
-                  .camera = {},
-                  .settings = {}};
-    const Size size = options.size.value_or(Size{figure.settings.width, figure.settings.height});
-    figure.camera = frame_box(model.bounds(), static_cast<double>(size.width) / size.height);
+    Figure figure = view_of_box(model.bounds(), options);
+    figure.name = std::filesystem::path(path).filename().string();
+    figure.scene = make_viewing_scene(model);
     return figure;
 }
 
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
-    CLI::App cli(
-        "Renders a Wavefront OBJ under a default light, from the front right unless the camera options say "
-        "otherwise.",
-        "limn render");
+    Options command("limn render",
+                    "Renders a Wavefront OBJ under a default light, from the front right unless the camera options say "
+                    "otherwise.");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);
-    cli.add_option("MODEL", model, "The model, a Wavefront OBJ")->required()->each(file_name("MODEL"));
-    add_render_options(cli, options);
-    cli.get_option("--output")->required();
-    if (!parse_arguments(cli, argc, argv)) return kDone;
+    command.add({.name = "MODEL", .value = "", .help = "The model, a Wavefront OBJ", .required = true},
+                file_name("MODEL", model));
+    add_render_options(command, options);
+    state_presets(command, view_of_box({{-1, -1, -1}, {1, 1, 1}}, options));
+    command.preset("--look-from", "the front right of the model, all of which is seen");
+    command.preset("--look-at", "the middle of the model");
+    if (!command.parse(argc, argv)) return kDone;
 
     const Console console{.program = "limn", .quiet = options.quiet};
     const RenderJob job{.make = [&] { return view_of(model, options, console); }, .inputs = {model}};

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 
 #include "answer_writer.h"
@@ -95,17 +94,17 @@ void trace(const Arguments& a, const Console& console) {
 }  // namespace
 
 int trace_command(int argc, const char* const* argv) {
-    CLI::App cli("Answers which face of a Wavefront OBJ each ray hits first, or whether it hits any.", "limn trace");
+    Options options("limn trace", "Answers which face of a Wavefront OBJ each ray hits first, or whether it hits any.",
+                    kForms);
     Arguments a;
-    cli.add_option("MODEL", a.model, "The model, a Wavefront OBJ")->required()->each(file_name("MODEL"));
-    cli.add_option("--rays", a.rays, "Where the rays come from; - for standard input, as without it")
-        ->type_name("FILE")
-        ->each(file_name("--rays"));
-    cli.add_flag("--any", a.any, "Only whether there is a hit: 1 or 0");
-    cli.add_flag("--binary", a.binary, "Rays and answers as little-endian float64 in place of text");
-    cli.add_flag("--quiet", a.quiet, "Say nothing but errors");
-    cli.footer(kForms);
-    if (!parse_arguments(cli, argc, argv)) return kDone;
+    options.add({.name = "MODEL", .value = "", .help = "The model, a Wavefront OBJ", .required = true},
+                file_name("MODEL", a.model));
+    options.add({.name = "--rays", .value = "FILE", .help = "Where the rays come from", .preset = "-, standard input"},
+                file_name("--rays", a.rays));
+    options.add_flag("--any", a.any, "Only whether there is a hit: 1 or 0");
+    options.add_flag("--binary", a.binary, "Rays and answers as little-endian float64 in place of text");
+    options.add_flag("--quiet", a.quiet, "Say nothing but errors");
+    if (!options.parse(argc, argv)) return kDone;
     if (a.binary && ::isatty(STDOUT_FILENO) != 0)
         throw ArgumentError("--binary: standard output is a terminal; send it to a file or a pipe");
 

@@ -1,15 +1,4 @@
-// The program of figure LIMN_FIGURE.
-#include <optional>
-#include <string_view>
+// The program of the figure that LIMN_FIGURE names.
+#include "figure_program.h"
 
-#include "figures.h"
-
-#define LIMN_QUOTE(x) #x
-#define LIMN_NAME(x) LIMN_QUOTE(x)
-
-int main(int argc, char** argv) {
-    constexpr std::string_view name = LIMN_NAME(LIMN_FIGURE);
-    std::optional<limn::FigureInputs> inputs;
-    if (name == "fig06_earth") inputs = limn::figures::kDefaultInputs;
-    return limn::figure_main(argc, argv, name, limn::figures::LIMN_FIGURE, inputs);
-}
+int main(int argc, char** argv) { return limn::figures::figure_program(LIMN_FIGURE, argc, argv); }

@@ -7,6 +7,7 @@
 #include "compile/groups.h"
 #include "compile/lights.h"
 #include "core/plane_normal.h"
+#include "core/require.h"
 #include "limn/core/error.h"
 
 namespace limn::compiler {
@@ -205,6 +206,8 @@ std::size_t memory_of(const flat::Scene& s) {
 
 flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     const auto start = std::chrono::steady_clock::now();
+    require(is_radiance(scene.background.bottom), "compile: Scene::background.bottom must be finite and not negative");
+    require(is_radiance(scene.background.top), "compile: Scene::background.top must be finite and not negative");
     RecordSink sink;
     flat::Scene out;
     for (const auto& object : scene.objects()) {

@@ -1,10 +1,12 @@
 """What the convergence report reads from its measurements: errors of pictures, time to an error, intervals, tables."""
 
+import ast
 import random
 import re
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "apps/bench"), str(ROOT / "apps/bench/peers")]
@@ -211,11 +213,38 @@ class Report(unittest.TestCase):
         self.assertIn("| Mitsuba 3 † |", text)
 
 
+BROUGHT_BY = {"mitsuba": {"mitsuba", "drjit"}, "cycles": {"bpy", "mathutils"}, "luxcore": {"pyluxcore"}}
+
+
+def imports_of(path):
+    """The modules that a source imports at its head and that Python does not have of itself."""
+    names = set()
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add(node.module.split(".")[0])
+    return names - sys.stdlib_module_names
+
+
 @unittest.skipIf(plots is None, "numpy and matplotlib are not installed")
 class Renderers(unittest.TestCase):
     def test_each_has_a_line_of_its_own(self):
         keys = [key for key, _, _ in renderers.LADDER] + list(renderers.PEERS)
         self.assertEqual(sorted(keys), sorted(plots.STYLES))
+
+    def test_a_peer_alone_gets_all_that_its_worker_imports(self):
+        folder = ROOT / "apps/bench/peers"
+        own = {path.stem for path in folder.glob("*.py")}
+        for peer in renderers.PEERS:
+            with mock.patch.object(renderers.subprocess, "run") as run:
+                run.return_value.returncode = 0
+                self.assertEqual(renderers.install_peers([peer]), {})
+            installed = run.call_args_list[-1].args[0]
+            self.assertIn(renderers.PEERS[peer], installed)
+            for name in ("worker", "geometry", f"{peer}_peer"):
+                for module in imports_of(folder / f"{name}.py") - own - BROUGHT_BY.get(peer, set()):
+                    self.assertIn(module, installed, f"{name}.py")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bench/describe_scene.h"
@@ -10,9 +11,12 @@
 #include "limn/render/compiled_scene.h"
 
 using namespace limn;
-using app::Json;
+using Json = nlohmann::json;
 
 namespace {
+
+// What the peers read.
+Json description(const Figure& figure) { return Json::parse(app::json_text(bench::describe_scene(figure))); }
 
 std::size_t count_primitives(const Json& shapes) {
     std::size_t count = shapes["spheres"].size() + shapes["quads"].size();
@@ -50,7 +54,7 @@ TEST_CASE("Transport: the peers are told of every primitive that limn compiles",
     for (const std::string& name : bench::transport_scene_names()) {
         CAPTURE(name);
         const Figure figure = bench::make_transport_scene(name);
-        const Json told = bench::describe_scene(figure);
+        const Json told = description(figure);
         CHECK(count_primitives(told) == compile(figure.scene).stats().primitives);
         CHECK(told["name"] == name);
         CHECK(told["max_depth"] == figure.settings.max_depth);
@@ -62,7 +66,7 @@ TEST_CASE("Transport: what the peers are told stands where limn has it", "[bench
         CAPTURE(name);
         const Figure figure = bench::make_transport_scene(name);
         Box told;
-        grow(told, bench::describe_scene(figure));
+        grow(told, description(figure));
         const Box real = figure.scene.bounds();  // rounded outward
         CHECK(largest_difference(told.lower, real.lower) < 1e-9);
         CHECK(largest_difference(told.upper, real.upper) < 1e-9);
@@ -70,7 +74,7 @@ TEST_CASE("Transport: what the peers are told stands where limn has it", "[bench
 }
 
 TEST_CASE("Transport: materials, media, sky and lens are told as they are", "[bench][transport]") {
-    const auto told = [](const char* name) { return bench::describe_scene(bench::make_transport_scene(name)); };
+    const auto told = [](const char* name) { return description(bench::make_transport_scene(name)); };
     const Json balls = told("depth-of-field");
     CHECK(balls["spheres"][3]["radius"] == -.4);
     CHECK(balls["spheres"][3]["material"] == Json{{"kind", "glass"}, {"index", 1.5}});

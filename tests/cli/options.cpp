@@ -1,5 +1,4 @@
 // The options, without running a program.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
 #include <sstream>
@@ -7,7 +6,6 @@
 #include "catch.h"
 #include "limn/core/error.h"
 #include "process.h"
-#include "program.h"
 #include "property.h"
 #include "render_options.h"
 
@@ -15,11 +13,11 @@ namespace limn::app {
 namespace {
 
 RenderOptions parsed(std::vector<const char*> words) {
-    CLI::App cli("", "test");
+    Options command("test", "");
     RenderOptions options;
-    add_render_options(cli, options);
+    add_render_options(command, options, "a.exr");
     words.insert(words.begin(), "test");
-    parse_arguments(cli, static_cast<int>(words.size()), words.data());
+    command.parse(static_cast<int>(words.size()), words.data());
     return options;
 }
 
@@ -167,6 +165,34 @@ TEST_CASE("Options: unknown, repeated and incomplete ones are refused by name", 
     CHECK(refusal({"-o"}).find("-o") != std::string::npos);
     CHECK(refusal({"-o", "a.exr", "b.exr"}).find("b.exr") != std::string::npos);  // one file for each -o
     CHECK(refusal({"--bogus"}).find("(see test --help)") != std::string::npos);
+}
+
+TEST_CASE("Options: a message names what is wrong first: the unknown, the missing value, the second time", "[cli]") {
+    CHECK(refusal({"--sp", "4"}) == "unknown option --sp; did you mean --spp? (see test --help)");
+    CHECK(refusal({"--sp=4"}) == "unknown option --sp; did you mean --spp? (see test --help)");
+    CHECK(refusal({"4", "--bogus"}) == "unknown option --bogus (see test --help)");
+    CHECK(refusal({"-x"}) == "unknown option -x (see test --help)");
+    CHECK(refusal({"stray"}) == "unexpected argument 'stray' (see test --help)");
+    CHECK(refusal({"--spp"}) == "--spp needs a value (see test --help)");
+    CHECK(refusal({"--half=no"}) == "--half takes no value (see test --help)");
+    CHECK(refusal({"--spp", "4", "--spp", "5"}) == "--spp is given 2 times");
+}
+
+TEST_CASE("Options: names of files are taken as they are written, brackets and braces too", "[cli]") {
+    const RenderOptions o = parsed({"-o", "[a].exr", "-o", "{}.exr", "-o", "[a,b].png", "--report", "{}"});
+    CHECK(o.outputs == std::vector<std::string>{"[a].exr", "{}.exr", "[a,b].png"});
+    CHECK(o.report == "{}");
+}
+
+TEST_CASE("Options: a word is taken for a known one only where one letter in three differs at most, and two", "[cli]") {
+    const std::vector<std::string> words{"--seed", "--spp", "--sampler"};
+    CHECK(did_you_mean("--sedd", words) == "; did you mean --seed?");
+    CHECK(did_you_mean("--saampller", words) == "; did you mean --sampler?");
+    CHECK(did_you_mean("--smplr", words) == "; did you mean --sampler?");
+    CHECK(did_you_mean("--bogus", words).empty());
+    CHECK(did_you_mean("--x", words).empty());
+    CHECK(did_you_mean("", words).empty());
+    CHECK(did_you_mean("--seed", {}).empty());
 }
 
 TEST_CASE("Options: a camera that no figure could have is refused", "[cli]") {

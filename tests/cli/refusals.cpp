@@ -2,10 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "catch.h"
 #include "house.h"
 #include "limn/io/image_io.h"
+#include "limn/render/settings.h"
 #include "process.h"
 #include "support/folder.h"
 
@@ -22,13 +24,62 @@ TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
     REQUIRE(std::sscanf(version.out.c_str(), "limn %d.%d.%d%n", &major, &minor, &patch, &end) == 3);
     CHECK(version.out.substr(static_cast<std::size_t>(end)) == "\n");
 
-    for (const Words& words : {Words{"--help"}, Words{"render", "--help"}, Words{"compare", "--help"},
-                               Words{"info", "--help"}, Words{"trace", "--help"}, Words{"bench", "--help"}}) {
+    for (const Words& words :
+         {Words{"--help"}, Words{"render", "--help"}, Words{"compare", "--help"}, Words{"info", "--help"},
+          Words{"trace", "--help"}, Words{"bench", "--help"}, Words{"help"}}) {
         const Outcome help = limn(words);
         CHECK(help.status == 0);
         CHECK(help.err.empty());
-        CHECK(contains(help.out, words.front() == "--help" ? "limn render" : words.front()));
+        CHECK(contains(help.out, words.front() == words.back() ? "limn render" : words.front()));
     }
+    for (const std::string command : {"render", "compare", "info", "trace", "bench"}) {
+        const Outcome help = limn({"help", command});
+        CHECK(help.status == 0);
+        CHECK(help.out == limn({command, "--help"}).out);
+        CHECK(contains(limn({"help"}).out, "limn " + command));
+    }
+    CHECK(limn({"help"}).out == limn({"--help"}).out);
+}
+
+// The line of an option in a help text.
+std::string line_of(const std::string& help, const std::string& option) {
+    const std::size_t begin = help.find("\n  " + option + " ") + 1;
+    return help.substr(begin, help.find('\n', begin) - begin);
+}
+
+TEST_CASE("limn: --help states of each option that takes a value what holds without it, or that it is required",
+          "[cli]") {
+    std::vector<std::string> texts{run(TINY_FIGURE_PROGRAM, {"--help"}).out};
+    for (const char* command : {"render", "compare", "info", "trace", "bench"})
+        texts.push_back(limn({command, "--help"}).out);
+    int options = 0;
+    for (const std::string& text : texts) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            const bool takes_value = line.starts_with("  -") && line.find(' ', 2) != line.find("  ", 2);
+            if (!takes_value) continue;
+            ++options;
+            if (std::string next; line.find("  ", 2) == std::string::npos && std::getline(lines, next)) line += next;
+            CAPTURE(line);
+            CHECK((contains(line, "(default: ") || contains(line, " REQUIRED")));
+        }
+    }
+    CHECK(options >= 50);
+}
+
+TEST_CASE("limn: the defaults in --help are those of the library, and of a figure its own", "[cli]") {
+    const std::string render = limn({"render", "--help"}).out, figure = run(TINY_FIGURE_PROGRAM, {"--help"}).out;
+    CHECK(line_of(render, "--spp N").ends_with("(default: 64; 1048576 with --error or --time-limit)"));
+    CHECK(RenderSettings{}.samples_per_pixel == 64);
+    CHECK(line_of(render, "--size WxH").ends_with("(default: 400x400)"));
+    CHECK(line_of(render, "--max-depth N|unlimited").ends_with("(default: 10)"));
+    CHECK(line_of(render, "--vfov DEG").ends_with("(default: 30)"));  // that of frame_box
+    CHECK(line_of(figure, "--spp N").ends_with("(default: 4; 1048576 with --error or --time-limit)"));
+    CHECK(line_of(figure, "--size WxH").ends_with("(default: 6x4)"));
+    CHECK(line_of(figure, "--max-depth N|unlimited").ends_with("(default: 3)"));
+    CHECK(line_of(figure, "--look-from x,y,z").ends_with("(default: 0,0,30)"));
+    CHECK(line_of(figure, "--vfov DEG").ends_with("(default: 10)"));
+    CHECK(line_of(figure, "-o,--output FILE").ends_with("(default: tiny.exr and tiny.png)"));
 }
 
 TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and nothing on stdout", "[cli]") {
@@ -37,6 +88,13 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
     const std::vector<std::pair<Words, std::string>> cases = {
         {{}, "usage"},
         {{"paint"}, "paint"},
+        {{"rendr"}, "'rendr' is not a command; did you mean render?"},
+        {{"help", "paint"}, "'paint' is not a command"},
+        {{"help", "render", "info"}, "help: takes the name of one command"},
+        {{"--version", "--quiet"}, "--version: a command comes first"},
+        {{"render", model, "-o", out, "--sp", "4"}, "unknown option --sp; did you mean --spp?"},
+        {{"render", "--sp", "4"}, "unknown option --sp"},
+        {{"trace", model, "--any=1"}, "--any takes no value"},
         {{"render"}, "MODEL"},
         {{"render", model}, "-o"},
         {{"render", model, "-o", out, "--spp", "0"}, "--spp 0"},

@@ -283,6 +283,24 @@ TEST_CASE(
     CHECK(tally.hits > tally.rays / 20);
 }
 
+TEST_CASE("Bad background: a value that is negative or not finite is refused by the name of its end, all others render",
+          "[hard][bad]") {
+    for (const double value : joined(kFiniteValues, kHugeValues, kUnusableValues))
+        for (const bool is_top : {false, true})
+            for (double Color::*channel : {&Color::r, &Color::g, &Color::b}) {
+                Scene scene;
+                Color& end = is_top ? scene.background.top : scene.background.bottom;
+                end.*channel = value;
+                CAPTURE(value, is_top);
+                if (std::isfinite(value) && value >= 0) {
+                    CHECK_NOTHROW(compile(scene));
+                    continue;
+                }
+                CHECK_THROWS_WITH(compile(scene), Catch::Contains(is_top ? "background.top" : "background.bottom"));
+                CHECK_THROWS_AS(compile(scene), ArgumentError);
+            }
+}
+
 TEST_CASE("Bad rays: in a whole scene unusable rays miss, one by one and in a batch, and are as many as expected",
           "[hard][bad]") {
     const CompiledScene scene = compile(zoo_instances().scene);

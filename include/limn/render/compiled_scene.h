@@ -96,7 +96,7 @@ struct CompileSettings {
 
 /// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene and settings give the same
 /// tables. \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
-/// contains a medium, or there are too many primitives
+/// contains a medium, there are too many primitives, or the background is negative or not finite
 CompiledScene compile(const Scene& scene, const CompileSettings& settings = {});
 
 }  // namespace limn

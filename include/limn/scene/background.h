@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// Radiance that arrives from infinitely far away.
+/// Radiance that arrives from infinitely far away, finite and not negative: `compile` refuses any other.
 struct Background {
     Color bottom;  ///< for directions straight down
     Color top;     ///< for directions straight up

@@ -1,0 +1,135 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "limn/core/error.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+// How many letters to change, add or leave out (Levenshtein's distance).
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (const char letter : a) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (letter == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string described(const std::string& help, const std::string& preset) {
+    return preset.empty() ? help : help + " (default: " + preset + ")";
+}
+
+}  // namespace
+
+struct Options::Parser {
+    CLI::App app;
+    std::map<std::string, std::pair<CLI::Option*, std::string>> options;  // by name, with their help
+    std::vector<std::string> names{"--help"};                             // as they are typed
+
+    void keep(const std::string& name, CLI::Option* option, const std::string& help) {
+        options[name] = {option, help};
+        for (std::size_t begin = 0; begin <= name.size();) {
+            const std::size_t end = std::min(name.find(',', begin), name.size());
+            names.push_back(name.substr(begin, end - begin));
+            begin = end + 1;
+        }
+    }
+
+    std::string problem(const CLI::ParseError& error) const {
+        // First, for what was meant by it may be missing.
+        for (const std::string& word : app.remaining())
+            if (word.size() > 1 && word.starts_with('-')) {
+                const std::string name = word.substr(0, word.find('='));
+                return "unknown option " + name + did_you_mean(name, names);
+            }
+        const std::string message = error.what();
+        std::string name = message.substr(0, message.find_first_of(": "));
+        if (!name.starts_with('-')) name.insert(0, "--");
+        if (dynamic_cast<const CLI::ExtrasError*>(&error))
+            return "unexpected argument '" + app.remaining().front() + "'";
+        if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+            return name + (message.find("override") == std::string::npos ? " needs a value" : " takes no value");
+        return message;
+    }
+};
+
+Options::Options(std::string program, const std::string& description, const std::string& footer)
+    : parser_(std::make_unique<Parser>()) {
+    parser_->app.description(description);
+    parser_->app.name(std::move(program));
+    parser_->app.footer(footer);
+}
+
+Options::~Options() = default;
+
+void Options::add(const Option& o, Use use) {
+    // The texts as they are: CLI11's own types read "{}" and "[a]" as lists.
+    const auto take = [use = std::move(use), is_repeatable = o.repeatable,
+                       name = o.name.substr(0, o.name.find(','))](const CLI::results_t& texts) {
+        if (texts.size() > 1 && !is_repeatable)
+            throw ArgumentError(name + " is given " + std::to_string(texts.size()) + " times");
+        for (const std::string& text : texts) use(text);
+        return true;
+    };
+    CLI::Option* const option = parser_->app.add_option(o.name, take, described(o.help, o.preset));
+    option->type_name(o.value)->required(o.required)->group(o.group);
+    if (o.repeatable) option->expected(1, CLI::detail::expected_max_vector_size);
+    option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+    parser_->keep(o.name, option, o.help);
+}
+
+void Options::add_flag(const std::string& name, bool& value, const std::string& help) {
+    parser_->keep(name,
+                  parser_->app.add_flag(name, value, help)
+                      ->disable_flag_override()
+                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast),
+                  help);
+}
+
+void Options::reserve(const std::string& name) {
+    const auto refuse = [name](const CLI::results_t&) -> bool {
+        throw ArgumentError(name + ": this option is reserved and not available in this version");
+    };
+    parser_->app.add_option(name, refuse)->expected(0, 1)->group("");
+}
+
+void Options::preset(const std::string& name, const std::string& text) {
+    const auto& [option, help] = parser_->options.at(name);
+    option->description(described(help, text));
+}
+
+bool Options::parse(int argc, const char* const* argv, const std::function<void()>& before_help) {
+    try {
+        parser_->app.parse(argc, argv);
+        return true;
+    } catch (const CLI::CallForHelp&) {
+        if (before_help) before_help();
+        write_text("-", parser_->app.help());
+        return false;
+    } catch (const CLI::ParseError& error) {
+        throw ArgumentError(parser_->problem(error) + " (see " + parser_->app.get_name() + " --help)");
+    }
+}
+
+std::string did_you_mean(std::string_view given, const std::vector<std::string>& words) {
+    const auto nearest = std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) {
+        return distance(given, a) < distance(given, b);
+    });
+    if (nearest == words.end() || distance(given, *nearest) > std::min(given.size() / 3, std::size_t{2})) return "";
+    return "; did you mean " + *nearest + "?";
+}
+
+}  // namespace limn::app
