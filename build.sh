@@ -8,6 +8,8 @@ usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
+       ./build.sh compilers [--quick]
+       ./build.sh sanitize asan|tsan|memcheck
        ./build.sh release [--renew]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
@@ -17,6 +19,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   promise      how often a render to an error keeps it: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
+  compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes
+  sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
   mutants      faults that the suite must catch: docs/mutants.md
   docs         the API reference: build/docs/html/index.html
   release      whether all reports are of these sources, and claims true; --renew makes those anew that are not
@@ -103,7 +107,7 @@ for option in "$@"; do
         export LIMN_FULL=1
     elif [[ $command == bench && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
-    elif [[ $command == convergence || $command == release ]]; then
+    elif [[ $command == convergence || $command == compilers || $command == sanitize || $command == release ]]; then
         others+=("$option")
     else
         usage
@@ -137,11 +141,20 @@ case $command in
         ;;
     accuracy)
         install_missing libembree-dev python3 python3-matplotlib python3-numpy
-        [[ ${#full[@]} -eq 0 ]] || install_missing clang-19 ccache
         build
         /usr/bin/python3 apps/bench/accuracy.py "${full[@]}"
         ;;
-    mutants)  # builds a tree of its own
+    compilers)  # builds trees of its own, as the next two do
+        install_needs
+        install_missing clang-14 clang-19 ccache
+        /usr/bin/python3 -B tests/checks/compilers.py "${others[@]}"
+        ;;
+    sanitize)
+        install_needs
+        install_missing valgrind dpkg-dev ccache
+        /usr/bin/python3 -B tests/checks/sanitize.py "${others[@]}"
+        ;;
+    mutants)
         install_needs
         install_missing ccache
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"

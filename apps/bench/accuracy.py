@@ -1,7 +1,7 @@
 """The accuracy report: docs/accuracy.md and its plots.
 
 Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more
-rays than the suite has; with --full also tests/hard/builds.sh. Interrupted, it goes on where it was. Exit status 0 only
+rays than the suite has. Interrupted, it goes on where it was. Exit status 0 only
 if limn is wrong nowhere; the report is written in any case.
 
 Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
@@ -63,23 +63,13 @@ def hard_cases(all_rays, kept):
                              [name.strip() for name in names if name.strip()]))
 
 
-def builds(full):
-    """The table of tests/hard/builds.sh and whether all was well; None where it was not run."""
-    script = ROOT / "tests/hard/builds.sh"
-    if not full or not script.exists():
-        return None
-    run = subprocess.run([script], stdout=subprocess.PIPE, text=True)
-    (RAW / "builds.txt").write_text(run.stdout)
-    return {"passed": run.returncode == 0, "table": run.stdout}
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--full", action="store_true", help="1e7 rays a row of leaks, 1e6 in others, all hard cases in full")
-    parser.add_argument("--hard-cases", choices=("tenth", "all"), help="how many of their rays; all with --full, which "
-                                                                       "takes hours")
+    parser.add_argument("--full", action="store_true", help="1e7 rays a row of leaks, 1e6 in others")
+    parser.add_argument("--hard-cases", choices=("tenth", "all"), default="tenth",
+                        help="how many of their rays; all takes hours")
     arguments = parser.parse_args()
-    full, all_rays = arguments.full, (arguments.hard_cases or ("all" if arguments.full else "tenth")) == "all"
+    full, all_rays = arguments.full, arguments.hard_cases == "all"
     RAW.mkdir(parents=True, exist_ok=True)
     head = origin("accuracy", "./build.sh accuracy" + (" --full" if full else ""))
     kept = Kept(RAW / "kept.json", sources=head["sources"], full=full, all_rays=all_rays)
@@ -88,15 +78,12 @@ def main():
     results = [kept(name, lambda: measure(name, full)) for name in GROUPS]
     groups = [result["groups"][0] for result in results]
     cases = hard_cases(all_rays, kept)
-    compared = kept("builds", lambda: builds(full), lambda table: table is None or table["passed"])
 
     faults = accuracy_tables.faults(groups)
     faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
-    if compared and not compared["passed"]:
-        faults.append("hard cases: the builds differ")
     head = {**head, "faults": len(faults), "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
     accuracy_plots.draw(groups, ROOT / "docs/accuracy")
-    write("accuracy", accuracy_tables.report(head, groups, cases, all_rays, compared, faults))
+    write("accuracy", accuracy_tables.report(head, groups, cases, all_rays, faults))
     if not faults:
         kept.forget()
     for fault in faults:

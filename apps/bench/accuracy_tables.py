@@ -141,7 +141,7 @@ def tables(group):
             + table(group, columns, precision, bound=False))
 
 
-def hard_section(cases, all_rays, compared):
+def hard_section(cases, all_rays):
     lines = ["## The hard cases of the suite", ""]
     if cases is None:
         lines += ["Not run.", ""]
@@ -150,14 +150,10 @@ def hard_section(cases, all_rays, compared):
         lines += [f"`tests/hard`, with {'all' if all_rays else 'a tenth of'} the rays that its cases name: "
                   f"{len(cases)} cases, {len(failed)} failed, {sum(c['seconds'] for c in cases):.0f} s of one core.", ""]
         lines += [f"- failed: {name}" for name in failed] + [""] * bool(failed)
-    if compared:
-        lines += ["The digests of all answers to a fixed corpus of rays, in several builds (`tests/hard/builds.sh`): "
-                  + ("all the same." if compared["passed"] else "**not all the same, or not all built.**"), "",
-                  "```text", compared["table"].rstrip(), "```", ""]
     return lines
 
 
-def report(head, groups, cases, all_rays, compared, found):
+def report(head, groups, cases, all_rays, found):
     lines = [
         f"{stamp(head)}, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
         (f"Embree {head['embree']} in both modes, in a process of its own."
@@ -176,4 +172,4 @@ def report(head, groups, cases, all_rays, compared, found):
     for group in groups:
         title, text = TEXTS[group["group"]]
         lines += [f"## {title}", "", text, ""] + tables(group)
-    return "\n".join(lines + hard_section(cases, all_rays, compared)).rstrip() + "\n"
+    return "\n".join(lines + hard_section(cases, all_rays)).rstrip() + "\n"

@@ -52,8 +52,12 @@ REPORTS = (
     Report("gallery", "README.md", "./build.sh gallery", 3, CORE + IO + FIGURES),
     Report("promise", "docs/speed-against-error.md", "./build.sh promise --full", 40,
            CORE + FIGURES + ("apps/bench/promise*.cpp", "apps/bench/promise.h", "apps/bench/sampler_rates.cpp")),
-    Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 120,
+    Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 25,
            CORE + ("tests/accuracy", "tests/hard", "tests/support", "apps/bench/accuracy.py", "-*_test.py")),
+    Report("compilers", "docs/checks.md", "./build.sh compilers", 90, ALL + ("tests",)),
+    Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, ALL + ("tests",)),
+    Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, ALL + ("tests",)),
+    Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, ALL + ("tests",)),
     Report("mutants", "docs/mutants.md", "./build.sh mutants", 120, ALL + ("tests",)),
 )
 

@@ -52,25 +52,25 @@ class Report(unittest.TestCase):
         measures = {"leaks": "leaks", "quad leaks": "leaks", "slabs": "leaks", "leaving": "leaving", "bad rays": "bad",
                     "furnace": "furnace"}
         for name, (title, _) in tables.TEXTS.items():
-            text = tables.report(self.head, [group(name, measures.get(name, "decisions"))], None, False, None, [])
+            text = tables.report(self.head, [group(name, measures.get(name, "decisions"))], None, False, [])
             self.assertIn(f"## {title}\n", text)
             self.assertRegex(text, r"\n\| a row \| 10 \| 10 \|.*\|\n")
             self.assertIn("| limn | Embree |", text)
 
     def test_what_is_wrong_stands_out(self):
         wrong = group(cells=[cell(false_hits=3), cell(false_misses=4)])
-        text = tables.report(self.head, [wrong], None, False, None, tables.faults([wrong]))
+        text = tables.report(self.head, [wrong], None, False, tables.faults([wrong]))
         self.assertIn("| **3 / 0** | 0 / 4 |", text)
         self.assertIn("- spheres: a row: limn", text)
         self.assertNotIn("no wrong decision", text)
 
     def test_who_was_not_asked_has_no_answer(self):
-        text = tables.report(self.head, [group(cells=[cell(), cell(asked=0)])], None, False, None, [])
+        text = tables.report(self.head, [group(cells=[cell(), cell(asked=0)])], None, False, [])
         self.assertEqual(text.count("| – |"), 2)
 
     def test_hard_cases_that_failed_are_named(self):
         cases = [{"case": "one", "passed": True, "seconds": 1}, {"case": "two", "passed": False, "seconds": 1}]
-        text = tables.report(self.head, [group()], cases, False, None, [])
+        text = tables.report(self.head, [group()], cases, False, [])
         self.assertIn("2 cases, 1 failed", text)
         self.assertIn("- failed: two", text)
 

@@ -1,5 +1,5 @@
 // One number for all answers to a fixed corpus, the same in every build: g++ and clang, -O0, -O2, -O3 -march=native
-// (tests/hard/builds.sh tries them). A change of it is a change of answers, to be explained where the constant is
+// (tests/checks/compilers.py tries them). A change of it is a change of answers, to be explained where the constant is
 // changed.
 #include <bit>
 #include <cstdint>

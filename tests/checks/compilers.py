@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Are the answers the same bits, whichever compiler and instruction set? Writes docs/checks.md.
+
+    compilers.py          the whole suite under g++ 12, clang 14 and clang 19, its digests on each instruction set; the
+                          digests without optimisation, for this processor alone, and with link-time optimisation
+    compilers.py --quick  clang 19, the digests, hard cases and compiled scenes alone; writes nothing
+
+Goes on where it was interrupted. Exit status 0 only where all passed and all digests are the same.
+"""
+
+import argparse
+import hashlib
+import os
+import re
+import subprocess
+import sys
+
+import suite
+from suite import ROOT, reports, say
+
+COMPILERS = ("g++", "clang++-14", "clang++-19")
+TARGETS = ("SCALAR", "EMU128", "SSE4", "AVX2", "AVX3")
+OTHER_FLAGS = ("-O0", "-O3 -march=native", "-O3 -march=native -flto=auto")
+PROGRAMS = ("test_compile", "test_hard", "test_render")  # that differ by instruction set, beside the digests
+QUICK = ("test_digest", "test_compile", "test_hard")
+
+
+def version(compiler):
+    """As people write it: g++ 12.2.0."""
+    number = subprocess.run([compiler, "-dumpfullversion", "-dumpversion"], capture_output=True, text=True).stdout
+    return f"{compiler.partition('-')[0]} {number.split()[0]}"
+
+
+def digests(folder, programs=()):
+    """For each instruction set that is there: the digests of test_digest as one; whether it and the programs passed."""
+    found = {}
+    for target in TARGETS:
+        done = subprocess.run([folder / "bin/test_digest", "-s"], capture_output=True, text=True,
+                              env={**os.environ, "LIMN_TEST_TARGET": target})
+        if done.returncode == 4:  # not built, or not on this processor
+            continue
+        every = re.findall(r'"([0-9a-f]{16})" == ', done.stdout)
+        short = hashlib.sha256(" ".join(every).encode()).hexdigest()[:12] if every else "none"
+        others = [program for program in programs
+                  if subprocess.run([folder / "bin" / program], stdout=subprocess.DEVNULL,
+                                    env={**os.environ, "LIMN_TEST_TARGET": target}).returncode != 0]
+        found[target] = {"digest": short, "count": len(every), "passed": done.returncode == 0 and not others}
+    return found
+
+
+def configuration(folder, compiler, *options):
+    return ["-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}", *options]
+
+
+def whole_suite(compiler):
+    folder = ROOT / "build/compilers" / compiler
+    suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_WARNINGS_AS_ERRORS=ON"))
+    say(f"{compiler}: the suite")
+    return {**suite.run(folder), "digests": digests(folder, PROGRAMS if compiler == COMPILERS[0] else ())}
+
+
+def digests_alone(compiler, flags):
+    folder = ROOT / "build/compilers" / f"{compiler}{flags}".replace(" ", "")
+    suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}"),
+                ["test_digest"])
+    return {"digests": digests(folder)}
+
+
+def quick():
+    """The exit status of the programs of QUICK, built by the last of the compilers."""
+    compiler = COMPILERS[-1]
+    folder = ROOT / "build/compilers" / f"{compiler}-quick"
+    suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_WARNINGS_AS_ERRORS=ON"),
+                QUICK)
+    failed = 0
+    for program in QUICK:
+        status = subprocess.run([folder / "bin" / program]).returncode
+        say(f"{version(compiler)}, {program}: {'passed' if status == 0 else 'FAILED'}")
+        failed += status != 0
+    return 1 if failed else 0
+
+
+def faults(rows):
+    """What is not as it must be."""
+    wrong = [f"{name}: {case}" for name, row in rows.items() for case in row.get("failed", {})]
+    wrong += [f"{name}: digests on {target}" for name, row in rows.items() for target, d in row["digests"].items()
+              if not d["passed"]]
+    return wrong + ([] if all(row["digests"] for row in rows.values()) else ["a build without digests"])
+
+
+def table(rows):
+    lines = ["| compiler | suite | digests | on |", "|---|---|---|---|"]
+    for name, row in rows.items():
+        tests = f"{row['tests'] - len(row['failed'])} of {row['tests']} passed" if "tests" in row else "digests alone"
+        different = sorted({d["digest"] for d in row["digests"].values()})
+        lines.append(f"| {name} | {tests} | {' '.join(different)} | {' '.join(row['digests'])} |")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="clang 19 alone, the exactness suite alone; no report")
+    if parser.parse_args().quick:
+        return quick()
+    head = reports.origin("compilers")
+    kept = reports.Kept(ROOT / "build/compilers/kept.json", sources=head["sources"])
+    rows = {}
+    for compiler in COMPILERS:
+        rows[f"{version(compiler)}, -O3"] = kept(compiler, lambda: whole_suite(compiler),
+                                                 lambda row: not row["failed"])
+    for compiler in (COMPILERS[0], COMPILERS[-1]):
+        for flags in OTHER_FLAGS[:3 if compiler == "g++" else 2]:
+            rows[f"{version(compiler)}, {flags}"] = kept(compiler + flags, lambda: digests_alone(compiler, flags))
+    wrong = faults(rows)
+    head["faults"] = len(wrong)
+    count = max((d["count"] for row in rows.values() for d in row["digests"].values()), default=0)
+    text = (f"{reports.stamp(head)}, {kept.minutes():.0f} minutes.\n\n{table(rows)}\n\n"
+            f"A row's digest is that of the {count} digests that `test_digest` checks: of hits and surfaces of {len(rows)} "
+            "builds' answers to fixed rays, one by one and in batches. One digest in a row: the same bits on all of its "
+            "instruction sets.")
+    if wrong:
+        text += "\n\n" + "\n".join(f"- wrong: {w}" for w in wrong)
+    reports.write("compilers", text)
+    for fault in wrong:
+        say(f"compilers: {fault}")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
