@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <optional>
 
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
@@ -125,15 +124,17 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     return image;
 }
 
-// HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale of the C library.
+// A file that was found sound. HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale
+// of the C library.
 struct Contents {
-    explicit Contents(const std::string& path) : file(read_file(path)), format(format_of_contents(bytes())) {
-        if (format == FileFormat::hdr) format.reset();
-    }
+    explicit Contents(const std::string& path) : file(read_file(path)), format(require_sound(bytes(), path)) {}
     std::span<const std::byte> bytes() const { return std::as_bytes(std::span(file)); }
+    bool is_for_stb() const {
+        return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
+    }
 
     std::string file;
-    std::optional<FileFormat> format;  // none: for stb
+    FileFormat format;
 };
 
 }  // namespace
@@ -164,16 +165,15 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
 
 StoredImage decode_file(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_stb(contents.bytes(), path);
-    require_whole(contents.bytes(), path);
-    return decode(*contents.format, contents.bytes(), path);
+    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path);
+    return decode(contents.format, contents.bytes(), path);
 }
 
 ImageInfo decode_info(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_info_stb(contents.bytes(), path);
+    if (contents.is_for_stb()) return decode_info_stb(contents.bytes(), path);
     OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
-    const ImageSpec spec = open(*contents.format, memory, path)->spec();
+    const ImageSpec spec = open(contents.format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
     for (int i = 0; i < spec.nchannels; ++i)
         info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
@@ -182,9 +182,9 @@ ImageInfo decode_info(const std::string& path) {
 
 Facts decode_facts(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_stb(contents.bytes(), path).facts;
+    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path).facts;
     OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
-    return read_facts(open(*contents.format, memory, path)->spec());
+    return read_facts(open(contents.format, memory, path)->spec());
 }
 
 }  // namespace limn
