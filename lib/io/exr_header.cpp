@@ -210,17 +210,21 @@ double check_part(const Part& part, bool is_tiled, double rest) {
     const auto [lines, best] = kCompressions[*part.compression];
     const std::string too_short =
         too_short_for(static_cast<std::uint64_t>(*part.width), static_cast<std::uint64_t>(*part.height));
-    constexpr double kLittle = 1 << 24, kLargestChunk = 1 << 28;
+    constexpr double kLittle = 1 << 24, kSomeRows = 1 << 28;
     double bytes = 0, bytes_per_pixel = 0;
     for (const auto& [size, x_step, y_step] : part.channels) {
         bytes += static_cast<double>(size) * static_cast<double>(*part.width / x_step) *
                  static_cast<double>(*part.height / y_step);
         bytes_per_pixel += size;
     }
-    const double pixels = is_tiled ? static_cast<double>(part.tiles->width) * static_cast<double>(part.tiles->height)
-                                   : static_cast<double>(*part.width) * static_cast<double>(lines);
+    // Decoded together: a row of tiles, or the lines of a chunk, for which OpenImageIO takes 256 times the memory of
+    // one.
+    constexpr int kLines = 256;
+    const std::int64_t columns = is_tiled ? std::max(*part.width, part.tiles->width) : *part.width;
+    const std::int64_t rows = is_tiled ? part.tiles->height : kLines;
+    const double pixels = static_cast<double>(columns) * static_cast<double>(rows);
     require(bytes <= std::max(kLittle, best * rest), too_short);
-    require(bytes_per_pixel * pixels <= std::max(kLargestChunk, best * rest), too_short);
+    require(bytes_per_pixel * pixels <= std::max(kSomeRows, kLines * rest), too_short);
     return is_tiled ? tile_count(*part.tiles, *part.width, *part.height)
                     : static_cast<double>(divided_up(*part.height, lines));
 }

@@ -60,6 +60,16 @@ const char* format_name(FileFormat format) {
 // OpenImageIO looks for a file on disk even where it reads memory, so its name is one that cannot exist.
 std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
 
+// OpenImageIO 2.4's own reads beyond its bytes where a file makes it look for something behind its end.
+class BoundedReader : public OIIO::Filesystem::IOMemReader {
+public:
+    explicit BoundedReader(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()) {}
+    std::size_t pread(void* to, std::size_t size, std::int64_t offset) override {
+        const bool is_inside = offset >= 0 && static_cast<std::uint64_t>(offset) < this->size();
+        return is_inside ? IOMemReader::pread(to, size, offset) : 0;
+    }
+};
+
 // With the one reader that is meant: left to itself, OpenImageIO tries those of all formats on a broken file.
 std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
     ImageSpec spec, wishes;
@@ -159,7 +169,7 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    BoundedReader memory(bytes);
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
@@ -172,7 +182,7 @@ StoredImage decode_file(const std::string& path) {
 ImageInfo decode_info(const std::string& path) {
     const Contents contents(path);
     if (contents.is_for_stb()) return decode_info_stb(contents.bytes(), path);
-    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
+    BoundedReader memory(contents.bytes());
     const ImageSpec spec = open(contents.format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
     for (int i = 0; i < spec.nchannels; ++i)
@@ -183,7 +193,7 @@ ImageInfo decode_info(const std::string& path) {
 Facts decode_facts(const std::string& path) {
     const Contents contents(path);
     if (contents.is_for_stb()) return decode_stb(contents.bytes(), path).facts;
-    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
+    BoundedReader memory(contents.bytes());
     return read_facts(open(contents.format, memory, path)->spec());
 }
 

@@ -201,6 +201,8 @@ TEST_CASE("Image corpus: EXR", "[io][image]") {
         {"upside down", with_corner(1, 0x80000000)},
         {"no such packing", changed(plain, plain.find("compression") + 28, "\x63")},
         {"no channels", changed(plain, plain.find("chlist") + 11, zeros(1))},
+        {"a chunk far behind its end",
+         changed(plain, plain.find("screenWindowWidth") + 33, zeros(5) + "\1" + zeros(2))},
     };
     for (const auto& [what, bytes] : broken) {
         CAPTURE(what);
