@@ -166,12 +166,11 @@ private:
     }
 
     void warn_of_unknown(const std::vector<std::string>& names) {
-        constexpr std::size_t kMost = 3;
-        if (names.empty()) return;
-        std::string text = names.size() == 1 ? "unknown material " : "unknown materials ";
-        for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i == 0 ? "" : ", ") + names[i];
-        if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
-        warnings_.push_back(text);
+        constexpr std::size_t kMost = 3;  // are named
+        for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+            warnings_.push_back("unknown material " + names[i]);
+        if (names.size() > kMost)
+            warnings_.push_back("and " + std::to_string(names.size() - kMost) + " more unknown materials");
     }
 
     Color clamped(const Color& c, double largest, const char* key, const std::string& name) {
