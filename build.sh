@@ -8,6 +8,7 @@ usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--reuse] [--again]
+       ./build.sh fuzz [load_image] [load_obj] [--seconds N]
 
   figures      render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
@@ -15,6 +16,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   mutants      faults that the suite must catch
+  fuzz         the readers of pictures and models on damaged files, half an hour each
   docs         the API reference: build/docs/html/index.html
 
 --full takes the longer form where there is one; bench measures the models too.
@@ -74,6 +76,30 @@ figures() {
     [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
 }
 
+# fuzz [TARGET ...] [--seconds N]
+fuzz() {
+    local targets=() seconds=1800 target failed=0
+    while [[ $# -gt 0 ]]; do
+        case $1 in
+            load_image | load_obj) targets+=("$1") ;;
+            --seconds)
+                [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
+                seconds=$2
+                shift
+                ;;
+            *) usage ;;
+        esac
+        shift
+    done
+    [[ ${#targets[@]} -gt 0 ]] || targets=(load_image load_obj)
+    install_needs
+    install_missing clang-14 libclang-rt-14-dev
+    for target in "${targets[@]}"; do
+        tests/fuzz/run.sh "$target" "$seconds" || failed=1
+    done
+    return "$failed"
+}
+
 docs() {
     install_missing doxygen doxygen-awesome-css
     rm -rf build/docs
@@ -95,7 +121,7 @@ for option in "$@"; do
         export LIMN_FULL=1
     elif [[ $command == bench && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
-    elif [[ $command == convergence ]]; then
+    elif [[ $command == convergence || $command == fuzz ]]; then
         others+=("$option")
     else
         usage
@@ -128,6 +154,7 @@ case $command in
         install_missing ccache
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"
         ;;
+    fuzz) fuzz "${others[@]}" ;;
     docs) docs ;;
     bench)
         install_missing libembree-dev valgrind ccache python3 python3-matplotlib python3-numpy
