@@ -54,11 +54,6 @@ private:
     std::span<const std::byte> rest_;
 };
 
-struct Channel {
-    int bytes;
-    std::int64_t x_step, y_step;  // between samples
-};
-
 struct Tiles {
     std::int64_t width, height;
     int levels;  // 0 one, 1 smaller and smaller, 2 in x and y apart
@@ -70,7 +65,7 @@ struct Part {
     std::optional<std::int64_t> width, height;
     std::optional<std::size_t> compression;
     std::optional<Tiles> tiles;
-    std::vector<Channel> channels;
+    std::int64_t bytes_per_pixel = 0;  // of all channels
     std::string type;
 };
 
@@ -108,17 +103,19 @@ constexpr std::pair<std::string_view, std::size_t> kSizes[] = {{"box2f", 16},
                                                                {"v3f", 12},
                                                                {"v3i", 12}};
 
-std::vector<Channel> read_channels(Cursor value) {
-    std::vector<Channel> channels;
+// Returns how many bytes all of them take for a pixel.
+std::int64_t read_channels(Cursor value) {
+    std::int64_t bytes = 0;
     while (!value.text().empty()) {
         const std::int64_t type = value.integer();
+        require(type >= 0 && type <= 2, "a channel is of no known kind");
+        bytes += type == 1 ? 2 : 4;
         value.take(4);  // whether it is perceptually linear
-        const std::int64_t x_step = value.integer(), y_step = value.integer();
-        require(type >= 0 && type <= 2 && x_step > 0 && y_step > 0, "a channel is of no known kind");
-        channels.push_back({type == 1 ? 2 : 4, x_step, y_step});
+        require(value.integer() == 1 && value.integer() == 1,
+                "a channel is not there for every pixel, which is not read");
     }
     require(value.left() == 0, kWrongSize);
-    return channels;
+    return bytes;
 }
 
 // Sizes within values of the types that hold any.
@@ -145,7 +142,7 @@ void read_attribute(const std::string& name, const std::string& type, Cursor val
     } else if (name == "compression" && type == "compression") {
         part.compression = value.number(1);
     } else if (name == "channels" && type == "chlist") {
-        part.channels = read_channels(value);
+        part.bytes_per_pixel = read_channels(value);
     } else if (name == "type" && type == "string") {
         const auto bytes = value.take(value.left());
         part.type.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -203,7 +200,7 @@ double tile_count(const Tiles& tiles, std::int64_t width, std::int64_t height) {
 
 // Returns the number of chunks; `rest` is how many bytes follow the headers.
 double check_part(const Part& part, bool is_tiled, double rest) {
-    require(part.width && part.height && part.compression && !part.channels.empty(), "its header lacks an attribute");
+    require(part.width && part.height && part.compression && part.bytes_per_pixel > 0, "its header lacks an attribute");
     require(*part.width > 0 && *part.height > 0, "it has no pixels");
     require(*part.compression < std::size(kCompressions), "it is packed in an unknown way");
     require(!is_tiled || part.tiles, "its header lacks an attribute");
@@ -211,12 +208,8 @@ double check_part(const Part& part, bool is_tiled, double rest) {
     const std::string too_short =
         too_short_for(static_cast<std::uint64_t>(*part.width), static_cast<std::uint64_t>(*part.height));
     constexpr double kLittle = 1 << 24, kSomeRows = 1 << 28;
-    double bytes = 0, bytes_per_pixel = 0;
-    for (const auto& [size, x_step, y_step] : part.channels) {
-        bytes += static_cast<double>(size) * static_cast<double>(*part.width / x_step) *
-                 static_cast<double>(*part.height / y_step);
-        bytes_per_pixel += size;
-    }
+    const double bytes_per_pixel = static_cast<double>(part.bytes_per_pixel);
+    const double bytes = static_cast<double>(*part.width) * static_cast<double>(*part.height) * bytes_per_pixel;
     // Decoded together: a row of tiles, or the lines of a chunk, for which OpenImageIO takes 256 times the memory of
     // one.
     constexpr int kLines = 256;

@@ -27,9 +27,13 @@ std::string tiles(std::uint32_t width, std::uint32_t height, char mode) {
 
 std::string packed_by(char compression) { return attribute("compression", "compression", std::string(1, compression)); }
 
-const std::string kGreyFloat =
-    attribute("channels", "chlist",
-              "Y" + zeros(1) + little_endian(2, 4) + zeros(4) + little_endian(1, 4) + little_endian(1, 4) + zeros(1));
+// One channel with a value for each `step`-th pixel.
+std::string channel(std::uint32_t type, std::uint32_t step) {
+    return attribute(
+        "channels", "chlist",
+        "Y" + zeros(1) + little_endian(type, 4) + zeros(4) + little_endian(step, 4) + little_endian(1, 4) + zeros(1));
+}
+const std::string kGreyFloat = channel(2, 1);
 
 // `flags` stand above the version: 2 tiled, 8 deep, 16 in parts. Behind the header as many zeros as are asked for.
 std::string exr(const std::string& attributes, char flags = 0, std::size_t behind = 64) {
@@ -38,16 +42,15 @@ std::string exr(const std::string& attributes, char flags = 0, std::size_t behin
 
 std::string fault_of(const std::string& file) { return exr_fault(std::as_bytes(std::span(file))); }
 
-long peak_kib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-}
-
 }  // namespace
 
 #ifdef LIMN_WITH_OPENIMAGEIO
 TEST_CASE("Image headers: an EXR attribute that claims 1.8 GB takes no memory", "[io][image]") {
+    const auto peak_kib = [] {
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss;
+    };
     const std::string beginning = exr("", 0, 0).substr(0, 8);
     for (const char* type : {"string", "no such type"}) {
         const std::string file =
@@ -70,6 +73,8 @@ TEST_CASE("Image headers: an EXR's sizes are held against its file", "[io][image
         {exr(plain + window(1, 5)), "it is too short for its 5 chunks"},
         {exr(kGreyFloat + packed_by(9) + window(4'000'000, 1)), short_text},  // a chunk has 256 lines
         {exr(plain + window(0, 1)), "it has no pixels"},
+        {exr(channel(3, 1) + packed_by(0) + window(1, 1)), "a channel is of no known kind"},
+        {exr(channel(2, 2) + packed_by(0) + window(1, 1)), "a channel is not there for every pixel"},
         {exr(plain), "its header lacks an attribute"},
         {exr(packed_by(0) + window(1, 1)), "its header lacks an attribute"},
         {exr(kGreyFloat + packed_by(10) + window(1, 1)), "it is packed in an unknown way"},
