@@ -137,6 +137,9 @@ TEST_CASE("Image headers: a JPEG's markers are found where its decoders find the
     // In a scan 0xff 0xff 0 is a byte of data, not the beginning of a segment that might hide the next.
     check(load_from_memory(plain.substr(0, scan + 14) + std::string("\xff\xff\0\x40", 4) + bad_table + "\xff\xd9"),
           broken + "a Huffman table is damaged");
+    const std::string large_table = "\xff\xc4\x01\x14" + zeros(15) + "\x02\xff" + zeros(257);  // one code too many
+    check(load_from_memory(plain.substr(0, table) + large_table + plain.substr(table)),
+          broken + "a Huffman table is damaged");
     check(load_from_memory(plain.substr(0, table) + "\xff\xd0" + plain.substr(table)), broken + "there is a marker");
     check(load_from_memory(plain.substr(0, table) + "\xff\xd8" + plain.substr(table)), broken + "there is a marker");
     check(load_from_memory(plain.substr(0, frame) + plain.substr(frame, 19) + plain.substr(frame)),
