@@ -15,7 +15,8 @@ nice -n 10 cmake --build "$build" --target "fuzz_$target"
 
 seeds=$build/seeds/$target corpus=$build/corpus/$target found=$build/found/$target
 rm -rf "$seeds"
-mkdir -p "$seeds" "$corpus" "$found"
+mkdir -p "$seeds" "$corpus" "$found" "$build/scratch"
+export TMPDIR=$build/scratch  # for scratch_file.h
 case $target in
     load_image)
         cp "$data"/images/* "$data/orange.jpg" "$here"/seeds/*.{png,hdr,bmp,tga} "$seeds"

@@ -10,8 +10,7 @@
 
 namespace limn::fuzz {
 
-// `name` in a folder of this process, which stays until the machine clears its temporary files: libFuzzer ends without
-// destructors.
+// `name` in a folder of this process, which stays: libFuzzer ends without destructors.
 inline std::string scratch_path(const std::string& name) {
     const auto folder = std::filesystem::temp_directory_path() / ("limn-fuzz-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
