@@ -10,6 +10,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick]
        ./build.sh sanitize asan|tsan|memcheck
+       ./build.sh fuzz [load_image] [load_obj] [--seconds N]
        ./build.sh release [--renew]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
@@ -21,6 +22,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
+  fuzz         the readers of pictures and models on damaged files, half an hour each
   mutants      faults that the suite must catch: docs/mutants.md
   docs         the API reference: build/docs/html/index.html
   release      whether all reports are of these sources, and claims true; --renew makes those anew that are not
@@ -86,6 +88,30 @@ figures() {
     [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
 }
 
+# fuzz [TARGET ...] [--seconds N]
+fuzz() {
+    local targets=() seconds=1800 target failed=0
+    while [[ $# -gt 0 ]]; do
+        case $1 in
+            load_image | load_obj) targets+=("$1") ;;
+            --seconds)
+                [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
+                seconds=$2
+                shift
+                ;;
+            *) usage ;;
+        esac
+        shift
+    done
+    [[ ${#targets[@]} -gt 0 ]] || targets=(load_image load_obj)
+    install_needs
+    install_missing clang-14 libclang-rt-14-dev
+    for target in "${targets[@]}"; do
+        tests/fuzz/run.sh "$target" "$seconds" || failed=1
+    done
+    return "$failed"
+}
+
 docs() {
     install_missing doxygen doxygen-awesome-css
     rm -rf build/docs
@@ -107,7 +133,7 @@ for option in "$@"; do
         export LIMN_FULL=1
     elif [[ $command == bench && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
-    elif [[ $command == convergence || $command == compilers || $command == sanitize || $command == release ]]; then
+    elif [[ $command =~ ^(convergence|compilers|sanitize|fuzz|release)$ ]]; then
         others+=("$option")
     else
         usage
@@ -159,6 +185,7 @@ case $command in
         install_missing ccache
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"
         ;;
+    fuzz) fuzz "${others[@]}" ;;
     docs) docs ;;
     bench)
         install_missing libembree-dev valgrind ccache python3 python3-matplotlib python3-numpy

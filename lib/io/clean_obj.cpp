@@ -1,11 +1,13 @@
-#include "io/clean_text.h"
+#include "io/clean_obj.h"
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <map>
 
 #include "io/text_lines.h"
+#include "limn/core/error.h"
 
 namespace limn {
 
@@ -18,10 +20,13 @@ constexpr std::size_t kCornersPerLine = 1000;
 
 class ObjCleaner {
 public:
-    ObjCleaner(std::string_view text, const std::string& path) : lines_(text, path) {}
+    ObjCleaner(std::string_view text, const std::string& path) : lines_(text, path), path_(path) {}
 
     CleanObj clean() {
         while (lines_.next()) clean_line(lines_.words());
+        if (passed_over_ > 0 && !has_statement_)
+            throw FileError(path_, "line " + std::to_string(first_passed_over_) + ": " + in_quotes(first_word_) +
+                                       " is no statement of an OBJ, nor is any other line");
         if (passed_over_ > 0)
             result_.warnings.push_back(std::to_string(passed_over_) +
                                        (passed_over_ == 1 ? " line was" : " lines were") +
@@ -33,6 +38,8 @@ private:
     void clean_line(const Words& words) {
         if (words.empty()) return;
         const std::string_view key = words[0];
+        if (!is_statement(key)) return pass_over(key);
+        has_statement_ = true;
         if (key == "v") {
             numbers(words, 3, 3, vertices_);
         } else if (key == "vt") {
@@ -44,10 +51,20 @@ private:
         } else if (key == "usemtl") {
             material(std::string(lines_.name()));
         } else if (key == "mtllib") {
-            result_.libraries.emplace_back(lines_.name());
-        } else if (key != "o" && key != "g" && key != "s" && key != "l" && key != "p") {
-            if (passed_over_++ == 0) first_passed_over_ = lines_.number();
+            result_.libraries.push_back({std::string(lines_.name()), lines_.number()});
         }
+    }
+
+    // Lines, points, groups and smoothing are known and not used.
+    static bool is_statement(std::string_view key) {
+        constexpr std::string_view kKnown[] = {"v", "vt", "vn", "f", "usemtl", "mtllib", "o", "g", "s", "l", "p"};
+        return std::find(std::begin(kKnown), std::end(kKnown), key) != std::end(kKnown);
+    }
+
+    void pass_over(std::string_view key) {
+        if (passed_over_++ > 0) return;
+        first_passed_over_ = lines_.number();
+        first_word_ = key;
     }
 
     // All words must be numbers; the first `kept` go on, missing ones as 0. What follows (a weight, a vertex colour) is
@@ -124,10 +141,13 @@ private:
     }
 
     TextLines lines_;
+    const std::string& path_;
     CleanObj result_;
     std::map<std::string, std::size_t> material_numbers_;
     std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0;
     std::size_t passed_over_ = 0, first_passed_over_ = 0;
+    std::string first_word_;
+    bool has_statement_ = false;
 };
 
 }  // namespace

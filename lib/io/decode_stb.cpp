@@ -107,6 +107,8 @@ void read_values(std::span<const std::byte> bytes, StoredImage& image, const std
 }  // namespace
 
 ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& name) {
+    if (require_sound(bytes, name) == FileFormat::exr)
+        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
     ImageInfo info;
     int channels = 0;
     if (!call(stbi_info_from_callbacks, Reader(bytes), &info.width, &info.height, &channels))
@@ -120,7 +122,6 @@ ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& n
 }
 
 StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
-    require_whole(bytes, name);
     const ImageInfo info = decode_info_stb(bytes, name);
     StoredImage image;
     image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out

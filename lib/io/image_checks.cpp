@@ -4,6 +4,10 @@
 
 #include <string_view>
 
+#include "io/exr_header.h"
+#include "io/file_kind.h"
+#include "io/jpeg_segments.h"
+#include "io/plain_headers.h"
 #include "io/png_chunks.h"
 #include "limn/core/error.h"
 
@@ -17,74 +21,42 @@ std::string_view text_of(std::span<const std::byte> file) {
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-std::size_t byte_at(std::span<const std::byte> bytes, std::size_t place) {
-    return std::to_integer<std::size_t>(bytes[place]);
+struct Format {
+    FileFormat format;
+    const char* name;
+    bool (*fits)(std::span<const std::byte>);
+    std::string (*fault)(std::span<const std::byte>);
+};
+
+template <const char* mark>
+bool begins_with(std::span<const std::byte> file) {
+    return text_of(file).starts_with(mark);
 }
 
-// Huffman tables (ITU-T T.81, B.2.4.2): each a byte, the numbers of codes of 1 to 16 bits, and the codes' values, at
-// most 256. stb writes beyond its array where there are more.
-bool are_huffman_tables(std::span<const std::byte> data) {
-    while (!data.empty()) {
-        if (data.size() < 17) return false;
-        std::size_t codes = 0;
-        for (std::size_t i = 1; i <= 16; ++i) codes += byte_at(data, i);
-        if (codes > 256 || codes > data.size() - 17) return false;
-        data = data.subspan(17 + codes);
-    }
-    return true;
-}
+constexpr char kExr[] = "\x76\x2f\x31\x01", kPng[] = "\x89PNG", kJpeg[] = "\xff\xd8", kHdr[] = "#?", kBmp[] = "BM";
 
-// ITU-T T.81, B.1.1: segments of a marker and, but for a few, a length with data; scans go on until the next marker.
-std::string jpeg_fault(std::span<const std::byte> file) {
-    constexpr std::size_t kHuffman = 0xc4, kFirstRestart = 0xd0, kLastRestart = 0xd7, kEnd = 0xd9, kScan = 0xda;
-    bool has_scan = false;
-    for (std::size_t place = 2; place + 2 <= file.size();) {
-        if (byte_at(file, place) != 0xff) return "there is no marker where one must be";
-        const std::size_t marker = byte_at(file, place + 1);
-        if (marker == 0xff) {  // fills
-            ++place;
-            continue;
-        }
-        if (marker == kEnd) return has_scan ? "" : "it has no pixels";
-        if (place + 4 > file.size()) break;
-        const std::size_t length = 256 * byte_at(file, place + 2) + byte_at(file, place + 3);
-        if (length < 2 || length > file.size() - place - 2) break;
-        if (marker == kHuffman && !are_huffman_tables(file.subspan(place + 4, length - 2)))
-            return "a Huffman table is damaged";
-        place += 2 + length;
-        if (marker != kScan) continue;
-        has_scan = true;
-        const auto is_data = [&](std::size_t i) {
-            if (byte_at(file, i) != 0xff) return true;
-            const std::size_t next = byte_at(file, i + 1);
-            return next == 0 || (next >= kFirstRestart && next <= kLastRestart);
-        };
-        while (place + 1 < file.size() && is_data(place)) ++place;
-    }
-    return "it breaks off before its end";
-}
+// TGA last, for it has no mark.
+constexpr Format kFormats[] = {
+    {FileFormat::exr, "EXR", begins_with<kExr>, exr_fault},     {FileFormat::png, "PNG", begins_with<kPng>, png_fault},
+    {FileFormat::jpeg, "JPEG", begins_with<kJpeg>, jpeg_fault}, {FileFormat::hdr, "HDR", begins_with<kHdr>, hdr_fault},
+    {FileFormat::bmp, "BMP", begins_with<kBmp>, bmp_fault},     {FileFormat::tga, "TGA", looks_like_tga, tga_fault}};
 
 }  // namespace
 
-std::optional<FileFormat> format_of_contents(std::span<const std::byte> file) {
-    const std::string_view text = text_of(file);
-    if (text.starts_with("\x76\x2f\x31\x01")) return FileFormat::exr;
-    if (text.starts_with("\x89PNG")) return FileFormat::png;
-    if (text.starts_with("\xff\xd8")) return FileFormat::jpeg;
-    if (text.starts_with("#?")) return FileFormat::hdr;
-    return std::nullopt;
-}
-
-void require_whole(std::span<const std::byte> file, const std::string& path) {
-    const auto format = format_of_contents(file);
-    if (format == FileFormat::png) {
-        const std::string fault = png_fault(file);
-        if (!fault.empty()) throw FileError(path, "is not a whole PNG: " + fault);
+FileFormat require_sound(std::span<const std::byte> file, const std::string& path) {
+    std::string known;
+    for (const Format& format : kFormats) {
+        if (!format.fits(file)) {
+            known += (known.empty() ? "" : ", ") + std::string(format.name);
+            continue;
+        }
+        const std::string fault = format.fault(file);
+        if (!fault.empty()) throw FileError(path, "is not a whole " + std::string(format.name) + ": " + fault);
+        return format.format;
     }
-    if (format == FileFormat::jpeg) {
-        const std::string fault = jpeg_fault(file);
-        if (!fault.empty()) throw FileError(path, "is not a whole JPEG: " + fault);
-    }
+    const std::string kind = file.empty() ? "an empty file" : kind_of_contents(text_of(file));
+    throw FileError(path, "is not a readable image: " + (kind.empty() ? "" : "it appears to be " + kind + "; ") +
+                              "those that are read are " + known);
 }
 
 void require_possible_size(int width, int height, int channels, std::size_t file_bytes, const std::string& path) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -10,12 +9,10 @@
 
 namespace limn {
 
-// By the first bytes, whatever the name. None for what has no mark of its own, as TGA.
-std::optional<FileFormat> format_of_contents(std::span<const std::byte> file);
-
-// A PNG and a JPEG end with a mark; every part of a PNG has a checksum. The libraries fill what is missing with grey,
-// or do not look. \throws FileError naming `path`
-void require_whole(std::span<const std::byte> file, const std::string& path);
+// The format of a picture, told by its contents, whatever the name. Its header makes sense and the file can hold what
+// it promises; a PNG and a JPEG are whole, as every part says. No decoder is handed a file that was not found sound
+// here. \throws FileError naming `path` and what the file appears to be
+FileFormat require_sound(std::span<const std::byte> file, const std::string& path);
 
 // A header may promise any size. \throws FileError naming `path` if a file of `file_bytes` cannot hold it, or the
 // machine cannot

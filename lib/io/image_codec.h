@@ -14,7 +14,7 @@
 
 namespace limn {
 
-enum class FileFormat { exr, png, hdr, jpeg };
+enum class FileFormat { exr, png, jpeg, hdr, bmp, tga };
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 

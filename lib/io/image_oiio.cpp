@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <optional>
 
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
@@ -60,6 +59,16 @@ const char* format_name(FileFormat format) {
 
 // OpenImageIO looks for a file on disk even where it reads memory, so its name is one that cannot exist.
 std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
+
+// OpenImageIO 2.4's own reads beyond its bytes where a file makes it look for something behind its end.
+class BoundedReader : public OIIO::Filesystem::IOMemReader {
+public:
+    explicit BoundedReader(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()) {}
+    std::size_t pread(void* to, std::size_t size, std::int64_t offset) override {
+        const bool is_inside = offset >= 0 && static_cast<std::uint64_t>(offset) < this->size();
+        return is_inside ? IOMemReader::pread(to, size, offset) : 0;
+    }
+};
 
 // With the one reader that is meant: left to itself, OpenImageIO tries those of all formats on a broken file.
 std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
@@ -125,15 +134,17 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     return image;
 }
 
-// HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale of the C library.
+// A file that was found sound. HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale
+// of the C library.
 struct Contents {
-    explicit Contents(const std::string& path) : file(read_file(path)), format(format_of_contents(bytes())) {
-        if (format == FileFormat::hdr) format.reset();
-    }
+    explicit Contents(const std::string& path) : file(read_file(path)), format(require_sound(bytes(), path)) {}
     std::span<const std::byte> bytes() const { return std::as_bytes(std::span(file)); }
+    bool is_for_stb() const {
+        return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
+    }
 
     std::string file;
-    std::optional<FileFormat> format;  // none: for stb
+    FileFormat format;
 };
 
 }  // namespace
@@ -158,22 +169,21 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    BoundedReader memory(bytes);
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
 StoredImage decode_file(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_stb(contents.bytes(), path);
-    require_whole(contents.bytes(), path);
-    return decode(*contents.format, contents.bytes(), path);
+    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path);
+    return decode(contents.format, contents.bytes(), path);
 }
 
 ImageInfo decode_info(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_info_stb(contents.bytes(), path);
-    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
-    const ImageSpec spec = open(*contents.format, memory, path)->spec();
+    if (contents.is_for_stb()) return decode_info_stb(contents.bytes(), path);
+    BoundedReader memory(contents.bytes());
+    const ImageSpec spec = open(contents.format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
     for (int i = 0; i < spec.nchannels; ++i)
         info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
@@ -182,9 +192,9 @@ ImageInfo decode_info(const std::string& path) {
 
 Facts decode_facts(const std::string& path) {
     const Contents contents(path);
-    if (!contents.format) return decode_stb(contents.bytes(), path).facts;
-    OIIO::Filesystem::IOMemReader memory(contents.file.data(), contents.file.size());
-    return read_facts(open(*contents.format, memory, path)->spec());
+    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path).facts;
+    BoundedReader memory(contents.bytes());
+    return read_facts(open(contents.format, memory, path)->spec());
 }
 
 }  // namespace limn

@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "io/file_kind.h"
 #include "io/obj_materials.h"
 #include "io/obj_mesh.h"
 #include "io/obj_parse.h"
@@ -19,6 +20,15 @@ namespace {
                     "has no usable face: all " + std::to_string(faces) + " have fewer than three corners or no area");
 }
 
+// OBJ has no mark of its own, but others have.
+void require_no_other_kind(const std::string& text, const std::string& path) {
+    const std::string kind = kind_of_contents(text);
+    if (kind.empty()) return;
+    const char* hint =
+        kind.starts_with("UTF-") ? "; saved as UTF-8 it can be read" : "; models are read from OBJ alone";
+    throw FileError(path, "is no OBJ: it appears to be " + kind + hint);
+}
+
 void append(std::vector<std::string>& all, std::vector<std::string>& more) {
     all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -32,7 +42,9 @@ Box Model::bounds() const {
 }
 
 Model load_obj(const std::string& path, const ObjOptions& options) {
-    ObjFile file = parse_obj(read_file(path), path);
+    const std::string text = read_file(path);
+    require_no_other_kind(text, path);
+    ObjFile file = parse_obj(text, path);
     ObjMesh mesh = build_mesh(file);
     if (mesh.data.triangles.empty()) throw_no_usable_face(path, file.face_count);
 

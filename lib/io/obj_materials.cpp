@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
+#include <utility>
 
+#include "io/file_kind.h"
+#include "io/mtl.h"
 #include "io/read_file.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
@@ -32,16 +36,51 @@ bool exists(const std::string& path) {
     return fs::exists(path, unusable);
 }
 
-Color to_color(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
+// What becomes of a material: the table of docs/models.md.
+enum class Look { light, glass, metal, diffuse };
+
+Look look_of(const MtlMaterial& m, const Color& emission, const Color& diffuse, const Color& specular) {
+    if (!is_black(emission)) return Look::light;
+    if (!m.diffuse_map.empty()) return Look::diffuse;
+    if (!m.illumination) {
+        if (m.opacity < 1) return Look::glass;
+        return luminance(specular) > luminance(diffuse) ? Look::metal : Look::diffuse;
+    }
+    switch (*m.illumination) {
+        case 3:
+        case 5:
+        case 8: return is_black(specular) ? Look::diffuse : Look::metal;
+        case 4:
+        case 6:
+        case 7:
+        case 9: return Look::glass;
+        default: return Look::diffuse;
+    }
+}
+
+// The words that limn knows, but that this material has no use for.
+std::vector<std::string> words_without_use(const MtlMaterial& m, Look look, const Color& specular) {
+    const int illumination = m.illumination.value_or(-1);
+    std::vector<std::string> words;
+    if (look == Look::light && !m.diffuse_map.empty()) words.emplace_back("map_Kd");
+    if (look != Look::glass && m.opacity < 1) words.emplace_back(m.lines.contains("d") ? "d" : "Tr");
+    // Without Ks, 0, 1 and 10 say.
+    const bool has_highlight = illumination != 0 && illumination != 1 && illumination != 10;
+    if (look == Look::diffuse && has_highlight && !is_black(specular)) words.emplace_back("Ks");
+    const bool is_as_illum_says = illumination <= 2 || look == Look::metal || look == Look::glass;
+    if (!is_as_illum_says) words.emplace_back("illum");
+    return words;
+}
 
 class MaterialLoader {
 public:
     MaterialLoader(bool textures, Model& model)
         : textures_wanted_(textures), files_(model.files), warnings_(model.warnings) {}
 
-    // `names`: what stands behind mtllib, one name, which may contain blanks, or several.
-    void add_libraries(const std::string& names, const std::string& obj_path) {
-        if (names.empty()) return warnings_.push_back(obj_path + ": mtllib without the name of a file");
+    void add_libraries(const ObjLibrary& library, const std::string& obj_path) {
+        const std::string& names = library.names;  // one name, which may contain blanks, or several
+        const std::string at = "line " + std::to_string(library.line) + " of " + obj_path;
+        if (names.empty()) return missing_.push_back(at + ": mtllib without the name of a file");
         if (exists(beside(obj_path, names))) return add_library(beside(obj_path, names));
         std::istringstream words(names);
         for (std::string name; words >> name;) {
@@ -49,15 +88,24 @@ public:
             if (exists(path))
                 add_library(path);
             else
-                warnings_.push_back(path + ": there is no such material library");
+                missing_.push_back(path + ": there is no such material library, which " + at +
+                                   " names; faces with its materials get the default material");
         }
     }
 
-    std::shared_ptr<const Material> make(const std::string& name, const std::shared_ptr<const Material>& fallback) {
-        const auto found = materials_.find(name);
-        if (found != materials_.end()) return make(name, found->second);
-        warnings_.push_back("unknown material " + in_quotes(name));
-        return fallback;
+    std::vector<std::shared_ptr<const Material>> make_all(const std::vector<std::string>& names,
+                                                          const std::shared_ptr<const Material>& fallback) {
+        std::vector<std::shared_ptr<const Material>> made;
+        std::vector<std::string> unknown;
+        for (const std::string& name : names) {
+            const auto found = materials_.find(name);
+            if (found == materials_.end()) unknown.push_back(in_quotes(name));
+            made.push_back(found == materials_.end() ? fallback : make(name, found->second));
+        }
+        warn_of_unknown(unknown);
+        warn_of_unused();
+        warnings_.insert(warnings_.begin(), missing_.begin(), missing_.end());
+        return made;
     }
 
 private:
@@ -67,36 +115,62 @@ private:
         try {
             text = read_file(path);
         } catch (const FileError& error) {
-            warnings_.emplace_back(error.what());
-            return;
+            return missing_.push_back(error.what());
         }
-        std::map<std::string, MtlMaterial> added;
-        parse_mtl(text, path, added, warnings_);
-        for (auto& [name, material] : added) {
-            if (!material.diffuse_map.empty()) material.diffuse_map = beside(path, material.diffuse_map);
-            materials_.try_emplace(name, std::move(material));
-        }
+        if (const std::string kind = kind_of_contents(text); !kind.empty())
+            return missing_.push_back(path + ": is no material library: it appears to be " + kind);
+        parse_mtl(text, path, materials_, warnings_);
     }
 
-    // The table in limn/io/obj.h, from the top.
     std::shared_ptr<const Material> make(const std::string& name, const MtlMaterial& m) {
-        const auto illumination_is = [&m](std::initializer_list<int> models) {
-            return std::find(models.begin(), models.end(), m.illumination) != models.end();
-        };
-        const Color emission = clamped(to_color(m.emission), HUGE_VAL, "Ke", name);
-        const Color diffuse = clamped(to_color(m.diffuse), 1, "Kd", name);
-        const Color specular = clamped(to_color(m.specular), 1, "Ks", name);
-        if (!is_black(emission)) return std::make_shared<DiffuseLight>(emission);
-        if (m.opacity < 1 || illumination_is({4, 6, 7, 9}))
-            return std::make_shared<Dielectric>(m.index > 1 ? m.index : 1.5);
-        // The roughness of the microfacets whose lobe is as wide as Phong's with exponent Ns (Walter et al., Microfacet
-        // Models for Refraction through Rough Surfaces, EGSR 2007, section 5.2).
-        if (illumination_is({3, 5, 8}) || luminance(specular) > luminance(diffuse))
-            return std::make_shared<Metal>(specular, std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2))));
+        const Color emission = clamped(m.emission, HUGE_VAL, "Ke", name);
+        const Color diffuse = clamped(m.diffuse, 1, "Kd", name);
+        const Color specular = clamped(m.specular, 1, "Ks", name);
+        const Look look = look_of(m, emission, diffuse, specular);
+        for (const MtlMaterial::Word& word : m.unused) count_unused(m, name, word);
+        for (const std::string& word : words_without_use(m, look, specular))
+            count_unused(m, name, {word, m.lines.at(word)});
+        switch (look) {
+            case Look::light: return std::make_shared<DiffuseLight>(emission);
+            case Look::glass: return std::make_shared<Dielectric>(m.index > 1 ? m.index : 1.5);
+            // The roughness of the microfacets whose lobe is as wide as Phong's with exponent Ns (Walter et al.,
+            // Microfacet Models for Refraction through Rough Surfaces, EGSR 2007, section 5.2).
+            case Look::metal:
+                return std::make_shared<Metal>(specular,
+                                               std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2))));
+            case Look::diffuse: break;
+        }
         if (textures_wanted_ && !m.diffuse_map.empty())
-            if (const auto image = load_texture(m.diffuse_map))
+            if (const auto image = load_texture(beside(m.file, m.diffuse_map)))
                 return std::make_shared<Lambertian>(std::make_shared<ImageTexture>(image));
-        return std::make_shared<Lambertian>(diffuse);
+        const bool is_unsaid = !m.diffuse_map.empty() && !m.lines.contains("Kd");
+        return std::make_shared<Lambertian>(is_unsaid ? Color{0.6, 0.6, 0.6} : diffuse);
+    }
+
+    // One warning for each word of a file.
+    void count_unused(const MtlMaterial& m, const std::string& name, const MtlMaterial::Word& word) {
+        const auto [place, is_new] = unused_places_.try_emplace({m.file, word.text}, unused_.size());
+        if (is_new)
+            unused_.push_back({m.file + ": line " + std::to_string(word.line) + ": " + word.text + " of material " +
+                                   in_quotes(name) + " is not used",
+                               0});
+        else
+            ++unused_[place->second].other_materials;
+    }
+
+    void warn_of_unused() {
+        for (const auto& [text, others] : unused_)
+            warnings_.push_back(text + (others == 0   ? ""
+                                        : others == 1 ? ", nor in one other material"
+                                                      : ", nor in " + std::to_string(others) + " other materials"));
+    }
+
+    void warn_of_unknown(const std::vector<std::string>& names) {
+        constexpr std::size_t kMost = 3;  // are named
+        for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+            warnings_.push_back("unknown material " + names[i]);
+        if (names.size() > kMost)
+            warnings_.push_back("and " + std::to_string(names.size() - kMost) + " more unknown materials");
     }
 
     Color clamped(const Color& c, double largest, const char* key, const std::string& name) {
@@ -124,6 +198,13 @@ private:
     bool textures_wanted_;
     std::vector<std::string>& files_;
     std::vector<std::string>& warnings_;
+    std::vector<std::string> missing_;  // warnings that stand before all others
+    struct Unused {
+        std::string text;
+        std::size_t other_materials;
+    };
+    std::vector<Unused> unused_;
+    std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // by file and word
     std::map<std::string, MtlMaterial> materials_;
     std::map<std::string, std::shared_ptr<const Image>> textures_;
 };
@@ -134,10 +215,8 @@ std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& f
                                                                 const std::shared_ptr<const Material>& fallback,
                                                                 bool textures, Model& model) {
     MaterialLoader loader(textures, model);
-    for (const std::string& names : file.libraries) loader.add_libraries(names, obj_path);
-    std::vector<std::shared_ptr<const Material>> materials;
-    for (const std::string& name : file.materials) materials.push_back(loader.make(name, fallback));
-    return materials;
+    for (const ObjLibrary& library : file.libraries) loader.add_libraries(library, obj_path);
+    return loader.make_all(file.materials, fallback);
 }
 
 }  // namespace limn

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <utility>
 
-#include "io/clean_text.h"
 #include "io/obj_parse.h"
 #include "limn/core/error.h"
 
@@ -90,25 +89,6 @@ ObjFile parse_obj(std::string_view text, const std::string& path) {
     file.libraries = std::move(clean.libraries);
     file.warnings = std::move(clean.warnings);
     return file;
-}
-
-void parse_mtl(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
-               std::vector<std::string>& warnings) {
-    CleanMtl clean = clean_mtl(text, path);
-    warnings.insert(warnings.end(), clean.warnings.begin(), clean.warnings.end());
-    std::istringstream stream(std::move(clean.text));
-    std::map<std::string, int> places;
-    std::vector<tinyobj::material_t> read;
-    std::string warning, error;
-    tinyobj::LoadMtl(&places, &read, &stream, &warning, &error);
-    if (!warning.empty()) warnings.push_back(path + ": " + warning.substr(0, warning.find('\n')));
-    for (std::size_t i = 0; i < clean.materials.size(); ++i) {
-        const tinyobj::material_t& m = read.at(i);
-        const auto color = [](const double* c) { return std::array{c[0], c[1], c[2]}; };
-        const std::string map = m.diffuse_texname.empty() ? "" : clean.maps.at(std::stoul(m.diffuse_texname));
-        materials.try_emplace(clean.materials[i], MtlMaterial{color(m.diffuse), color(m.specular), color(m.emission),
-                                                              m.shininess, m.ior, m.dissolve, m.illum, map});
-    }
 }
 
 }  // namespace limn

@@ -1,13 +1,12 @@
-// OBJ and MTL files as plain arrays, checked.
+// OBJ files as plain arrays, checked.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/clean_obj.h"
 #include "limn/core/vec.h"
 
 namespace limn {
@@ -31,24 +30,14 @@ struct ObjFile {
     std::vector<Float3> positions, normals;
     std::vector<Float2> uvs;
     std::vector<ObjCorner> corners;
-    std::vector<ObjFace> faces;                     // those with at least one corner
-    std::size_t face_count = 0;                     // in the file
-    std::vector<std::string> materials, libraries;  // as the file names them
+    std::vector<ObjFace> faces;          // those with at least one corner
+    std::size_t face_count = 0;          // in the file
+    std::vector<std::string> materials;  // as the file names them
+    std::vector<ObjLibrary> libraries;
     std::vector<std::string> warnings;
 };
 
 /// \throws FileError naming `path` and the line of what is wrong
 ObjFile parse_obj(std::string_view text, const std::string& path);
-
-struct MtlMaterial {
-    std::array<double, 3> diffuse{}, specular{}, emission{};  // Kd, Ks, Ke
-    double shininess = 0, index = 1, opacity = 1;             // Ns, Ni, d
-    int illumination = 0;                                     // illum
-    std::string diffuse_map;                                  // map_Kd
-};
-
-/// Adds the materials of an MTL file to `materials`; the first of a name stays.
-void parse_mtl(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
-               std::vector<std::string>& warnings);
 
 }  // namespace limn

@@ -135,7 +135,7 @@ TEST_CASE("limn info: what is no model and no image is refused with status 1", "
         {folder.write("a.txt", "some text\n"), "a model's name ends in .obj"},
         {folder.write("b.exr", "no picture"), "is not a readable image"},
         {folder.write("c.png", ""), "is not a readable image"},
-        {folder.write("d.obj", "no model\n"), "no usable face"},
+        {folder.write("d.obj", "no model\n"), "is no statement of an OBJ"},
         {folder.write("e", ""), "is not a readable image"},
         {folder.path("none.obj"), "there is no such file"},
         {folder.path("none.png"), "there is no such file"},

@@ -19,8 +19,8 @@ using namespace limn::test;
 
 namespace {
 
-std::string calls;                                 // F for a flush, R for a rename
-bool disk_is_bad = false, encoder_is_bad = false;  // stores another first byte than it is given
+std::string calls;         // F for a flush, R for a rename
+bool disk_is_bad = false;  // stores another first byte than it is given
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
@@ -44,6 +44,10 @@ extern "C" ssize_t write(int file, const void* data, std::size_t size) {
 }
 
 #ifdef LIMN_WITH_OPENIMAGEIO
+namespace {
+bool encoder_is_bad = false;  // likewise
+}
+
 // The function of libpng by which OpenImageIO writes.
 extern "C" void png_write_row(void* png, unsigned char* row) {
     static const auto real = reinterpret_cast<decltype(&png_write_row)>(dlsym(RTLD_NEXT, "png_write_row"));

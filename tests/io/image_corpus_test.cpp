@@ -8,21 +8,12 @@
 #include "io/image_checks.h"
 #include "judge_image.h"
 #include "make_png.h"
+#include "picture_bytes.h"
 
 using namespace limn;
 using namespace limn::test;
 
 namespace {
-
-std::string zeros(std::size_t count) { return std::string(count, '\0'); }
-std::string changed(std::string bytes, std::size_t place, const std::string& to) {
-    return bytes.replace(place, to.size(), to);
-}
-std::string little_endian(std::uint32_t v, int bytes) {
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(v >> 8 * i);
-    return text;
-}
 
 const Color kOrange{0.8, 0.4, 0.1}, kGrey{128 / 255.0, 128 / 255.0, 128 / 255.0};
 const std::string kOrangeBytes = "\xcc\x66\x1a";
@@ -40,15 +31,6 @@ std::string hdr(const std::string& size, const std::string& data,
 }
 const std::string kOrangeRgbe = "\xcc\x66\x1a\x80";
 
-// 24 bits, rows from the bottom, padded to four bytes.
-std::string bmp(std::uint32_t width, std::uint32_t height, const std::string& data) {
-    return "BM" + little_endian(54 + static_cast<std::uint32_t>(data.size()), 4) + zeros(4) + little_endian(54, 4) +
-           little_endian(40, 4) + little_endian(width, 4) + little_endian(height, 4) + little_endian(1, 2) +
-           little_endian(24, 2) + zeros(24) + data;
-}
-std::string tga(std::uint32_t width, std::uint32_t height, const std::string& data) {
-    return zeros(2) + "\2" + zeros(9) + little_endian(width, 2) + little_endian(height, 2) + "\x18\x20" + data;
-}
 const std::string kOrangeBgr = "\x1a\x66\xcc";
 
 struct Row {
@@ -219,6 +201,8 @@ TEST_CASE("Image corpus: EXR", "[io][image]") {
         {"upside down", with_corner(1, 0x80000000)},
         {"no such packing", changed(plain, plain.find("compression") + 28, "\x63")},
         {"no channels", changed(plain, plain.find("chlist") + 11, zeros(1))},
+        {"a chunk far behind its end",
+         changed(plain, plain.find("screenWindowWidth") + 33, zeros(5) + "\1" + zeros(2))},
     };
     for (const auto& [what, bytes] : broken) {
         CAPTURE(what);

@@ -22,17 +22,6 @@ void check_sane(const Verdict& verdict) {
     if (verdict.image) CHECK(verdict.image->values().size() > 0);
 }
 
-// Makes the checksums of all chunks right again, so that the damage reaches the decoder.
-std::string with_checksums(const std::string& png) {
-    std::string result = png.substr(0, 8);
-    for (std::size_t i = 8; i + 12 <= png.size();) {
-        const std::size_t length = static_cast<std::uint8_t>(png[i + 3]) + 256u * static_cast<std::uint8_t>(png[i + 2]);
-        result += png_chunk(png.substr(i + 4, 4), png.substr(i + 8, length));
-        i += 12 + length;
-    }
-    return result;
-}
-
 int flips() { return std::getenv("LIMN_FULL") ? 500 : 30; }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // PNG files of any colour type, made without any library.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -17,6 +18,19 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
         for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320 : 0);
     }
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
+}
+
+// Makes the checksums of all chunks right again, so that damage reaches the decoder.
+inline std::string with_checksums(const std::string& png) {
+    std::string result = png.substr(0, 8);
+    for (std::size_t i = 8; i + 12 <= png.size();) {
+        std::size_t length = 0;
+        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<std::uint8_t>(png[i + k]);
+        length = std::min(length, png.size() - i - 12);
+        result += png_chunk(png.substr(i + 4, 4), png.substr(i + 8, length));
+        i += 12 + length;
+    }
+    return result;
 }
 
 enum class PngColor : char { grey = 0, rgb = 2, palette = 3, grey_alpha = 4, rgb_alpha = 6 };

@@ -1,4 +1,4 @@
-// The table of limn/io/obj.h, line by line.
+// The tables of docs/models.md, line by line.
 #include <cmath>
 
 #include "catch.h"
@@ -55,44 +55,108 @@ Model load_one(const Folder& folder, const std::string& mtl) {
 
 }  // namespace
 
-TEST_CASE("MTL: each combination gives the material of the table", "[io][obj][mtl]") {
+TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io][obj][mtl]") {
+    constexpr MaterialKind kMatte = MaterialKind::lambertian, kGlass = MaterialKind::dielectric;
     struct Row {
         std::string mtl;
         MaterialKind kind;
         Color color;
         double parameter;
+        std::vector<std::string> unused{};  // words that a warning names, with their lines
     };
     const Row rows[] = {
-        {"Kd 0.5 0.25 1\n", MaterialKind::lambertian, {0.5, 0.25, 1}, 0},
-        {"Kd 0.5\n", MaterialKind::lambertian, {0.5, 0.5, 0.5}, 0},
-        {"Kd .5 .5 .5\nKs .25 .25 .25\nNs 100\nillum 2\n", MaterialKind::lambertian, {0.5, 0.5, 0.5}, 0},
-        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", MaterialKind::diffuse_light, {4, 2, 1}, 0},
-        {"Ke 0 0 0\nKd 1 1 1\n", MaterialKind::lambertian, {1, 1, 1}, 0},
-        {"d 0.5\nNi 1.25\n", MaterialKind::dielectric, {}, 1.25},
-        {"d -halo 0.5\nNi 1.25\n", MaterialKind::dielectric, {}, 1.25},
-        {"Tr 0.5\nNi 1\n", MaterialKind::dielectric, {}, 1.5},
-        {"Tr 0\nKd 1 0 1\nNi 1.5\n", MaterialKind::lambertian, {1, 0, 1}, 0},
-        {"d 1\nKd 1 0 1\nNi 1.5\n", MaterialKind::lambertian, {1, 0, 1}, 0},
-        {"illum 4\nKd 1 1 1\n", MaterialKind::dielectric, {}, 1.5},
-        {"illum 6\nNi 2\n", MaterialKind::dielectric, {}, 2},
-        {"illum 7\nNi 0.5\nKs 1 1 1\n", MaterialKind::dielectric, {}, 1.5},
-        {"illum 9\nNi 2\n", MaterialKind::dielectric, {}, 2},
+        {"illum 0\nKd .5 .25 1\n", kMatte, {.5, .25, 1}, 0},
+        {"illum 1\nKd .5 .25 1\nKs 1 1 1\nNs 9\n", kMatte, {.5, .25, 1}, 0},
+        {"illum 2\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0},
+        {"illum 2\nKd .5 .5 .5\nKs .25 .25 .25\nNs 100\n", kMatte, {.5, .5, .5}, 0, {"4: Ks"}},
+        // As Blender writes them: never a grey mirror, nor clear glass.
+        {"Ns 250\nKa 1 1 1\nKd .125 .25 .5\nKs .5 .5 .5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n",
+         kMatte,
+         {.125, .25, .5},
+         0,
+         {"5: Ks"}},
+        {"Kd .125 .25 .5\nKs .5 .5 .5\nd .98\nillum 2\n", kMatte, {.125, .25, .5}, 0, {"4: d", "3: Ks"}},
         {"illum 3\nKd .5 .5 .5\nKs .25 .5 .25\nNs 1022\n", MaterialKind::metal, {.25, .5, .25}, 0.04419417382415922},
         {"illum 5\nKs 1 1 1\nNs 0\n", MaterialKind::metal, {1, 1, 1}, 1},
         {"illum 8\nKs 1 1 1\nNs 6\n", MaterialKind::metal, {1, 1, 1}, 0.5},
-        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", MaterialKind::metal, {.5, .5, .5}, 0.5},
         {"illum 3\nKs 1 1 1\nNs -5\n", MaterialKind::metal, {1, 1, 1}, 1},
+        {"illum 3\nKs 1 1 1\nNs 6\nd .5\n", MaterialKind::metal, {1, 1, 1}, .5, {"5: d"}},
+        {"illum 3\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0, {"2: illum"}},
+        {"illum 4\nKd 1 1 1\n", kGlass, {}, 1.5},
+        {"illum 6\nNi 2\n", kGlass, {}, 2},
+        {"illum 7\nNi 0.5\nKs 1 1 1\n", kGlass, {}, 1.5},
+        {"illum 9\nNi 2\nd .25\n", kGlass, {}, 2},
+        {"illum 10\nKd .5 .25 1\n", kMatte, {.5, .25, 1}, 0, {"2: illum"}},
+        {"Kd 0.5 0.25 1\n", kMatte, {0.5, 0.25, 1}, 0},
+        {"Kd 0.5\n", kMatte, {0.5, 0.5, 0.5}, 0},
+        {"Kd .5 .5 .5\nKs .25 .25 .25\n", kMatte, {.5, .5, .5}, 0, {"3: Ks"}},
+        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", MaterialKind::metal, {.5, .5, .5}, 0.5},
+        {"d 0.5\nNi 1.25\n", kGlass, {}, 1.25},
+        {"d -halo 0.5\nNi 1.25\n", kGlass, {}, 1.25},
+        {"Tr 0.5\nNi 1\n", kGlass, {}, 1.5},
+        {"Tr 0\nKd 1 0 1\nNi 1.5\n", kMatte, {1, 0, 1}, 0},
+        {"d 1\nKd 1 0 1\nNi 1.5\n", kMatte, {1, 0, 1}, 0},
+        {"d 1\nTr 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
+        {"Tr 1\nd 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
+        {"illum 1\nTr 0.5\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, {"3: Tr"}},
+        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", MaterialKind::diffuse_light, {4, 2, 1}, 0, {"4: d", "5: illum"}},
+        {"Ke 4 2 1\nKs 1 1 1\nillum 2\n", MaterialKind::diffuse_light, {4, 2, 1}, 0},
+        {"Ke 4 2 1\nmap_Kd none.png\n", MaterialKind::diffuse_light, {4, 2, 1}, 0, {"3: map_Kd"}},
+        {"Ke 0 0 0\nKd 1 1 1\n", kMatte, {1, 1, 1}, 0},
     };
     const Folder folder;
     for (const Row& row : rows) {
         CAPTURE(row.mtl);
         const Model model = load_one(folder, row.mtl);
         const Lowered lowered(model);
-        CHECK(model.warnings.empty());
+        std::vector<std::string> warnings;
+        for (const std::string& word : row.unused)
+            warnings.push_back(folder.path("a.mtl") + ": line " + word + " of material 'm' is not used");
+        CHECK(model.warnings == warnings);
         CHECK(lowered.materials[0].kind == row.kind);
         CHECK(lowered.materials[0].parameter == Approx(row.parameter).epsilon(1e-12));
-        if (row.kind != MaterialKind::dielectric) check_color(lowered.color(0), row.color);
+        if (row.kind != kGlass) check_color(lowered.color(0), row.color);
     }
+}
+
+TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io][obj][mtl]") {
+    const Folder folder;
+    save_image(Image(1, 1, Color{0.5, 0.25, 0.125}), folder.path("a.png"));
+    const std::pair<std::string, std::vector<std::string>> rows[] = {
+        {"Ks .5 .5 .5\nillum 2\n", {"Ks"}},   {"d .98\nillum 2\n", {"d"}}, {"Ks 1 1 1\nillum 3\n", {"Ks", "illum"}},
+        {"d .98\nillum 9\n", {"d", "illum"}}, {"d .98\n", {"d"}},          {"illum 1\n", {}}};
+    for (const auto& [rest, unused] : rows) {
+        CAPTURE(rest);
+        const Model model = load_one(folder, "map_Kd a.png\n" + rest);
+        const Lowered lowered(model);
+        CHECK(lowered.materials[0].kind == MaterialKind::lambertian);
+        CHECK(lowered.texture(0).kind == TextureKind::image);
+        REQUIRE(model.warnings.size() == unused.size());
+        for (std::size_t i = 0; i < unused.size(); ++i)
+            CHECK(model.warnings[i].ends_with(": " + unused[i] + " of material 'm' is not used"));
+    }
+}
+
+TEST_CASE("MTL: each word that is not used gives one warning, however many materials have it", "[io][obj][mtl]") {
+    const Folder folder;
+    const std::string both = "Kd 1 1 1\nmap_Bump b.png\nPr .5\nmap_Bump b.png\n";
+    folder.write("a.mtl", "newmtl a\n" + both + "newmtl b\n" + both + "norm n.png\nnewmtl c\nmap_Bump b.png\n" +
+                              "newmtl unused\nmap_d d.png\n");
+    const Model model = load_obj(folder.write("a.obj", triangles({"a", "b", "c"})));
+    const std::string at = folder.path("a.mtl") + ": line ";
+    CHECK(model.warnings ==
+          std::vector<std::string>{at + "3: map_Bump of material 'a' is not used, nor in 2 other materials",
+                                   at + "4: Pr of material 'a' is not used, nor in one other material",
+                                   at + "11: norm of material 'b' is not used"});
+}
+
+TEST_CASE("MTL: a file of many unknown words does not flood the warnings", "[io][obj][mtl]") {
+    const Folder folder;
+    std::string words;
+    for (int i = 0; i < 1000; ++i) words += "word" + std::to_string(i) + " 1\n";
+    const Model model = load_one(folder, words);
+    CHECK(model.warnings.size() == 21);
+    CHECK(model.warnings.back() == folder.path("a.mtl") + ": line 22: what else there is of material 'm' is not used");
 }
 
 TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded from sRGB", "[io][obj][mtl]") {
@@ -155,11 +219,18 @@ TEST_CASE("MTL: faces keep their materials, those before any usemtl the default 
 TEST_CASE("MTL: a missing library, material or texture is a warning, not an error", "[io][obj][mtl]") {
     const Folder folder;
     const auto warning = [](const Model& model) { return model.warnings.empty() ? "" : model.warnings[0]; };
-    const Model no_library = load_obj(folder.write("a.obj", triangles({"red", "red"})));
-    CHECK(warning(no_library) == folder.path("a.mtl") + ": there is no such material library");
-    CHECK(no_library.warnings.size() == 2);
-    CHECK(no_library.warnings.back() == "unknown material 'red'");
+    // It stands before all that is wrong elsewhere.
+    const Model no_library = load_obj(folder.write("a.obj", "curv 1\n" + triangles({"red", "red"})));
+    CHECK(no_library.warnings ==
+          std::vector<std::string>{folder.path("a.mtl") + ": there is no such material library, which line 2 of " +
+                                       folder.path("a.obj") +
+                                       " names; faces with its materials get the default material",
+                                   "1 line was passed over; the first is line 1", "unknown material 'red'"});
     check_color(Lowered(no_library).color(0), Color{0.5, 0.5, 0.5});
+
+    const Model unknown = load_obj(folder.write("a.obj", triangles({"a", "b", "c", "d", "e"})));
+    CHECK(unknown.warnings.size() == 5);
+    CHECK(unknown.warnings.back() == "and 2 more unknown materials");
 
     const Model no_texture = load_one(folder, "Kd .25 .5 .75\nmap_Kd none.png\n");
     CHECK(warning(no_texture) == folder.path("none.png") + ": there is no such file");
@@ -204,5 +275,5 @@ TEST_CASE("MTL: a malformed number is refused with the MTL's name and the line",
         }
         CHECK(message.starts_with(folder.path("a.mtl") + ": line 3: "));
     }
-    CHECK(load_one(folder, "Ka x\nKd spectral a.rfl\nunknown nan\n").warnings.size() == 1);
+    CHECK(load_one(folder, "Ka x\nKd spectral a.rfl\nunknown nan\n").warnings.size() == 2);  // Ka is never used
 }

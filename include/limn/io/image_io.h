@@ -1,6 +1,7 @@
 /// \file
 /// Image files. Written, by suffix: EXR and PNG; built without OpenImageIO: PNG and HDR. Read, by contents, whatever
-/// the name: EXR (with OpenImageIO), PNG, JPEG, HDR, BMP and TGA. All functions are thread-safe, for different files.
+/// the name: EXR (with OpenImageIO), PNG, JPEG, HDR, BMP and TGA, of which BMP unpacked. All functions are thread-safe,
+/// for different files.
 #pragma once
 
 #include <cstddef>
@@ -56,9 +57,10 @@ void check_writable(const std::string& path);
 
 /// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey. A CMYK
 /// JPEG is converted; an EXR's data window is the picture. Only regular files are read: no pipe, no device. A picture
-/// whose size the file cannot hold or the machine's memory cannot is refused before memory is taken for it. JPEG, HDR,
-/// BMP and TGA have no checksums: damage that leaves them readable is not noticed.
-/// \throws FileError naming the file: missing, no picture, broken off, a wrong checksum
+/// whose size the file cannot hold or the machine's memory cannot is refused before memory is taken for it. Before a
+/// library decodes a file, limn has told its format by its contents and checked its header. JPEG, HDR, BMP and TGA have
+/// no checksums: damage that leaves them readable is not noticed.
+/// \throws FileError naming the file: missing, no picture (and what it appears to be), broken off, a wrong checksum
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
 /// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file, which messages call `name`.
@@ -78,8 +80,8 @@ struct ImageInfo {
     std::vector<ImageChannel> channels;  ///< in the order of the file
 };
 
-/// Reads size and channels, all of them, and no pixels.
-/// \throws FileError naming the file: missing, no picture
+/// Reads size and channels, all of them, and decodes no pixels.
+/// \throws FileError as load_image, but for what only pixels tell
 ImageInfo load_image_info(const std::string& path);
 
 /// The text facts in the header of a picture that save_image wrote, in no particular order.

@@ -20,8 +20,8 @@ struct Model {
     std::size_t dropped_faces = 0;         ///< fewer than three corners, or no area
     std::size_t degenerate_triangles = 0;  ///< of exactly zero area, which no ray can hit
     std::vector<std::string> materials;    ///< the names that its usemtl lines give, in the order of their first use
-    /// A missing MTL or texture file, an unknown material, lines that were passed over, and all else in the files that
-    /// was not used as they say.
+    /// What in the files was not used as they say, a missing MTL first: a missing texture, an unknown material, lines
+    /// that were passed over, and once for each MTL the words that its materials have and limn does not use.
     std::vector<std::string> warnings;
     std::vector<std::string> files;  ///< that were read, or tried: the model, its MTL files, their textures
 
@@ -48,20 +48,23 @@ struct ObjOptions {
 /// unknown lines, the options of map_Kd and a second material of the same name are passed over with a warning. Only
 /// regular files are read: no pipe, no device.
 ///
-/// Materials, their colours clamped to what they may have:
+/// A material, its colours clamped to what they may have, becomes the first of these that fits; docs/models.md says
+/// more, and what becomes a warning:
 ///
 /// | MTL | material |
 /// |---|---|
 /// | Ke not black | DiffuseLight(Ke) |
-/// | d < 1 (or Tr > 0), or illum 4, 6, 7, 9 | Dielectric(Ni, or 1.5 where Ni <= 1) |
-/// | illum 3, 5, 8, or Ks brighter than Kd | Metal(Ks, fuzz = sqrt(2 / (Ns + 2)), at most 1) |
-/// | else map_Kd | Lambertian(image), decoded from sRGB by metadata, v upward, repeated |
+/// | map_Kd | Lambertian(image), decoded from sRGB by metadata, v upward, repeated |
+/// | illum 3, 5, 8, Ks not black | Metal(Ks, fuzz = sqrt(2 / (Ns + 2)), at most 1) |
+/// | illum 4, 6, 7, 9 | Dielectric(Ni, or 1.5 where Ni <= 1) |
+/// | no illum, d < 1 (or Tr > 0) | Dielectric, as above |
+/// | no illum, Ks brighter than Kd | Metal, as above |
 /// | else | Lambertian(Kd) |
 ///
 /// A material or picture that is missing or unreadable is replaced, with a warning: by the default material, by Kd.
 ///
-/// \throws FileError naming file and line: unreadable, no usable face, an index out of range, a coordinate that is not
-/// a finite float32, a malformed number in the OBJ or the MTL
+/// \throws FileError naming file and line: unreadable, no OBJ (and what it appears to be), no usable face, an index out
+/// of range, a coordinate that is not a finite float32, a malformed number in the OBJ or the MTL
 Model load_obj(const std::string& path, const ObjOptions& options = {});
 
 }  // namespace limn

@@ -1,0 +1,164 @@
+#include "io/mtl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+
+#include "io/text_lines.h"
+
+namespace limn {
+
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+// The words before a texture's name: map_Kd and its options (Wavefront, MTL Material Format v4.2, 1995, "Options for
+// texture map statements").
+std::size_t words_before_name(const Words& words) {
+    std::size_t place = 1;
+    while (place < words.size()) {
+        const std::string_view option = words[place];
+        if (is_one_of(option, {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp", "-colorspace", "-imfchan",
+                               "-texres", "-type"})) {
+            place += 2;
+        } else if (option == "-mm") {
+            place += 3;
+        } else if (is_one_of(option, {"-o", "-s", "-t"})) {
+            const std::size_t last = place + 3;  // the second and third number may be left out
+            for (++place; place <= last && place < words.size() && parse_float(words[place]);) ++place;
+        } else {
+            break;
+        }
+    }
+    return std::min(place, words.size());
+}
+
+class MtlParser {
+public:
+    MtlParser(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
+              std::vector<std::string>& warnings)
+        : lines_(text, path), path_(path), materials_(materials), warnings_(warnings) {}
+
+    void parse() {
+        while (lines_.next())
+            if (const Words words = lines_.words(); !words.empty()) parse_line(words);
+        if (names_.empty()) warnings_.push_back(path_ + ": holds no material, for there is no newmtl with a name");
+    }
+
+private:
+    void parse_line(const Words& words) {
+        const std::string_view key = words[0];
+        if (key == "newmtl") {
+            material(std::string(lines_.name()));
+        } else if (key == "map_Kd") {
+            map(words);
+        } else if (key == "Kd") {
+            color(words, current().diffuse);
+        } else if (key == "Ks") {
+            color(words, current().specular);
+        } else if (key == "Ke") {
+            color(words, current().emission);
+        } else if (key == "Ns") {
+            current().shininess = number(words);
+        } else if (key == "Ni") {
+            current().index = number(words);
+        } else if (key == "d") {
+            current().opacity = number(words);
+        } else if (key == "Tr") {
+            transparency(number(words));
+        } else if (key == "illum") {
+            illumination(number(words));
+        } else if (key != "Ka") {  // of ambient light, which a path tracer has none of
+            unused(key);
+        }
+    }
+
+    // Lines before the first material, and those of a second one of a name, are read and left.
+    MtlMaterial& current() { return current_ ? *current_ : nobody_; }
+
+    void material(const std::string& name) {
+        current_ = nullptr;
+        nobody_ = {};
+        if (name.empty()) return warn("newmtl without a name");
+        if (!names_.insert(name).second)
+            return warn("material " + in_quotes(name) + " is there already; the first one stays");
+        const auto [place, is_new] = materials_.try_emplace(name);
+        if (!is_new) return;  // of another library
+        current_ = &place->second;
+        current_->file = path_;
+    }
+
+    void map(const Words& words) {
+        const std::size_t before_name = words_before_name(words);
+        const std::string name(lines_.name(before_name));
+        if (name.empty()) return warn("map_Kd without the name of a file");
+        if (before_name > 1) warn("the options of map_Kd are not used");
+        current().diffuse_map = name;
+        note(words[0]);
+    }
+
+    void color(const Words& words, Color& to) {
+        if (words.size() > 1 && (words[1] == "spectral" || words[1] == "xyz")) return warn("only RGB colours are read");
+        if (words.size() < 2) lines_.fail(std::string(words[0]) + " needs a number");
+        if (words.size() == 3) lines_.fail(std::string(words[0]) + " needs one number or three");
+        // One number stands for all three.
+        const auto at = [&](std::size_t i) { return double{lines_.require_number(words[words.size() == 2 ? 1 : i])}; };
+        to = Color{at(1), at(2), at(3)};
+        note(words[0]);
+    }
+
+    double number(const Words& words) {
+        const std::size_t place = words[0] == "d" && words.size() > 1 && words[1] == "-halo" ? 2 : 1;
+        if (words.size() <= place) lines_.fail(std::string(words[0]) + " needs a number");
+        const double value = lines_.require_number(words[place]);
+        note(words[0]);
+        return value;
+    }
+
+    // d stands, wherever it is; some programs write the same number as d and as Tr.
+    void transparency(double value) {
+        if (!current().lines.contains("d")) current().opacity = 1 - value;
+    }
+
+    void illumination(double value) {
+        const bool is_known = value >= 0 && value <= 10 && value == std::floor(value);
+        if (!is_known) warn("illum is none of 0 to 10 and is not used");
+        current().illumination = is_known ? std::optional(static_cast<int>(value)) : std::nullopt;
+    }
+
+    void unused(std::string_view key) {
+        constexpr std::size_t kMost = 20;
+        std::vector<MtlMaterial::Word>& words = current().unused;
+        const std::string text = words.size() < kMost ? shortened(key) : "what else there is";
+        const auto is_text = [&](const MtlMaterial::Word& word) { return word.text == text; };
+        if (std::none_of(words.begin(), words.end(), is_text)) words.push_back({text, lines_.number()});
+    }
+
+    void note(std::string_view key) { current().lines[std::string(key)] = lines_.number(); }
+
+    void warn(const std::string& problem) {
+        warnings_.push_back(path_ + ": line " + std::to_string(lines_.number()) + ": " + problem);
+    }
+
+    TextLines lines_;
+    const std::string& path_;
+    std::map<std::string, MtlMaterial>& materials_;
+    std::vector<std::string>& warnings_;
+    std::set<std::string> names_;
+    MtlMaterial* current_ = nullptr;
+    MtlMaterial nobody_;
+};
+
+}  // namespace
+
+void parse_mtl(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
+               std::vector<std::string>& warnings) {
+    MtlParser(text, path, materials, warnings).parse();
+}
+
+}  // namespace limn

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# run.sh TARGET [SECONDS]: fuzzes load_image or load_obj, half an hour if not told otherwise. What leads to new
+# code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=$here/../../build/fuzz
+data=$here/../io/data
+target=${1:?TARGET: load_image or load_obj}
+seconds=${2:-1800}
+
+launcher=()
+! command -v ccache >/dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake -S "$here" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 "${launcher[@]}" >/dev/null
+nice -n 10 cmake --build "$build" --target "fuzz_$target"
+
+seeds=$build/seeds/$target corpus=$build/corpus/$target found=$build/found/$target
+rm -rf "$seeds"
+mkdir -p "$seeds" "$corpus" "$found" "$build/scratch"
+export TMPDIR=$build/scratch  # for scratch_file.h
+case $target in
+    load_image)
+        cp "$data"/images/* "$data/orange.jpg" "$here"/seeds/*.{png,hdr,bmp,tga} "$seeds"
+        largest=4096
+        ;;
+    load_obj)  # an OBJ, a zero byte, an MTL
+        for obj in "$data"/obj/*.obj "$here"/seeds/*.obj; do
+            mtl=${obj%.obj}.mtl
+            { cat "$obj" && printf '\0' && if [[ -e $mtl ]]; then cat "$mtl"; fi; } >"$seeds/$(basename "$obj")"
+        done
+        largest=2048
+        ;;
+esac
+# 4 KB of PNG may hold 34 million pixels of one bit, so 400 MB of floats; what takes more is a claim that was believed.
+cd "$found"
+exec nice -n 10 "$build/fuzz_$target" -max_total_time="$seconds" -max_len=$largest -timeout=20 -malloc_limit_mb=500 \
+    -rss_limit_mb=2000 -artifact_prefix="$found/" -print_final_stats=1 -use_value_profile=1 "$corpus" "$seeds" "$found"
