@@ -15,21 +15,13 @@ namespace limn::tracing {
 /// Calls function(0) ... function(count - 1), each once, on the threads of the caller's arena, until the context is
 /// cancelled. What a call throws cancels the others and comes out here.
 ///
-/// The threads draw their numbers from one atomic counter, whose acquire and release also order what happens before, in
-/// and after the loop. oneTBB does so as well, but ThreadSanitizer cannot see it (tests/support/tsan.supp).
+/// The threads draw their numbers from one counter; oneTBB orders what happens before, in and after the loop.
 template <class Function>
 void for_each_index(std::size_t count, tbb::task_group_context& context, const Function& function) {
-    std::atomic<std::size_t> next;
-    struct Leave {
-        std::atomic<std::size_t>& counter;
-        ~Leave() { counter.fetch_add(1, std::memory_order_acq_rel); }
-    };
-    const Leave caller{next};
-    next.store(0, std::memory_order_release);
+    std::atomic<std::size_t> next = 0;
     const auto work = [&next, &function, &context, count](int) {
-        const Leave worker{next};
         const FloatEnvironment environment;  // a thread of the arena may have any
-        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_acq_rel)) < count;) {
+        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
             if (context.is_group_execution_cancelled()) return;
             function(i);
         }

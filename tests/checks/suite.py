@@ -31,11 +31,11 @@ def logged(command, log, **options):
 
 def build(folder, configure, targets=()):
     """Configures and builds a folder; with a compiler cache where there is one."""
-    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    cache = {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache"} if shutil.which("ccache") else {}  # counts where a folder is new
     log = folder.with_suffix(".log")
     log.unlink(missing_ok=True)
     say(f"building {folder.relative_to(ROOT)}")
-    logged(["cmake", "-S", ROOT, *configure, *launcher], log)
+    logged(["cmake", "-S", ROOT, *configure], log, env={**os.environ, **cache})
     logged(["cmake", "--build", folder, *(["--target", *targets] if targets else [])], log)
 
 
