@@ -77,7 +77,7 @@ bool is_binary_stl(std::string_view contents) {
 // Without a byte order mark: every other byte of Latin text is zero.
 bool is_utf16(std::string_view contents) {
     const std::string_view beginning = contents.substr(0, contents.size() < 64 ? contents.size() / 2 * 2 : 64);
-    for (const std::size_t zero : {0, 1}) {
+    for (const std::size_t zero : {0u, 1u}) {
         bool fits = beginning.size() >= 8;
         for (std::size_t i = 0; i < beginning.size(); ++i) fits = fits && (beginning[i] == '\0') == (i % 2 == zero);
         if (fits) return true;

@@ -81,7 +81,7 @@ TEST_CASE("Determinism: a path is the same alone and among any number of others"
         tracer.trace({&path, 1});
         alone.push_back(path.radiance);
     }
-    for (const std::size_t together : {2, 17, 300, 1600}) {
+    for (const std::size_t together : {2u, 17u, 300u, 1600u}) {
         tracing::PathTracer tracer(scene.flat(), 8, Estimator::path);
         std::size_t differing = 0;
         for (std::size_t first = 0; first < alone.size(); first += together) {

@@ -136,7 +136,7 @@ TEST_CASE("Light choice: of small lights alike the odds go with strength, cosine
     const auto small = [](const Point3& p, const Vec3& u, const Vec3& v, double radiance) {
         return quad(p, 1e-4 * u, 1e-4 * v, lamp(radiance));
     };
-    const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    const Vec3 x{1, 0, 0}, z{0, 0, 1};
     const Receiver receiver{{0, 0, 0}, {0, 1, 0}};
     const auto odds = [&](const Object& a, const Object& b, const Receiver& at) {
         const CompiledScene scene = compile_with(sky(0), {a, b});
