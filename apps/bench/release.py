@@ -36,8 +36,13 @@ def version_faults(root):
 
 def claim_faults(root):
     patches = len(list(root.glob("tests/mutants/*.patch")))
+
+    def claims(paper):  # of the changelog those of the newest version: the others were true then
+        text = paper.read_text()
+        return CLAIM.findall("".join(text.split("\n## ")[:2]) if paper.name == "CHANGELOG.md" else text)
+
     return [f"{paper.relative_to(root)} claims {claim} faults, tests/mutants has {patches}"
-            for paper in papers(root) for claim in CLAIM.findall(paper.read_text()) if int(claim) != patches]
+            for paper in papers(root) for claim in claims(paper) if int(claim) != patches]
 
 
 def test_names(root):

@@ -29,6 +29,9 @@ CORE = ("CMakeLists.txt", "cmake", "include", "lib", "-include/limn/io", "-lib/i
 IO = ("include/limn/io", "lib/io")
 FIGURES = ("apps/common", "examples/figures")
 BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt")
+# The suite in other builds than the usual one.
+CHECKED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "tests", "-*.py",
+           "-tests/mutants", "tests/checks")
 ALL = ("CMakeLists.txt", "cmake", "include", "lib", "apps", "examples", "-*.py")
 
 
@@ -54,10 +57,10 @@ REPORTS = (
            CORE + FIGURES + ("apps/bench/promise*.cpp", "apps/bench/promise.h", "apps/bench/sampler_rates.cpp")),
     Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 25,
            CORE + ("tests/accuracy", "tests/hard", "tests/support", "apps/bench/accuracy.py", "-*_test.py")),
-    Report("compilers", "docs/checks.md", "./build.sh compilers", 90, ALL + ("tests",)),
-    Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, ALL + ("tests",)),
-    Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, ALL + ("tests",)),
-    Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, ALL + ("tests",)),
+    Report("compilers", "docs/checks.md", "./build.sh compilers", 90, CHECKED),
+    Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, CHECKED),
+    Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, CHECKED),
+    Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, CHECKED),
     Report("mutants", "docs/mutants.md", "./build.sh mutants", 120, ALL + ("tests",)),
 )
 
@@ -160,6 +163,8 @@ def state(report, root=ROOT):
         return "older than its sources"
     if sources[2]:
         return sources[2].strip(" ,*")
+    if re.search(r"\bcommit [0-9a-f]+-dirty\b", text.partition("\n")[0]):
+        return "measured before it was committed"
     return "fresh" if command[1] == report.command else f"written by {command[1]}"
 
 

@@ -9,6 +9,10 @@
 #include "accel/slab.h"
 #include "kernels/searches-inl.h"
 
+#if HWY_TARGETS & ~LIMN_SEARCH_TARGETS
+#error "Highway builds for an instruction set that lib/kernels/CMakeLists.txt does not name"
+#endif
+
 #if HWY_ONCE
 
 namespace limn::kernels {

@@ -24,7 +24,8 @@ std::vector<std::string> library_commands() {
     std::vector<std::string> found;
     for (std::string line; std::getline(in, line);) {
         const bool is_command = line.find("\"command\"") != std::string::npos;
-        if (is_command && line.find("CMakeFiles/limn_core.dir/") != std::string::npos) found.push_back(line);
+        for (const char* const target : {"CMakeFiles/limn_core.dir/", "CMakeFiles/limn_io_objects.dir/"})
+            if (is_command && line.find(target) != std::string::npos) found.push_back(line);
     }
     return found;
 }
