@@ -120,7 +120,8 @@ TEST_CASE("limn info: a model with a vertex that is no number, or too large for 
         const std::string model =
             folder.write("a.obj", house_obj() + "v 0 0 0\nv 1 " + number + " 0\nv 0 1 0\nf 11 12 13\n");
         const std::string text = folder.read("a.obj");
-        const auto line = 1 + std::count(text.begin(), text.begin() + text.find("v 1 " + std::string(number)), '\n');
+        const std::string before = text.substr(0, text.find("v 1 " + std::string(number)));
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const Outcome outcome = limn({"info", model});
         CAPTURE(number, outcome.err);
         CHECK(outcome.status == 1);
