@@ -38,8 +38,9 @@ install_missing() {
     local missing=() package
     command -v dpkg-query >/dev/null || return 0
     for package in "$@"; do
-        [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" == installed ]] ||
-            missing+=("$package")
+        # Of other architectures there may be packages of the same name.
+        dpkg-query -W -f='${Architecture} ${db:Status-Status}\n' "$package" 2>/dev/null |
+            grep -Ex "(all|$(dpkg --print-architecture)) installed" >/dev/null || missing+=("$package")
     done
     [[ ${#missing[@]} -gt 0 ]] || return 0
     echo "installing: ${missing[*]}" >&2
