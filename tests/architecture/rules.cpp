@@ -195,19 +195,21 @@ Violations check_flat(const SourceTree& tree) {
 }
 
 Violations check_pointers(const SourceTree& tree) {
-    static const std::regex coordinate(R"(&[A-Za-z_]\w*((\.|->)\w+|\[\w*\])*(\.|->)[xyz]\b)");  // `a & b.x` has spaces
+    // `a & b.x` has spaces.
+    static const std::regex coordinate(R"(&[A-Za-z_]\w*((\.|->)\w+|\[\w*\])*(\.|->)[xyzrgbuv]\b)");
     static const std::regex indexed(R"(\(&\w+((\.|->|\[)[\w\]]+)+\)\s*\[)");
-    static const std::regex cast(R"(\breinterpret_cast\s*<(?!\s*(const\s+)?)"
-                                 R"((char|unsigned char|std::byte|std::u?int8_t|std::u?intptr_t)\b)[^>]*>)");
     // Highway gathers from a pointer to the kind of number that lies there, among others.
-    static const std::regex gathers(R"(lib/kernels/light_choice\.cpp)");
+    static const std::regex cast(R"((\bGatherIndex\((?:[^();]|\(\))*)?\breinterpret_cast\s*<(?!\s*(const\s+)?)"
+                                 R"((char|unsigned char|std::byte|std::u?int8_t|std::u?intptr_t)\b)[^>]*>)");
     Violations found;
     for (const SourceFile& file : tree) {
         if (!is_public(file) && !is_lib(file)) continue;
         find_all(file, coordinate, "no pointer to one coordinate reaches another", found);
         find_all(file, indexed, "no pointer to a member reaches another", found);
-        if (!std::regex_match(file.path, gathers))
-            find_all(file, cast, "objects are read as what they are, or as bytes", found);
+        for (std::sregex_iterator match(file.code.begin(), file.code.end(), cast), end; match != end; ++match)
+            if (!(*match)[1].matched)
+                found.push_back(
+                    at(file, match->position(), "objects are read as what they are, or as bytes: " + match->str()));
     }
     return found;
 }

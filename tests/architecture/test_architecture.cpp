@@ -183,11 +183,14 @@ TEST_CASE("An object in the flat scene is reported", "[architecture]") {
 TEST_CASE("A pointer that reaches beyond its member is reported", "[architecture]") {
     const SourceTree tree{
         {"lib/kernels/a.h",
-         "double d = (&v.x)[axis];\nconst double* p = &ray.origin.x;\nload(&rays[i].direction.x);\nload(&p->y, &x);\n"},
+         "double d = (&v.x)[axis];\nconst double* p = &ray.origin.x;\nload(&rays[i].direction.x);\nload(&p->y, &x);\n"
+         "const float* p = &color.r;\nconst double* q = &hit.u;\n"},
         {"lib/kernels/b.h",
          "auto* f = reinterpret_cast<const float*>(words);\n"
          "auto* c = reinterpret_cast<const char*>(words);\nauto* g = (&t.row)[1];\nvoid h(int (&row)[2]);\n"},
-        {"lib/kernels/light_choice.cpp", "auto* f = reinterpret_cast<const float*>(nodes);\n"},
+        {"lib/kernels/light_choice.cpp",
+         "g = hn::GatherIndex(Floats(),\n  reinterpret_cast<const float*>(nodes) + i / 4, at);\n"
+         "auto* f = reinterpret_cast<const float*>(nodes);\n"},
         {"lib/kernels/c.h", "bool b = a.y && p.x;\nauto n = bits & m.x;\nauto* q = &x;\nfloat& r = v.x;\n"},
         {"apps/bench/d.cpp", "double d = (&v.x)[1];\n"}};
     CHECK(check_pointers(tree) ==
@@ -195,9 +198,13 @@ TEST_CASE("A pointer that reaches beyond its member is reported", "[architecture
                      "lib/kernels/a.h:2: no pointer to one coordinate reaches another: &ray.origin.x",
                      "lib/kernels/a.h:3: no pointer to one coordinate reaches another: &rays[i].direction.x",
                      "lib/kernels/a.h:4: no pointer to one coordinate reaches another: &p->y",
+                     "lib/kernels/a.h:5: no pointer to one coordinate reaches another: &color.r",
+                     "lib/kernels/a.h:6: no pointer to one coordinate reaches another: &hit.u",
                      "lib/kernels/a.h:1: no pointer to a member reaches another: (&v.x)[",
                      "lib/kernels/b.h:3: no pointer to a member reaches another: (&t.row)[",
                      "lib/kernels/b.h:1: objects are read as what they are, or as bytes: "
+                     "reinterpret_cast<const float*>",
+                     "lib/kernels/light_choice.cpp:3: objects are read as what they are, or as bytes: "
                      "reinterpret_cast<const float*>"});
 }
 
