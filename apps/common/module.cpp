@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <system_error>
 
 #include "limn/core/error.h"
 
@@ -14,7 +15,8 @@ namespace fs = std::filesystem;
 
 // Returns limn_module; null where `path` does not have it, for the reason in `problem`.
 void* load(const fs::path& path, std::string& problem) {
-    if (!fs::exists(path)) {
+    std::error_code unknown;  // dlopen then says what is wrong
+    if (!fs::exists(path, unknown) && !unknown) {
         problem = "is not there";
         return nullptr;
     }
@@ -28,7 +30,9 @@ void* load(const fs::path& path, std::string& problem) {
         problem = id ? "is a module of limn " + std::string(id) + ", not of " LIMN_MODULE_ID : "is no module of limn";
         return nullptr;
     }
-    return dlsym(module, "limn_module");
+    void* const found = dlsym(module, "limn_module");
+    if (found == nullptr) problem = "has no limn_module";
+    return found;
 }
 
 }  // namespace

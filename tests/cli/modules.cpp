@@ -117,6 +117,14 @@ TEST_CASE("Modules: one of another version, and what is none, are refused", "[cl
         put(OTHER_LIBRARY, program.bin());
         check_refused(program, program.run({"info", program.picture()}), "is no module of limn");
     }
+    SECTION("a module with nothing in it") {
+        put(EMPTY_MODULE, program.bin());
+        check_refused(program, program.run({"info", program.picture()}), "has no limn_module");
+    }
+    SECTION("a link to itself, of which nobody knows whether it is there") {
+        fs::create_symlink(kModule, program.bin() / kModule);
+        check_refused(program, program.run({"info", program.picture()}), "cannot be loaded (");
+    }
     SECTION("no library") {
         std::ofstream(program.bin() / kModule) << "text";
         check_refused(program, program.run({"info", program.picture()}), "cannot be loaded (");
