@@ -26,20 +26,25 @@ double parse_positive(const char* option, const std::string& text) {
 void add_numbers(Options& options, RenderOptions& o) {
     options.add({.name = "--size", .value = "WxH", .help = "Size in pixels", .preset = kOfScene},
                 [&o](const std::string& s) { o.size = parse_size("--size", s); });
-    options.add({.name = "--spp", .value = "N", .help = "Samples a pixel", .preset = kOfScene},
+    options.add({.name = "--spp",
+                 .value = "N",
+                 .help = "Samples a pixel; with --error or --time-limit the upper limit of their average",
+                 .preset = kOfScene},
                 [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
     options.add({.name = "--error",
                  .value = "E",
                  .help = "Render until the picture's relMSE is at most E, by the upper end of its 95 % interval; --spp "
-                         "is then the most",
+                         "is then the upper limit",
                  .preset = "--spp ends the render"},
                 [&o](const std::string& s) { o.error = parse_positive("--error", s); });
     options.add({.name = "--time-limit",
                  .value = "SECONDS",
-                 .help = "Render no longer than that, with --error until the first of both; --spp is then the most",
+                 .help = "Render no longer than that, with --error until the first of both; --spp is then the upper "
+                         "limit",
                  .preset = "none"},
                 [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
-    options.add_flag("--uniform", o.uniform, "With --error or --time-limit: as many samples in each pixel");
+    options.add_flag("--uniform", o.uniform,
+                     "The same number of samples in every pixel (with --error or --time-limit)");
     options.add({.name = "--seed",
                  .value = "N",
                  .help = "Another seed gives other noise, the same seed the same picture",

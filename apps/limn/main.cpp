@@ -46,7 +46,8 @@ const Command& find_command(const std::string& name) {
 
 int help_command(int argc, const char* const* argv) {
     if (argc > 2) throw ArgumentError("help: takes the name of one command");
-    if (argc == 2 && std::string_view(argv[1]) != "help") {
+    const std::string_view name = argc == 2 ? argv[1] : "help";
+    if (name != "help" && !name.starts_with('-')) {
         const char* const words[] = {argv[1], "--help"};
         return find_command(argv[1]).run(2, words);
     }

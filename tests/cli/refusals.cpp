@@ -38,7 +38,9 @@ TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
         CHECK(help.out == limn({command, "--help"}).out);
         CHECK(contains(limn({"help"}).out, "limn " + command));
     }
-    CHECK(limn({"help"}).out == limn({"--help"}).out);
+    for (const Words& words :
+         {Words{"help"}, Words{"help", "help"}, Words{"help", "--help"}, Words{"help", "--version"}})
+        CHECK(limn(words).out == limn({"--help"}).out);
 }
 
 // The line of an option in a help text.
