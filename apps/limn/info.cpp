@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <strings.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "commands.h"
 #include "json_output.h"
@@ -19,14 +17,10 @@ namespace limn::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Description {
     std::string table;
     Json json;
 };
-
-bool names_model(const std::string& path) { return ::strcasecmp(fs::path(path).extension().c_str(), ".obj") == 0; }
 
 const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
@@ -117,13 +111,18 @@ Description describe_image(const std::string& path) {
     return d;
 }
 
+// A model first, for which no library of images is loaded.
 Description describe(const std::string& path) {
-    if (names_model(path)) return describe_model(path);
     try {
-        return describe_image(path);
-    } catch (const FileError& e) {
-        if (!fs::is_regular_file(path)) throw;
-        throw Error(std::string(e.what()) + " (a model's name ends in .obj)");
+        return describe_model(path);
+    } catch (const FileError& no_model) {
+        try {
+            return describe_image(path);
+        } catch (const Error& no_image) {
+            const std::string image_fault = no_image.what(), model_fault = no_model.what();
+            if (image_fault == model_fault) throw;  // the file cannot be opened
+            throw Error(image_fault + "; as a model: " + model_fault);
+        }
     }
 }
 
@@ -132,8 +131,8 @@ Description describe(const std::string& path) {
 int info_command(int argc, const char* const* argv) {
     Options options(
         "limn info",
-        "Prints what a model holds (a Wavefront OBJ, whose name ends in .obj), or an image: its size, channels and the "
-        "facts of the render that made it.",
+        "Prints what a model holds (a Wavefront OBJ), or an image: its size, channels and the facts of the render that "
+        "made it. The contents tell which of them a file is, whatever its name.",
         "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "
         "is\nclosed. Vertices at the same place count as one there, and triangles without an area are left out.");
     std::string file;

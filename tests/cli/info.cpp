@@ -1,4 +1,5 @@
 // What `limn info` says of a model or an image.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -11,6 +12,7 @@
 namespace limn::test {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 TEST_CASE("limn info: a model's parts are counted, in the table and in the JSON", "[cli][info]") {
@@ -130,16 +132,28 @@ TEST_CASE("limn info: a model with a vertex that is no number, or too large for 
     }
 }
 
+TEST_CASE("limn info: the contents tell a model from an image, whatever the name", "[cli][info]") {
+    const Folder folder;
+    save_image(Image(5, 3), folder.path("a.png"));
+    fs::rename(folder.path("a.png"), folder.path("a.obj"));
+    CHECK(row(limn({"info", folder.path("a.obj")}).out, "size") == "5 x 3");
+    for (const char* name : {"b.png", "b.txt", "b"})
+        CHECK(row(limn({"info", folder.write(name, house_obj())}).out, "vertices") == "10");
+}
+
 TEST_CASE("limn info: what is no model and no image is refused with status 1", "[cli][info]") {
     const Folder folder;
     const std::pair<std::string, std::string> cases[] = {
-        {folder.write("a.txt", "some text\n"), "a model's name ends in .obj"},
+        {folder.write("a.txt", "some text\n"),
+         "a.txt: is not a readable image: those that are read are EXR, PNG, JPEG, HDR, BMP, TGA; as a model: " +
+             folder.path("a.txt") + ": line 1: 'some' is no statement of an OBJ"},
+        {folder.write("damaged.obj", "\x89PNG\r\n\x1a\n"), "damaged.obj: is not a whole PNG: "},
         {folder.write("b.exr", "no picture"), "is not a readable image"},
         {folder.write("c.png", ""), "is not a readable image"},
         {folder.write("d.obj", "no model\n"), "is no statement of an OBJ"},
         {folder.write("e", ""), "is not a readable image"},
-        {folder.path("none.obj"), "there is no such file"},
-        {folder.path("none.png"), "there is no such file"},
+        {folder.path("none.obj"), "none.obj: there is no such file\n"},
+        {folder.path("none.png"), "none.png: there is no such file\n"},
         {folder.path(), "is a folder"},
     };
     for (const auto& [file, message] : cases) {
