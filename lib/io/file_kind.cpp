@@ -10,55 +10,59 @@ namespace {
 using namespace std::string_view_literals;
 
 struct Mark {
-    std::size_t place;
-    std::string_view bytes;
+    std::string_view beginning;
     const char* kind;
+    std::size_t place = 0;  // of `also`, which text might hold there: it never decides alone
+    std::string_view also{};
 };
 
-// The first that fits. UTF-32 begins with the mark of UTF-16.
+// The first that fits. UTF-32 begins with the mark of UTF-16. Boxes of AVIF and HEIF begin with their size in four
+// bytes.
 constexpr Mark kMarks[] = {
-    {0, "\xff\xfe\0\0"sv, "UTF-32 text"},
-    {0, "\0\0\xfe\xff"sv, "UTF-32 text"},
-    {0, "\xff\xfe"sv, "UTF-16 text"},
-    {0, "\xfe\xff"sv, "UTF-16 text"},
-    {0, "\x89PNG"sv, "a PNG picture"},
-    {0, "\xff\xd8\xff"sv, "a JPEG picture"},
-    {0, "\x76\x2f\x31\x01"sv, "an EXR picture"},
-    {0, "#?RADIANCE"sv, "an HDR picture"},
-    {0, "#?RGBE"sv, "an HDR picture"},
-    {0, "GIF8"sv, "a GIF picture"},
-    {0, "II*\0"sv, "a TIFF picture"},
-    {0, "MM\0*"sv, "a TIFF picture"},
-    {0, "8BPS"sv, "a Photoshop picture"},
-    {0, "DDS "sv, "a DDS picture"},
-    {0, "\xabKTX"sv, "a KTX picture"},
-    {0, "qoif"sv, "a QOI picture"},
-    {0, "\xff\x0a"sv, "a JPEG XL picture"},
-    {0, "\xff\x4f\xff\x51"sv, "a JPEG 2000 picture"},
-    {4, "JXL "sv, "a JPEG XL picture"},
-    {4, "jP  "sv, "a JPEG 2000 picture"},
-    {8, "WEBP"sv, "a WebP picture"},
-    {4, "ftypavif"sv, "an AVIF picture"},
-    {4, "ftyphei"sv, "a HEIF picture"},
-    {4, "ftypmif1"sv, "a HEIF picture"},
-    {0, "ply\n"sv, "a PLY model"},
-    {0, "ply\r"sv, "a PLY model"},
-    {0, "glTF"sv, "a binary glTF model"},
-    {0, "Kaydara FBX Binary"sv, "an FBX model"},
-    {0, "; FBX"sv, "an FBX model"},
-    {0, "BLENDER"sv, "a Blender file"},
-    {0, "PK\3\4"sv, "a ZIP archive"},
-    {0, "\x1f\x8b"sv, "a file packed by gzip"},
-    {0, "%PDF"sv, "a PDF document"},
-    {0, "\177ELF"sv, "a program"},
-    {0, "<svg"sv, "an SVG picture"},
-    {0, "<!DOCTYPE html"sv, "an HTML page"},
-    {0, "<html"sv, "an HTML page"},
-    {0, "<?xml"sv, "an XML document"},
+    {"\xff\xfe\0\0"sv, "UTF-32 text"},
+    {"\0\0\xfe\xff"sv, "UTF-32 text"},
+    {"\xff\xfe"sv, "UTF-16 text"},
+    {"\xfe\xff"sv, "UTF-16 text"},
+    {"\x89PNG"sv, "a PNG picture"},
+    {"\xff\xd8\xff"sv, "a JPEG picture"},
+    {"\x76\x2f\x31\x01"sv, "an EXR picture"},
+    {"#?RADIANCE"sv, "an HDR picture"},
+    {"#?RGBE"sv, "an HDR picture"},
+    {"BM"sv, "a BMP picture", 6, "\0\0\0\0"sv},
+    {"GIF8"sv, "a GIF picture"},
+    {"II*\0"sv, "a TIFF picture"},
+    {"MM\0*"sv, "a TIFF picture"},
+    {"8BPS"sv, "a Photoshop picture"},
+    {"DDS "sv, "a DDS picture"},
+    {"\xabKTX"sv, "a KTX picture"},
+    {"qoif"sv, "a QOI picture"},
+    {"\xff\x0a"sv, "a JPEG XL picture"},
+    {"\xff\x4f\xff\x51"sv, "a JPEG 2000 picture"},
+    {"\0\0\0\x0cJXL "sv, "a JPEG XL picture"},
+    {"\0\0\0\x0cjP  "sv, "a JPEG 2000 picture"},
+    {"RIFF"sv, "a WebP picture", 8, "WEBP"sv},
+    {"\0\0"sv, "an AVIF picture", 4, "ftypavif"sv},
+    {"\0\0"sv, "a HEIF picture", 4, "ftyphei"sv},
+    {"\0\0"sv, "a HEIF picture", 4, "ftypmif1"sv},
+    {"ply\n"sv, "a PLY model"},
+    {"ply\r"sv, "a PLY model"},
+    {"glTF"sv, "a binary glTF model"},
+    {"Kaydara FBX Binary"sv, "an FBX model"},
+    {"; FBX"sv, "an FBX model"},
+    {"BLENDER"sv, "a Blender file"},
+    {"PK\3\4"sv, "a ZIP archive"},
+    {"\x1f\x8b"sv, "a file packed by gzip"},
+    {"%PDF"sv, "a PDF document"},
+    {"\177ELF"sv, "a program"},
+    {"<svg"sv, "an SVG picture"},
+    {"<!DOCTYPE html"sv, "an HTML page"},
+    {"<html"sv, "an HTML page"},
+    {"<?xml"sv, "an XML document"},
 };
 
 bool has(std::string_view contents, const Mark& mark) {
-    return contents.size() >= mark.place && contents.substr(mark.place).starts_with(mark.bytes);
+    return contents.starts_with(mark.beginning) && contents.size() >= mark.place &&
+           contents.substr(mark.place).starts_with(mark.also);
 }
 
 bool is_pnm(std::string_view contents) {
@@ -88,8 +92,6 @@ bool is_utf16(std::string_view contents) {
 }  // namespace
 
 std::string kind_of_contents(std::string_view contents) {
-    if (contents.starts_with("BM") && contents.substr(2).size() > 12 && contents.substr(6, 4) == "\0\0\0\0"sv)
-        return "a BMP picture";  // four bytes are reserved, and text has no zeros
     for (const Mark& mark : kMarks)
         if (has(contents, mark)) return mark.kind;
     if (is_pnm(contents)) return "a PNM picture";
