@@ -192,7 +192,7 @@ ImageInfo decode_info(const std::string& path) {
 
 Facts decode_facts(const std::string& path) {
     const Contents contents(path);
-    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path).facts;
+    if (contents.is_for_stb()) return {};  // encode() writes none of them
     BoundedReader memory(contents.bytes());
     return read_facts(open(contents.format, memory, path)->spec());
 }

@@ -85,7 +85,7 @@ struct ImageInfo {
 ImageInfo load_image_info(const std::string& path);
 
 /// The text facts in the header of a picture that save_image wrote, in no particular order.
-/// \throws FileError as load_image
+/// \throws FileError as load_image_info
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn
