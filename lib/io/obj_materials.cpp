@@ -119,8 +119,8 @@ private:
         } catch (const FileError& error) {
             return missing_.push_back(error.what());
         }
-        if (const std::string kind = kind_of_contents(text); !kind.empty())
-            return missing_.push_back(path + ": is no material library: it appears to be " + kind);
+        if (const FileKind kind = kind_of_contents(text); !kind.name.empty() && !kind.may_be_text)
+            return missing_.push_back(path + ": is no material library: it appears to be " + std::string(kind.name));
         parse_mtl(text, path, materials_, warnings_);
     }
 
