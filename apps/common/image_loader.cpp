@@ -23,10 +23,12 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return codec().decode(format, bytes, path, most);
 }
 
-StoredImage decode_file(const std::string& path) { return codec().decode_file(path); }
+Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    return codec().decode_facts(format, bytes, path);
+}
 
-Facts decode_facts(const std::string& path) { return codec().decode_facts(path); }
-
-ImageInfo decode_info(const std::string& path) { return codec().decode_info(path); }
+ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    return codec().decode_info(format, bytes, path);
+}
 
 }  // namespace limn

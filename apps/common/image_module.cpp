@@ -4,5 +4,5 @@
 
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
 
-extern "C" const limn::ImageCodec limn_module{limn::can_encode,  limn::encode,       limn::decode,
-                                              limn::decode_file, limn::decode_facts, limn::decode_info};
+extern "C" const limn::ImageCodec limn_module{limn::can_encode, limn::encode, limn::decode, limn::decode_facts,
+                                              limn::decode_info};

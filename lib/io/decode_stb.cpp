@@ -20,6 +20,7 @@
 
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
+#include "io/picture_bytes.h"
 #include "io/png_chunks.h"
 #include "limn/core/error.h"
 
@@ -33,11 +34,11 @@ void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
         if (type == "sRGB") {
             image.transfer = Transfer::srgb;
         } else if (type == "gAMA" && data.size() == 4 && image.transfer == Transfer::unsaid) {
-            double gamma = 0;  // of encoding, times 100000 (PNG specification, 11.3.3.2)
-            for (const char c : data) gamma = 256 * gamma + static_cast<unsigned char>(c);
+            // Of encoding, times 100000 (PNG specification, 11.3.3.2).
+            const std::uint64_t gamma = big_endian(std::as_bytes(std::span(data)), 0, 4);
             if (gamma == 0) continue;
             image.transfer = Transfer::power;
-            image.exponent = 100000 / gamma;
+            image.exponent = 100000 / static_cast<double>(gamma);
         } else if (type == "tEXt" && data.compare(0, prefix, kFactPrefix) == 0) {
             const std::size_t end = data.find('\0');
             if (end != std::string::npos)
@@ -49,7 +50,7 @@ void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
 // Hands the bytes out and notes whether more were asked for: stb fills what is missing with zeros and says nothing.
 class Reader {
 public:
-    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes), is_hdr_(is_hdr(bytes)) {}
+    Reader(FileFormat format, std::span<const std::byte> bytes) : rest_(bytes), is_hdr_(format == FileFormat::hdr) {}
     bool overran() const { return overran_; }
 
     static constexpr stbi_io_callbacks callbacks() {
@@ -59,9 +60,6 @@ public:
     }
 
 private:
-    static bool is_hdr(std::span<const std::byte> bytes) {
-        return bytes.size() >= 2 && std::memcmp(bytes.data(), "#?", 2) == 0;
-    }
     int read(char* to, int size) {
         const std::size_t count = std::min(rest_.size(), static_cast<std::size_t>(size));
         if (count > 0) std::memcpy(to, rest_.data(), count);
@@ -91,8 +89,7 @@ auto call(Function function, Reader reader, Arguments... arguments) {
 }
 
 template <class T, class Load>
-void read_values(std::span<const std::byte> bytes, StoredImage& image, const std::string& name, Load load) {
-    Reader reader(bytes);
+void read_values(Reader reader, StoredImage& image, const std::string& name, Load load) {
     const stbi_io_callbacks callbacks = Reader::callbacks();
     int channels_in_file;
     const std::unique_ptr<T, decltype([](T* p) { stbi_image_free(p); })> values(
@@ -106,23 +103,23 @@ void read_values(std::span<const std::byte> bytes, StoredImage& image, const std
 
 }  // namespace
 
-ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& name) {
-    if (require_sound(bytes, name) == FileFormat::exr)
-        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
+ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name) {
+    const Reader reader(format, bytes);
     ImageInfo info;
     int channels = 0;
-    if (!call(stbi_info_from_callbacks, Reader(bytes), &info.width, &info.height, &channels))
+    if (!call(stbi_info_from_callbacks, reader, &info.width, &info.height, &channels))
         throw FileError(name, std::string("is not a readable image: ") + stbi_failure_reason());
-    const char* type = call(stbi_is_hdr_from_callbacks, Reader(bytes))      ? "float"
-                       : call(stbi_is_16_bit_from_callbacks, Reader(bytes)) ? "uint16"
-                                                                            : "uint8";
+    const char* type = format == FileFormat::hdr                     ? "float"
+                       : call(stbi_is_16_bit_from_callbacks, reader) ? "uint16"
+                                                                     : "uint8";
     constexpr const char* kNames[] = {"Y", "YA", "RGB", "RGBA"};
     for (const char* c = kNames[channels - 1]; *c != '\0'; ++c) info.channels.push_back({std::string(1, *c), type});
     return info;
 }
 
-StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name) {
-    const ImageInfo info = decode_info_stb(bytes, name);
+StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name) {
+    const ImageInfo info = decode_info_stb(format, bytes, name);
+    const Reader reader(format, bytes);
     StoredImage image;
     image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
     require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
@@ -130,11 +127,11 @@ StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name
     const std::string& type = info.channels.front().type;
     if (type == "float") {
         image.transfer = Transfer::linear;
-        read_values<float>(bytes, image, name, stbi_loadf_from_callbacks);
+        read_values<float>(reader, image, name, stbi_loadf_from_callbacks);
     } else if (type == "uint16") {
-        read_values<std::uint16_t>(bytes, image, name, stbi_load_16_from_callbacks);
+        read_values<std::uint16_t>(reader, image, name, stbi_load_16_from_callbacks);
     } else {
-        read_values<std::uint8_t>(bytes, image, name, stbi_load_from_callbacks);
+        read_values<std::uint8_t>(reader, image, name, stbi_load_from_callbacks);
     }
     return image;
 }

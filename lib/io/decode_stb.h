@@ -6,10 +6,10 @@
 
 namespace limn {
 
-// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory. \throws FileError naming `name`
-StoredImage decode_stb(std::span<const std::byte> bytes, const std::string& name);
+// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. \throws FileError naming `name`
+StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name);
 
 // Reads the header alone. \throws FileError naming `name`
-ImageInfo decode_info_stb(std::span<const std::byte> bytes, const std::string& name);
+ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace limn

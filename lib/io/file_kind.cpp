@@ -1,7 +1,11 @@
 #include "io/file_kind.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "io/picture_bytes.h"
+#include "io/plain_headers.h"
 
 namespace limn {
 
@@ -10,55 +14,63 @@ namespace {
 using namespace std::string_view_literals;
 
 struct Mark {
-    std::size_t place;
-    std::string_view bytes;
-    const char* kind;
+    std::string_view beginning;
+    FileKind kind;
+    std::size_t place = 0;  // of `also`, which text might hold there: it never decides alone
+    std::string_view also{};
 };
 
-// The first that fits. UTF-32 begins with the mark of UTF-16.
+constexpr bool kMayBeText = true;
+
+// The first that fits. UTF-32 begins with the mark of UTF-16. Boxes of AVIF and HEIF begin with their size in four
+// bytes.
 constexpr Mark kMarks[] = {
-    {0, "\xff\xfe\0\0"sv, "UTF-32 text"},
-    {0, "\0\0\xfe\xff"sv, "UTF-32 text"},
-    {0, "\xff\xfe"sv, "UTF-16 text"},
-    {0, "\xfe\xff"sv, "UTF-16 text"},
-    {0, "\x89PNG"sv, "a PNG picture"},
-    {0, "\xff\xd8\xff"sv, "a JPEG picture"},
-    {0, "\x76\x2f\x31\x01"sv, "an EXR picture"},
-    {0, "#?RADIANCE"sv, "an HDR picture"},
-    {0, "#?RGBE"sv, "an HDR picture"},
-    {0, "GIF8"sv, "a GIF picture"},
-    {0, "II*\0"sv, "a TIFF picture"},
-    {0, "MM\0*"sv, "a TIFF picture"},
-    {0, "8BPS"sv, "a Photoshop picture"},
-    {0, "DDS "sv, "a DDS picture"},
-    {0, "\xabKTX"sv, "a KTX picture"},
-    {0, "qoif"sv, "a QOI picture"},
-    {0, "\xff\x0a"sv, "a JPEG XL picture"},
-    {0, "\xff\x4f\xff\x51"sv, "a JPEG 2000 picture"},
-    {4, "JXL "sv, "a JPEG XL picture"},
-    {4, "jP  "sv, "a JPEG 2000 picture"},
-    {8, "WEBP"sv, "a WebP picture"},
-    {4, "ftypavif"sv, "an AVIF picture"},
-    {4, "ftyphei"sv, "a HEIF picture"},
-    {4, "ftypmif1"sv, "a HEIF picture"},
-    {0, "ply\n"sv, "a PLY model"},
-    {0, "ply\r"sv, "a PLY model"},
-    {0, "glTF"sv, "a binary glTF model"},
-    {0, "Kaydara FBX Binary"sv, "an FBX model"},
-    {0, "; FBX"sv, "an FBX model"},
-    {0, "BLENDER"sv, "a Blender file"},
-    {0, "PK\3\4"sv, "a ZIP archive"},
-    {0, "\x1f\x8b"sv, "a file packed by gzip"},
-    {0, "%PDF"sv, "a PDF document"},
-    {0, "\177ELF"sv, "a program"},
-    {0, "<svg"sv, "an SVG picture"},
-    {0, "<!DOCTYPE html"sv, "an HTML page"},
-    {0, "<html"sv, "an HTML page"},
-    {0, "<?xml"sv, "an XML document"},
+    {"\xff\xfe\0\0"sv, {"UTF-32 text"}},
+    {"\0\0\xfe\xff"sv, {"UTF-32 text"}},
+    {"\xff\xfe"sv, {"UTF-16 text"}},
+    {"\xfe\xff"sv, {"UTF-16 text"}},
+    {"\x89PNG"sv, {"a PNG picture", FileFormat::png}},
+    {"\xff\xd8"sv, {"a JPEG picture", FileFormat::jpeg}},
+    {"\x76\x2f\x31\x01"sv, {"an EXR picture", FileFormat::exr}},
+    {"#?RADIANCE"sv, {"an HDR picture", FileFormat::hdr}},
+    {"#?RGBE"sv, {"an HDR picture", FileFormat::hdr}},
+    {"#?"sv, {"an HDR picture", FileFormat::hdr, kMayBeText}},
+    {"BM"sv, {"a BMP picture", FileFormat::bmp}, 6, "\0\0\0\0"sv},
+    {"BM"sv, {"a BMP picture", FileFormat::bmp, kMayBeText}},
+    {"GIF8"sv, {"a GIF picture"}},
+    {"II*\0"sv, {"a TIFF picture"}},
+    {"MM\0*"sv, {"a TIFF picture"}},
+    {"8BPS"sv, {"a Photoshop picture"}},
+    {"DDS "sv, {"a DDS picture"}},
+    {"\xabKTX"sv, {"a KTX picture"}},
+    {"qoif"sv, {"a QOI picture"}},
+    {"\xff\x0a"sv, {"a JPEG XL picture"}},
+    {"\xff\x4f\xff\x51"sv, {"a JPEG 2000 picture"}},
+    {"\0\0\0\x0cJXL "sv, {"a JPEG XL picture"}},
+    {"\0\0\0\x0cjP  "sv, {"a JPEG 2000 picture"}},
+    {"RIFF"sv, {"a WebP picture"}, 8, "WEBP"sv},
+    {"\0\0"sv, {"an AVIF picture"}, 4, "ftypavif"sv},
+    {"\0\0"sv, {"a HEIF picture"}, 4, "ftyphei"sv},
+    {"\0\0"sv, {"a HEIF picture"}, 4, "ftypmif1"sv},
+    {"ply\n"sv, {"a PLY model"}},
+    {"ply\r"sv, {"a PLY model"}},
+    {"glTF"sv, {"a binary glTF model"}},
+    {"Kaydara FBX Binary"sv, {"an FBX model"}},
+    {"; FBX"sv, {"an FBX model"}},
+    {"BLENDER"sv, {"a Blender file"}},
+    {"PK\3\4"sv, {"a ZIP archive"}},
+    {"\x1f\x8b"sv, {"a file packed by gzip"}},
+    {"%PDF"sv, {"a PDF document"}},
+    {"\177ELF"sv, {"a program"}},
+    {"<svg"sv, {"an SVG picture"}},
+    {"<!DOCTYPE html"sv, {"an HTML page"}},
+    {"<html"sv, {"an HTML page"}},
+    {"<?xml"sv, {"an XML document"}},
 };
 
 bool has(std::string_view contents, const Mark& mark) {
-    return contents.size() >= mark.place && contents.substr(mark.place).starts_with(mark.bytes);
+    return contents.starts_with(mark.beginning) && contents.size() >= mark.place &&
+           contents.substr(mark.place).starts_with(mark.also);
 }
 
 bool is_pnm(std::string_view contents) {
@@ -67,11 +79,10 @@ bool is_pnm(std::string_view contents) {
 }
 
 // 80 bytes of any text, the number of triangles, and 50 bytes for each.
-bool is_binary_stl(std::string_view contents) {
-    if (contents.size() < 84) return false;
-    std::size_t triangles = 0;
-    for (std::size_t i = 84; i-- > 80;) triangles = triangles << 8 | static_cast<unsigned char>(contents[i]);
-    return triangles > 0 && contents.size() == 84 + 50 * triangles;
+bool is_binary_stl(std::span<const std::byte> file) {
+    if (file.size() < 84) return false;
+    const std::uint64_t triangles = little_endian(file, 80, 4);
+    return triangles > 0 && file.size() == 84 + 50 * triangles;
 }
 
 // Without a byte order mark: every other byte of Latin text is zero.
@@ -87,19 +98,19 @@ bool is_utf16(std::string_view contents) {
 
 }  // namespace
 
-std::string kind_of_contents(std::string_view contents) {
-    if (contents.starts_with("BM") && contents.substr(2).size() > 12 && contents.substr(6, 4) == "\0\0\0\0"sv)
-        return "a BMP picture";  // four bytes are reserved, and text has no zeros
+FileKind kind_of_contents(std::string_view contents) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(contents));
     for (const Mark& mark : kMarks)
         if (has(contents, mark)) return mark.kind;
-    if (is_pnm(contents)) return "a PNM picture";
+    if (is_pnm(contents)) return {"a PNM picture"};
     if (contents.starts_with("solid") && contents.substr(0, 1000).find("facet") != std::string_view::npos)
-        return "an STL model";
-    if (is_binary_stl(contents)) return "an STL model";
+        return {"an STL model"};
+    if (is_utf16(contents)) return {"UTF-16 text"};
+    if (is_binary_stl(bytes)) return {"an STL model"};
+    if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
     const std::size_t first = contents.find_first_not_of(" \t\r\n");
-    if (first != std::string_view::npos && contents[first] == '{')
-        return contents.find("\"asset\"") != std::string_view::npos ? "a glTF model" : "JSON text";
-    return is_utf16(contents) ? "UTF-16 text" : "";
+    if (first == std::string_view::npos || contents[first] != '{') return {};
+    return {contents.find("\"asset\"") != std::string_view::npos ? "a glTF model" : "JSON text"};
 }
 
 }  // namespace limn

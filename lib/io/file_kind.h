@@ -1,13 +1,19 @@
-// What a file is by its contents, whatever its name: for messages about one that cannot be read.
+// What a file is by its contents, whatever its name.
 #pragma once
 
-#include <string>
+#include <optional>
 #include <string_view>
+
+#include "io/image_codec.h"
 
 namespace limn {
 
-// "a PNG picture", "UTF-16 text", "a PLY model" and the like; empty where the contents carry no mark that is known
-// here.
-std::string kind_of_contents(std::string_view contents);
+struct FileKind {
+    std::string_view name{};             // "a PNG picture", "UTF-16 text", "a PLY model" and the like; empty if unknown
+    std::optional<FileFormat> format{};  // of a picture that limn reads
+    bool may_be_text = false;            // the mark is so short that a text may begin with it
+};
+
+FileKind kind_of_contents(std::string_view contents);
 
 }  // namespace limn

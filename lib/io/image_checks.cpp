@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <string_view>
-
 #include "io/exr_header.h"
 #include "io/file_kind.h"
 #include "io/jpeg_segments.h"
@@ -15,47 +13,32 @@ namespace limn {
 
 namespace {
 
-std::string_view text_of(std::span<const std::byte> file) {
-    return {reinterpret_cast<const char*>(file.data()), file.size()};
-}
-
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 struct Format {
     FileFormat format;
     const char* name;
-    bool (*fits)(std::span<const std::byte>);
     std::string (*fault)(std::span<const std::byte>);
 };
 
-template <const char* mark>
-bool begins_with(std::span<const std::byte> file) {
-    return text_of(file).starts_with(mark);
-}
-
-constexpr char kExr[] = "\x76\x2f\x31\x01", kPng[] = "\x89PNG", kJpeg[] = "\xff\xd8", kHdr[] = "#?", kBmp[] = "BM";
-
-// TGA last, for it has no mark.
-constexpr Format kFormats[] = {
-    {FileFormat::exr, "EXR", begins_with<kExr>, exr_fault},     {FileFormat::png, "PNG", begins_with<kPng>, png_fault},
-    {FileFormat::jpeg, "JPEG", begins_with<kJpeg>, jpeg_fault}, {FileFormat::hdr, "HDR", begins_with<kHdr>, hdr_fault},
-    {FileFormat::bmp, "BMP", begins_with<kBmp>, bmp_fault},     {FileFormat::tga, "TGA", looks_like_tga, tga_fault}};
+constexpr Format kFormats[] = {{FileFormat::exr, "EXR", exr_fault},    {FileFormat::png, "PNG", png_fault},
+                               {FileFormat::jpeg, "JPEG", jpeg_fault}, {FileFormat::hdr, "HDR", hdr_fault},
+                               {FileFormat::bmp, "BMP", bmp_fault},    {FileFormat::tga, "TGA", tga_fault}};
 
 }  // namespace
 
 FileFormat require_sound(std::span<const std::byte> file, const std::string& path) {
+    const FileKind kind = kind_of_contents({reinterpret_cast<const char*>(file.data()), file.size()});
     std::string known;
     for (const Format& format : kFormats) {
-        if (!format.fits(file)) {
-            known += (known.empty() ? "" : ", ") + std::string(format.name);
-            continue;
-        }
+        known += (known.empty() ? "" : ", ") + std::string(format.name);
+        if (kind.format != format.format) continue;
         const std::string fault = format.fault(file);
         if (!fault.empty()) throw FileError(path, "is not a whole " + std::string(format.name) + ": " + fault);
         return format.format;
     }
-    const std::string kind = file.empty() ? "an empty file" : kind_of_contents(text_of(file));
-    throw FileError(path, "is not a readable image: " + (kind.empty() ? "" : "it appears to be " + kind + "; ") +
+    const std::string name(file.empty() ? "an empty file" : kind.name);
+    throw FileError(path, "is not a readable image: " + (name.empty() ? "" : "it appears to be " + name + "; ") +
                               "those that are read are " + known);
 }
 

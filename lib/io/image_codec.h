@@ -47,18 +47,17 @@ bool can_encode(FileFormat format);
 // The bytes of the file `path`. \throws FileError
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
 
-// The first channels, at most `most`. \throws FileError naming `path`
+// From bytes that encode() made, or that were found sound (io/image_checks.h). Of the pixels the first channels, at
+// most `most`. \throws FileError naming `path`
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most = 3);
-StoredImage decode_file(const std::string& path);
-Facts decode_facts(const std::string& path);
-ImageInfo decode_info(const std::string& path);
+Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
+ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
 
 // These functions as a module gives them (apps/common/image_module.cpp).
 struct ImageCodec {
     decltype(limn::can_encode)* can_encode;
     decltype(limn::encode)* encode;
     decltype(limn::decode)* decode;
-    decltype(limn::decode_file)* decode_file;
     decltype(limn::decode_facts)* decode_facts;
     decltype(limn::decode_info)* decode_info;
 };

@@ -7,7 +7,9 @@
 #include <type_traits>
 
 #include "io/decode_stb.h"
+#include "io/image_checks.h"
 #include "io/image_codec.h"
+#include "io/read_file.h"
 #include "io/replace_file.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
@@ -219,6 +221,14 @@ void save(const Image& image, const std::string& path, const SaveOptions& option
     replace_file(path, bytes);
 }
 
+// Hands a file's format and bytes to one of the codec's functions.
+template <class Decode>
+auto from_file(const std::string& path, Decode decode) {
+    const std::string file = read_file(path);
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
+    return decode(require_sound(bytes, path), bytes, path);
+}
+
 // Running out of memory is a fault that concerns the file.
 template <class Call>
 auto with_memory(const std::string& path, Call call) try {
@@ -243,15 +253,19 @@ void check_writable(const std::string& path) {
 }
 
 Image load_image(const std::string& path, Encoding encoding) {
-    return with_memory(path, [&] { return to_image(decode_file(path), encoding, path); });
+    const auto decode_pixels = [](const auto&... file) { return decode(file...); };
+    return with_memory(path, [&] { return to_image(from_file(path, decode_pixels), encoding, path); });
 }
 
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding, const std::string& name) {
-    return with_memory(name, [&] { return to_image(decode_stb(bytes, name), encoding, name); });
+    const FileFormat format = require_sound(bytes, name);
+    if (format == FileFormat::exr)
+        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
+    return with_memory(name, [&] { return to_image(decode_stb(format, bytes, name), encoding, name); });
 }
 
-ImageInfo load_image_info(const std::string& path) { return decode_info(path); }
+ImageInfo load_image_info(const std::string& path) { return from_file(path, decode_info); }
 
-Facts load_image_facts(const std::string& path) { return decode_facts(path); }
+Facts load_image_facts(const std::string& path) { return from_file(path, decode_facts); }
 
 }  // namespace limn

@@ -11,7 +11,6 @@
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
 #include "io/image_codec.h"
-#include "io/read_file.h"
 #include "limn/core/error.h"
 
 namespace limn {
@@ -134,18 +133,10 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     return image;
 }
 
-// A file that was found sound. HDR, BMP and TGA are left to stb: OpenImageIO reads the numbers in an HDR in the locale
-// of the C library.
-struct Contents {
-    explicit Contents(const std::string& path) : file(read_file(path)), format(require_sound(bytes(), path)) {}
-    std::span<const std::byte> bytes() const { return std::as_bytes(std::span(file)); }
-    bool is_for_stb() const {
-        return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
-    }
-
-    std::string file;
-    FileFormat format;
-};
+// OpenImageIO reads the numbers in an HDR in the locale of the C library.
+bool is_for_stb(FileFormat format) {
+    return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
+}
 
 }  // namespace
 
@@ -169,32 +160,25 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
+    if (is_for_stb(format)) return decode_stb(format, bytes, path);
     BoundedReader memory(bytes);
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
-StoredImage decode_file(const std::string& path) {
-    const Contents contents(path);
-    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path);
-    return decode(contents.format, contents.bytes(), path);
-}
-
-ImageInfo decode_info(const std::string& path) {
-    const Contents contents(path);
-    if (contents.is_for_stb()) return decode_info_stb(contents.bytes(), path);
-    BoundedReader memory(contents.bytes());
-    const ImageSpec spec = open(contents.format, memory, path)->spec();
+ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    if (is_for_stb(format)) return decode_info_stb(format, bytes, path);
+    BoundedReader memory(bytes);
+    const ImageSpec spec = open(format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
     for (int i = 0; i < spec.nchannels; ++i)
         info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
     return info;
 }
 
-Facts decode_facts(const std::string& path) {
-    const Contents contents(path);
-    if (contents.is_for_stb()) return decode_stb(contents.bytes(), path).facts;
-    BoundedReader memory(contents.bytes());
-    return read_facts(open(contents.format, memory, path)->spec());
+Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    if (is_for_stb(format)) return {};  // encode() writes none of them
+    BoundedReader memory(bytes);
+    return read_facts(open(format, memory, path)->spec());
 }
 
 }  // namespace limn

@@ -9,7 +9,6 @@
 #include "io/decode_stb.h"
 #include "io/image_codec.h"
 #include "io/png_chunks.h"
-#include "io/read_file.h"
 #include "limn/core/error.h"
 
 namespace limn {
@@ -60,11 +59,9 @@ Facts read_hdr_facts(const std::string& file) {
     return facts;
 }
 
-std::string read_image(const std::string& path) {
-    std::string file = read_file(path);
-    if (file.compare(0, 4, "\x76\x2f\x31\x01") == 0)
+void require_readable(FileFormat format, const std::string& path) {
+    if (format == FileFormat::exr)
         throw FileError(path, "is an EXR, which this build, without OpenImageIO, cannot read");
-    return file;
 }
 
 }  // namespace
@@ -82,24 +79,20 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     return bytes;
 }
 
-StoredImage decode(FileFormat, std::span<const std::byte> bytes, const std::string& path, int) {
-    return decode_stb(bytes, path);
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int) {
+    require_readable(format, path);
+    return decode_stb(format, bytes, path);
 }
 
-StoredImage decode_file(const std::string& path) {
-    const std::string file = read_image(path);
-    return decode_stb(std::as_bytes(std::span(file)), path);
+ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    require_readable(format, path);
+    return decode_info_stb(format, bytes, path);
 }
 
-ImageInfo decode_info(const std::string& path) {
-    const std::string file = read_image(path);
-    return decode_info_stb(std::as_bytes(std::span(file)), path);
-}
-
-Facts decode_facts(const std::string& path) {
-    const std::string file = read_image(path);
-    if (file.compare(0, 2, "#?") == 0) return read_hdr_facts(file);
-    return decode_stb(std::as_bytes(std::span(file)), path).facts;
+Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    require_readable(format, path);
+    if (format == FileFormat::hdr) return read_hdr_facts({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return format == FileFormat::png ? decode_stb(format, bytes, path).facts : Facts{};
 }
 
 }  // namespace limn

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
 
 #include "io/text_lines.h"
 
@@ -47,7 +46,7 @@ public:
     void parse() {
         while (lines_.next())
             if (const Words words = lines_.words(); !words.empty()) parse_line(words);
-        if (names_.empty()) warnings_.push_back(path_ + ": holds no material, for there is no newmtl with a name");
+        if (!has_material_) warnings_.push_back(path_ + ": holds no material, for there is no newmtl with a name");
     }
 
 private:
@@ -85,10 +84,9 @@ private:
         current_ = nullptr;
         nobody_ = {};
         if (name.empty()) return warn("newmtl without a name");
-        if (!names_.insert(name).second)
-            return warn("material " + in_quotes(name) + " is there already; the first one stays");
+        has_material_ = true;
         const auto [place, is_new] = materials_.try_emplace(name);
-        if (!is_new) return;  // of another library
+        if (!is_new) return warn("material " + in_quotes(name) + " is there already; the first one stays");
         current_ = &place->second;
         current_->file = path_;
     }
@@ -134,7 +132,7 @@ private:
     void unused(std::string_view key) {
         constexpr std::size_t kMost = 20;
         std::vector<MtlMaterial::Word>& words = current().unused;
-        const std::string text = words.size() < kMost ? shortened(key) : "what else there is";
+        const std::string text = words.size() < kMost ? shortened(key) : kOtherWords;
         const auto is_text = [&](const MtlMaterial::Word& word) { return word.text == text; };
         if (std::none_of(words.begin(), words.end(), is_text)) words.push_back({text, lines_.number()});
     }
@@ -149,7 +147,7 @@ private:
     const std::string& path_;
     std::map<std::string, MtlMaterial>& materials_;
     std::vector<std::string>& warnings_;
-    std::set<std::string> names_;
+    bool has_material_ = false;
     MtlMaterial* current_ = nullptr;
     MtlMaterial nobody_;
 };

@@ -12,6 +12,9 @@
 
 namespace limn {
 
+// Stands for the words of a material beyond the most that are named.
+inline constexpr const char* kOtherWords = "other words";
+
 struct MtlMaterial {
     std::string file;                            // the MTL
     Color diffuse, specular, emission;           // Kd, Ks, Ke
@@ -24,7 +27,7 @@ struct MtlMaterial {
         std::string text;
         std::size_t line;
     };
-    std::vector<Word> unused{};  // words that limn has no use for, each once, in the order of the file
+    std::vector<Word> unused{};  // words that limn has no use for, or kOtherWords, each once, in the order of the file
 };
 
 /// Adds the materials of an MTL file to `materials`; the first of a name stays. \throws FileError naming `path` and the

@@ -22,11 +22,11 @@ namespace {
 
 // OBJ has no mark of its own, but others have.
 void require_no_other_kind(const std::string& text, const std::string& path) {
-    const std::string kind = kind_of_contents(text);
-    if (kind.empty()) return;
+    const FileKind kind = kind_of_contents(text);
+    if (kind.name.empty() || kind.may_be_text) return;
     const char* hint =
-        kind.starts_with("UTF-") ? "; saved as UTF-8 it can be read" : "; models are read from OBJ alone";
-    throw FileError(path, "is no OBJ: it appears to be " + kind + hint);
+        kind.name.starts_with("UTF-") ? "; saved as UTF-8 it can be read" : "; models are read from OBJ alone";
+    throw FileError(path, "is no OBJ: it appears to be " + std::string(kind.name) + hint);
 }
 
 void append(std::vector<std::string>& all, std::vector<std::string>& more) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -110,6 +111,7 @@ public:
 
 private:
     void add_library(const std::string& path) {
+        if (!libraries_.insert(path).second) return;
         files_.push_back(path);
         std::string text;
         try {
@@ -117,8 +119,8 @@ private:
         } catch (const FileError& error) {
             return missing_.push_back(error.what());
         }
-        if (const std::string kind = kind_of_contents(text); !kind.empty())
-            return missing_.push_back(path + ": is no material library: it appears to be " + kind);
+        if (const FileKind kind = kind_of_contents(text); !kind.name.empty() && !kind.may_be_text)
+            return missing_.push_back(path + ": is no material library: it appears to be " + std::string(kind.name));
         parse_mtl(text, path, materials_, warnings_);
     }
 
@@ -152,7 +154,7 @@ private:
         const auto [place, is_new] = unused_places_.try_emplace({m.file, word.text}, unused_.size());
         if (is_new)
             unused_.push_back({m.file + ": line " + std::to_string(word.line) + ": " + word.text + " of material " +
-                                   in_quotes(name) + " is not used",
+                                   in_quotes(name) + (word.text == kOtherWords ? " are not used" : " is not used"),
                                0});
         else
             ++unused_[place->second].other_materials;
@@ -205,6 +207,7 @@ private:
     };
     std::vector<Unused> unused_;
     std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // by file and word
+    std::set<std::string> libraries_;                                           // that were read, or tried
     std::map<std::string, MtlMaterial> materials_;
     std::map<std::string, std::shared_ptr<const Image>> textures_;
 };

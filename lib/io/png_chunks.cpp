@@ -16,8 +16,6 @@ namespace {
 // PNG specification (W3C, 2003), 5.2 and 5.3: eight bytes of signature, then chunks of length, type, data, CRC.
 constexpr std::size_t kSignature = 8, kLengthAndType = 8, kCrc = 4, kHeaderData = 13;
 
-std::uint32_t number(std::span<const std::byte> bytes) { return static_cast<std::uint32_t>(big_endian(bytes, 0, 4)); }
-
 std::string bytes_of(std::uint32_t value) {
     std::string bytes;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
@@ -49,17 +47,17 @@ bool has_signature(std::span<const std::byte> file) {
 struct Chunk {
     std::string_view type;
     std::span<const std::byte> type_and_data;
-    std::uint32_t stated_crc;
+    std::uint64_t stated_crc;
 };
 
 // Takes the next chunk off the front of `file`; none if it is not all there.
 std::optional<Chunk> take_chunk(std::span<const std::byte>& file) {
     if (file.size() < kLengthAndType + kCrc) return std::nullopt;
-    const std::uint32_t length = number(file);
+    const std::uint64_t length = big_endian(file, 0, 4);
     if (length > file.size() - kLengthAndType - kCrc) return std::nullopt;
     const std::span<const std::byte> type_and_data = file.subspan(4, 4 + length);
     const Chunk chunk{
-        {reinterpret_cast<const char*>(&file[4]), 4}, type_and_data, number(file.subspan(kLengthAndType + length))};
+        {reinterpret_cast<const char*>(&file[4]), 4}, type_and_data, big_endian(file, kLengthAndType + length, kCrc)};
     file = file.subspan(kLengthAndType + length + kCrc);
     return chunk;
 }
@@ -68,7 +66,7 @@ std::optional<Chunk> take_chunk(std::span<const std::byte>& file) {
 // of pixels there are: deflate makes at most 1032 bytes of one, and rows begin with a byte.
 std::string header_fault(std::span<const std::byte> data, std::uint64_t packed) {
     if (data.size() != kHeaderData) return "its size is damaged";
-    const std::uint64_t width = number(data), height = number(data.subspan(4));
+    const std::uint64_t width = big_endian(data, 0, 4), height = big_endian(data, 4, 4);
     const std::uint64_t depth = big_endian(data, 8, 1), type = big_endian(data, 9, 1);
     constexpr std::uint64_t kChannels[] = {1, 0, 3, 1, 2, 0, 4}, kLargest = 0x7fffffff;
     if (width == 0 || height == 0) return "it has no pixels";

@@ -53,7 +53,14 @@ TEST_CASE("Image info: no pixel is decoded", "[io][image]") {
     // Pixels of the wrong length, which loading refuses.
     const std::string path = folder.write("a.png", make_png(2, 8, PngColor::rgb, "xyz"));
     CHECK(summary(path) == "2 x 1: R uint8 G uint8 B uint8");
+    CHECK(load_image_facts(path).empty());
     CHECK_THROWS_AS(load_image(path), FileError);
+    // A run of 127 in a row of eight.
+    const std::string hdr = folder.write("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n\x02\x02" +
+                                                      std::string("\0\x08", 2) + std::string(32, '\xff'));
+    CHECK(summary(hdr) == "8 x 1: R float G float B float");
+    CHECK(load_image_facts(hdr).empty());
+    CHECK_THROWS_AS(load_image(hdr), FileError);
 }
 
 TEST_CASE("Image info: files that are no pictures are refused with their name", "[io][image]") {

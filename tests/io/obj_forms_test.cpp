@@ -66,6 +66,19 @@ TEST_CASE("OBJ: byte order mark, CR LF, no final newline, continued lines and bl
     CHECK(d.triangles == std::vector<Index3>{{0, 1, 2}});
 }
 
+TEST_CASE("OBJ: text that holds a picture's mark behind its beginning is text", "[io][obj]") {
+    const Folder folder;
+    for (const std::string comment : {"# a JXL texture", "# a jP  texture", "#   ftypavif", "#   ftypheic",
+                                      "#   ftypmif1", "#       WEBP", "#? what"}) {
+        CAPTURE(comment);
+        folder.write("a.mtl", comment + "\nnewmtl m\n");
+        const Model model =
+            load_obj(folder.write("a.obj", comment + "\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"));
+        CHECK(model.faces == 1);
+        CHECK(model.warnings.empty());
+    }
+}
+
 TEST_CASE("OBJ: v, v/vt, v//vn and v/vt/vn are all understood", "[io][obj]") {
     const std::string all = kTriangle + "vt 0.25 0.5\nvt 0.75 1\nvt 0\nvn 0 0 1\nvn 0 0.5 0\n";
     const MeshData uv = data_of(load(all + "f 1/1 2/2 3/3\n"));

@@ -156,7 +156,7 @@ TEST_CASE("MTL: a file of many unknown words does not flood the warnings", "[io]
     for (int i = 0; i < 1000; ++i) words += "word" + std::to_string(i) + " 1\n";
     const Model model = load_one(folder, words);
     CHECK(model.warnings.size() == 21);
-    CHECK(model.warnings.back() == folder.path("a.mtl") + ": line 22: what else there is of material 'm' is not used");
+    CHECK(model.warnings.back() == folder.path("a.mtl") + ": line 22: other words of material 'm' are not used");
 }
 
 TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded from sRGB", "[io][obj][mtl]") {
@@ -214,6 +214,31 @@ TEST_CASE("MTL: faces keep their materials, those before any usemtl the default 
     const auto glass = std::make_shared<Dielectric>(1.5);
     const Lowered with_default(load_obj(folder.path("a.obj"), {.default_material = glass}));
     CHECK(with_default.materials[0].kind == MaterialKind::dielectric);
+}
+
+TEST_CASE("MTL: a material that an earlier library has is left out with a warning", "[io][obj][mtl]") {
+    const Folder folder;
+    folder.write("b.mtl", "newmtl red\nKd 1 0 0\n");
+    folder.write("a.mtl", "newmtl green\nKd 0 1 0\nnewmtl red\nKd 0 0 1\n");
+    const Model model = load_obj(folder.write("a.obj", "mtllib b.mtl\n" + triangles({"red", "green"})));
+    check_color(Lowered(model).color(0), Color{1, 0, 0});
+    check_color(Lowered(model).color(1), Color{0, 1, 0});
+    CHECK(model.warnings == std::vector<std::string>{folder.path("a.mtl") +
+                                                     ": line 3: material 'red' is there already; the first one stays"});
+}
+
+TEST_CASE("MTL: a library that is named twice is read once", "[io][obj][mtl]") {
+    const Folder folder;
+    folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl red\n");
+    folder.write("bad.mtl", "II*" + std::string(20, '\0'));
+    const Model model =
+        load_obj(folder.write("a.obj", "mtllib a.mtl\nmtllib bad.mtl\nmtllib a.mtl bad.mtl\n" + triangles({"red"})));
+    check_color(Lowered(model).color(0), Color{1, 0, 0});
+    CHECK(model.files == std::vector<std::string>{folder.path("a.obj"), folder.path("a.mtl"), folder.path("bad.mtl")});
+    CHECK(model.warnings ==
+          std::vector<std::string>{
+              folder.path("bad.mtl") + ": is no material library: it appears to be a TIFF picture",
+              folder.path("a.mtl") + ": line 3: material 'red' is there already; the first one stays"});
 }
 
 TEST_CASE("MTL: a missing library, material or texture is a warning, not an error", "[io][obj][mtl]") {

@@ -56,10 +56,10 @@ bool image_holds_layers(const std::string& path);
 void check_writable(const std::string& path);
 
 /// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey. A CMYK
-/// JPEG is converted; an EXR's data window is the picture. Only regular files are read: no pipe, no device. A picture
-/// whose size the file cannot hold or the machine's memory cannot is refused before memory is taken for it. Before a
-/// library decodes a file, limn has told its format by its contents and checked its header. JPEG, HDR, BMP and TGA have
-/// no checksums: damage that leaves them readable is not noticed.
+/// JPEG is converted; an EXR's data window is the picture. An EXR with subsampled channels is refused. Only regular
+/// files are read: no pipe, no device. A picture whose size the file cannot hold or the machine's memory cannot is
+/// refused before memory is taken for it. Before a library decodes a file, limn has told its format by its contents and
+/// checked its header. JPEG, HDR, BMP and TGA have no checksums: damage that leaves them readable is not noticed.
 /// \throws FileError naming the file: missing, no picture (and what it appears to be), broken off, a wrong checksum
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
@@ -85,7 +85,7 @@ struct ImageInfo {
 ImageInfo load_image_info(const std::string& path);
 
 /// The text facts in the header of a picture that save_image wrote, in no particular order.
-/// \throws FileError as load_image
+/// \throws FileError as load_image_info
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn

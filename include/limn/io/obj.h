@@ -32,7 +32,8 @@ struct Model {
 struct ObjOptions {
     /// For faces without a material; by default grey, Lambertian of albedo 0.5.
     std::shared_ptr<const Material> default_material{};
-    /// Whether the images that materials name are read; without them map_Kd is passed over.
+    /// Whether the images that materials name are read. Without them a material with map_Kd takes Kd, and without Kd
+    /// (0.6, 0.6, 0.6).
     bool textures = true;
 };
 
@@ -61,7 +62,8 @@ struct ObjOptions {
 /// | no illum, Ks brighter than Kd | Metal, as above |
 /// | else | Lambertian(Kd) |
 ///
-/// A material or picture that is missing or unreadable is replaced, with a warning: by the default material, by Kd.
+/// A material or picture that is missing or unreadable is replaced, with a warning: a material by the default one, a
+/// picture by Kd, and without Kd by (0.6, 0.6, 0.6).
 ///
 /// \throws FileError naming file and line: unreadable, no OBJ (and what it appears to be), no usable face, an index out
 /// of range, a coordinate that is not a finite float32, a malformed number in the OBJ or the MTL
