@@ -153,7 +153,7 @@ private:
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x)
                 for (auto i = film_.samples(x, y), n = wanted(x, y, target); i < n; ++i) {
-                    paths.emplace_back(tracing::Sampler(settings_.seed, film_.index(x, y), i, settings_.sampler));
+                    paths.push_back({tracing::Sampler(settings_.seed, film_.index(x, y), i, settings_.sampler)});
                     pixels.emplace_back(x, y);
                     if (paths.size() == kBatch) flush();
                 }

@@ -82,11 +82,12 @@ TEST_CASE("Saving: what can be known beforehand is refused by check_writable and
                                                          {folder.path("circle.png"), "leads in a circle"},
                                                          {folder.path("lost.png"), "no folder"},
                                                          {"/proc/a.png", "cannot be written"}};
-    for (const auto& [path, reason] : cases) {
+    for (const auto& refused : cases) {
+        const std::string& path = refused.first;
         for (const std::string& message :
              {refusal([&] { check_writable(path); }), refusal([&] { save_image(Image(2, 2), path); })}) {
             CHECK(message.starts_with(path + ": "));
-            check_mentions(message, reason);
+            check_mentions(message, refused.second);
         }
     }
     CHECK(folder.names() == before);
