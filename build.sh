@@ -8,7 +8,7 @@ usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
-       ./build.sh compilers [--quick]
+       ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
        ./build.sh fuzz [load_image] [load_obj] [--seconds N]
        ./build.sh release [--renew]
@@ -20,7 +20,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   promise      how often a render to an error keeps it: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
-  compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes
+  compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
+               --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
   fuzz         the readers of pictures and models on damaged files, half an hour each
   mutants      faults that the suite must catch: docs/mutants.md
@@ -49,6 +50,16 @@ install_missing() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2 </dev/null
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -q --no-install-recommends "${missing[@]}" >&2 </dev/null
+}
+
+# install_cross ARCHITECTURE PACKAGE...: those of another architecture, beside this one's.
+install_cross() {
+    local as_root=()
+    [[ $EUID -eq 0 ]] || as_root=(sudo)
+    "${as_root[@]}" dpkg --add-architecture "$1"
+    "${as_root[@]}" apt-get update -q >&2 </dev/null
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -q --no-install-recommends "${@:2}" >&2 </dev/null
 }
 
 # Compiler, what the libraries link and what the programs need.
@@ -174,6 +185,10 @@ case $command in
     compilers)  # builds trees of its own, as the next two do
         install_needs
         install_missing clang-14 clang-19 ccache
+        if [[ " ${others[*]} " == *" --aarch64 "* ]]; then
+            install_missing g++-aarch64-linux-gnu qemu-user
+            install_cross arm64 {libtbb,libhwy,libtinyobjloader,librapidcheck}-dev:arm64
+        fi
         /usr/bin/python3 -B tests/checks/compilers.py "${others[@]}"
         ;;
     sanitize)

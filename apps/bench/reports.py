@@ -57,7 +57,7 @@ REPORTS = (
            CORE + FIGURES + ("apps/bench/promise*.cpp", "apps/bench/promise.h", "apps/bench/sampler_rates.cpp")),
     Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 25,
            CORE + ("tests/accuracy", "tests/hard", "tests/support", "apps/bench/accuracy.py", "-*_test.py")),
-    Report("compilers", "docs/checks.md", "./build.sh compilers", 90, CHECKED),
+    Report("compilers", "docs/checks.md", "./build.sh compilers --aarch64", 110, CHECKED),
     Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, CHECKED),
     Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, CHECKED),
     Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, CHECKED),

@@ -3,6 +3,7 @@
 
     compilers.py          the whole suite under g++ 12, clang 14 and clang 19, its digests on each instruction set; the
                           digests without optimisation, for this processor alone, and with link-time optimisation
+    compilers.py --aarch64  the same, and limn::core cross-built for AArch64: digests, hard cases and compiled scenes in qemu
     compilers.py --quick  clang 19, the digests, hard cases and compiled scenes alone; writes nothing
 
 Goes on where it was interrupted. Exit status 0 only where all passed and all digests are the same.
@@ -19,7 +20,7 @@ import suite
 from suite import ROOT, reports, say
 
 COMPILERS = ("g++", "clang++-14", "clang++-19")
-TARGETS = ("SCALAR", "EMU128", "SSE4", "AVX2", "AVX3")
+TARGETS = ("SCALAR", "EMU128", "SSE4", "AVX2", "AVX3", "NEON")
 # Of these the digests alone.
 OTHER_BUILDS = (("g++", "-O0"), ("g++", "-O3 -march=native"), ("g++", "-O3 -march=native -flto=auto"),
                 ("clang++-19", "-O0"), ("clang++-19", "-O3 -march=native"))
@@ -30,14 +31,14 @@ QUICK = ("test_digest", "test_compile", "test_hard")
 def version(compiler):
     """As people write it: g++ 12.2.0."""
     number = subprocess.run([compiler, "-dumpfullversion", "-dumpversion"], capture_output=True, text=True).stdout
-    return f"{compiler.partition('-')[0]} {number.split()[0]}"
+    return f"{'g++' if compiler.endswith('g++') else compiler.partition('-')[0]} {number.split()[0]}"
 
 
-def digests(folder, programs=()):
+def digests(folder, programs=(), emulator=()):
     """For each instruction set that is there: the digests of test_digest as one; whether it and the programs passed."""
     found = {}
     for target in TARGETS:
-        done = subprocess.run([folder / "bin/test_digest", "-s"], capture_output=True, text=True,
+        done = subprocess.run([*emulator, folder / "bin/test_digest", "-s"], capture_output=True, text=True,
                               env={**os.environ, "LIMN_TEST_TARGET": target})
         if done.returncode == 4:  # not built, or not on this processor
             continue
@@ -68,6 +69,18 @@ def digests_alone(compiler, flags):
     suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}"),
                 ["test_digest"])
     return {"digests": digests(folder)}
+
+
+def aarch64():
+    folder = ROOT / "build/compilers/aarch64"
+    without = [f"-D{option}=OFF" for option in ("LIMN_WITH_OPENIMAGEIO", "LIMN_BUILD_APPS", "LIMN_BUILD_EXAMPLES",
+                                                "LIMN_INSTALL")]
+    suite.build(folder, ["-B", folder, "-G", "Ninja", "--toolchain", ROOT / "tests/checks/aarch64.cmake",
+                         "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_BUILD_TESTS=ON", *without], QUICK)
+    say("AArch64: hard cases and compiled scenes")
+    hard, compiled = suite.run(folder, "hard"), suite.run(folder, "compile")
+    return {"tests": hard["tests"] + compiled["tests"], "failed": {**hard["failed"], **compiled["failed"]},
+            "digests": digests(folder, emulator=["qemu-aarch64"])}
 
 
 def quick():
@@ -106,10 +119,12 @@ def table(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="clang 19 alone, the exactness suite alone; no report")
-    if parser.parse_args().quick:
+    parser.add_argument("--aarch64", action="store_true", help="also limn::core for AArch64")
+    arguments = parser.parse_args()
+    if arguments.quick:
         return quick()
-    head = reports.origin("compilers")
-    kept = reports.Kept(ROOT / "build/compilers/kept.json", sources=head["sources"])
+    head = reports.origin("compilers", "./build.sh compilers" + (" --aarch64" if arguments.aarch64 else ""))
+    kept = reports.Kept(ROOT / "build/compilers/kept.json", sources=head["sources"], aarch64=arguments.aarch64)
     head = kept("head", lambda: head)
     rows = {}
     for compiler in COMPILERS:
@@ -117,6 +132,8 @@ def main():
                                                  lambda row: not row["failed"])
     for compiler, flags in OTHER_BUILDS:
         rows[f"{version(compiler)}, {flags}"] = kept(compiler + flags, lambda: digests_alone(compiler, flags))
+    if arguments.aarch64:
+        rows[f"{version('aarch64-linux-gnu-g++')}, AArch64 in qemu"] = kept("aarch64", aarch64, lambda row: not row["failed"])
     wrong = faults(rows)
     head["faults"] = len(wrong)
     count = max((d["count"] for row in rows.values() for d in row["digests"].values()), default=0)

@@ -2,13 +2,19 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "limn/core/transform.h"
 #include "limn/core/vec.h"
 
 namespace limn::test {
 
+#ifdef __SIZEOF_FLOAT128__
 __extension__ using Real = __float128;
+#else
+using Real = long double;
+static_assert(std::numeric_limits<Real>::digits == 113, "the same numbers by another name");
+#endif
 
 struct Real3 {
     Real x = 0, y = 0, z = 0;
