@@ -34,32 +34,23 @@ TEXT
     exit 2
 }
 
+as_root() { if [[ $EUID -eq 0 ]]; then "$@"; else sudo "$@"; fi; }
+
 # install_missing PACKAGE...: those that are not there yet; asks nothing. Other systems than Debian must have them.
 install_missing() {
-    local missing=() package
+    local missing=() package architecture
     command -v dpkg-query >/dev/null || return 0
     for package in "$@"; do
-        # Of other architectures there may be packages of the same name.
+        # PACKAGE:ARCHITECTURE is one of another; there may be packages of the same name.
+        [[ $package == *:* ]] && architecture=${package#*:} || architecture=$(dpkg --print-architecture)
         dpkg-query -W -f='${Architecture} ${db:Status-Status}\n' "$package" 2>/dev/null |
-            grep -Ex "(all|$(dpkg --print-architecture)) installed" >/dev/null || missing+=("$package")
+            grep -Ex "(all|$architecture) installed" >/dev/null || missing+=("$package")
     done
     [[ ${#missing[@]} -gt 0 ]] || return 0
     echo "installing: ${missing[*]}" >&2
-    local as_root=()
-    [[ $EUID -eq 0 ]] || as_root=(sudo)
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2 </dev/null
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2 </dev/null
+    as_root env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -q --no-install-recommends "${missing[@]}" >&2 </dev/null
-}
-
-# install_cross ARCHITECTURE PACKAGE...: those of another architecture, beside this one's.
-install_cross() {
-    local as_root=()
-    [[ $EUID -eq 0 ]] || as_root=(sudo)
-    "${as_root[@]}" dpkg --add-architecture "$1"
-    "${as_root[@]}" apt-get update -q >&2 </dev/null
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-        apt-get install -y -q --no-install-recommends "${@:2}" >&2 </dev/null
 }
 
 # Compiler, what the libraries link and what the programs need.
@@ -186,8 +177,8 @@ case $command in
         install_needs
         install_missing clang-14 clang-19 ccache
         if [[ " ${others[*]} " == *" --aarch64 "* ]]; then
-            install_missing g++-aarch64-linux-gnu qemu-user
-            install_cross arm64 {libtbb,libhwy,libtinyobjloader,librapidcheck}-dev:arm64
+            as_root dpkg --add-architecture arm64
+            install_missing g++-aarch64-linux-gnu qemu-user {libtbb,libhwy,libtinyobjloader,librapidcheck}-dev:arm64
         fi
         /usr/bin/python3 -B tests/checks/compilers.py "${others[@]}"
         ;;

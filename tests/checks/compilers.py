@@ -51,23 +51,25 @@ def digests(folder, programs=(), emulator=()):
     return found
 
 
-def configuration(folder, compiler, *options):
-    return ["-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}", *options]
-
-
-def whole_suite(compiler):
+def build(compiler, targets=()):
+    """The folder of the release preset's build by a compiler."""
     folder = ROOT / "build" / ("release" if compiler == COMPILERS[0] else f"compilers/{compiler}")
     # The first is what CMake takes by itself; naming it would begin the usual build anew.
     chosen = [] if compiler == COMPILERS[0] else [f"-DCMAKE_CXX_COMPILER={compiler}"]
-    suite.build(folder, ["--preset", "release", "-DLIMN_BUILD_TESTS=ON", *chosen, "-B", folder])
+    suite.build(folder, ["--preset", "release", "-DLIMN_BUILD_TESTS=ON", *chosen, "-B", folder], targets)
+    return folder
+
+
+def whole_suite(compiler):
+    folder = build(compiler)
     say(f"{compiler}: the suite")
     return {**suite.run(folder), "digests": digests(folder, PROGRAMS if compiler == COMPILERS[0] else ())}
 
 
 def digests_alone(compiler, flags):
     folder = ROOT / "build/compilers" / f"{compiler}{flags}".replace(" ", "")
-    suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}"),
-                ["test_digest"])
+    suite.build(folder, ["-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=None",
+                         f"-DCMAKE_CXX_FLAGS={flags}"], ["test_digest"])
     return {"digests": digests(folder)}
 
 
@@ -86,9 +88,7 @@ def aarch64():
 def quick():
     """The exit status of the programs of QUICK, built by the last of the compilers."""
     compiler = COMPILERS[-1]
-    folder = ROOT / "build/compilers" / f"{compiler}-quick"
-    suite.build(folder, configuration(folder, compiler, "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_WARNINGS_AS_ERRORS=ON"),
-                QUICK)
+    folder = build(compiler, QUICK)
     failed = 0
     for program in QUICK:
         status = subprocess.run([folder / "bin" / program]).returncode
