@@ -28,10 +28,9 @@ std::string packed_by(char compression) { return attribute("compression", "compr
 
 // One channel with a value for each `step`-th pixel.
 std::string channel(std::uint32_t type, std::uint32_t step) {
-    const std::string name = "Y";
     return attribute(
         "channels", "chlist",
-        name + zeros(1) + little_endian(type, 4) + zeros(4) + little_endian(step, 4) + little_endian(1, 4) + zeros(1));
+        "Y" + zeros(1) + little_endian(type, 4) + zeros(4) + little_endian(step, 4) + little_endian(1, 4) + zeros(1));
 }
 const std::string kGreyFloat = channel(2, 1);
 
