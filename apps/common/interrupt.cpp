@@ -1,12 +1,14 @@
 #include "interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace limn::app {
 
 namespace {
 
-volatile std::sig_atomic_t caught = 0;
+std::atomic<int> caught = 0;  // read by the threads of a render
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void remember_signal(int signal) {
     caught = signal;
