@@ -16,8 +16,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
   gallery      the figures in the README, with their seconds and errors
-  convergence  speed against error beside Mitsuba, Cycles and LuxCore: docs/speed-against-error.md
-  promise      how often a render to an error keeps it: docs/speed-against-error.md
+  convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md
+  promise      how well limn knows its error, how often a render to an error keeps it: docs/speed-against-error.md
   accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
@@ -155,10 +155,12 @@ case $command in
         # Mitsuba is slow without; not every Debian has it.
         ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
         /usr/bin/python3 apps/bench/convergence.py "${full[@]}" "${others[@]}"
+        # A part is for whoever looks at that part.
+        [[ ${#others[@]} -gt 0 ]] || /usr/bin/python3 apps/bench/promise.py
         ;;
     promise)
         build
-        /usr/bin/python3 apps/bench/promise.py "${full[@]}"
+        /usr/bin/python3 apps/bench/promise.py
         ;;
     gallery)
         install_missing python3 git

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bench/transport_scenes.h"
 #include "figures.h"
 #include "scene_parts.h"
 
@@ -29,77 +30,115 @@ Figure fireflies() {
 }
 
 struct Entry {
-    const char* name;
-    Figure (*figure)();
-    double target;  // such that it takes well over the 64 samples from which on an error is believed
+    std::string name;
+    Figure (*figure)();  // null: of the convergence report
+    double finest;
 };
 
-constexpr Entry kEntries[] = {
-    {"cornell", [] { return figures::fig15_cornell_box(); }, 2.2e-3},
-    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }, 1.6e-3},
-    {"glass", [] { return figures::fig13_dielectric(); }, 8e-4},
-    {"smoke", [] { return figures::fig16_volume_cornell_box(); }, 1.3e-3},
-    {"fireflies", fireflies, 3e-3},
-};
+// As fine as takes a few thousand samples a pixel.
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> all{
+        {"cornell-empty", nullptr, 1e-4},
+        {"cornell", nullptr, 1e-4},
+        {"lamps", nullptr, 1e-4},
+        {"three-spheres", nullptr, 1e-4},
+        {"depth-of-field", nullptr, 1e-4},
+        {"still-spheres", nullptr, 1e-4},
+        {"smoke", nullptr, 1e-4},
+        {"mesh", nullptr, 1e-4},
+        {"glass-mesh", nullptr, 1e-2},
+        {"many-lights", nullptr, 1e-4},
+        {"bouncing", [] { return figures::fig01_bouncing_spheres(); }, 1e-4},
+        {"glass", [] { return figures::fig13_dielectric(); }, 1e-4},
+        {"fireflies", fireflies, 1e-4},
+    };
+    return all;
+}
 
-RenderSettings settings_of(const Promise& promise, std::uint64_t seed) {
-    return {.width = promise.size, .height = promise.size, .seed = seed};
+RenderSettings settings_of(const Subject& subject, std::uint64_t seed) {
+    return {.width = subject.size, .height = subject.size, .seed = seed, .threads = 1};
+}
+
+double error_of(const Subject& subject, const Image& image) {
+    return compare_images(image, subject.a, subject.b).corrected_relative_mse;
+}
+
+Known known_of(const Subject& subject, const RenderResult& r, std::uint64_t seed) {
+    return {.seed = seed,
+            .samples = r.report.samples_per_pixel,
+            .estimate = r.error.estimate,
+            .lower = r.error.ci95_low,
+            .upper = r.error.ci95_high,
+            .error = error_of(subject, r.image)};
+}
+
+Image mean_of(const Image& a, const Image& b) {
+    Image mean(a.width(), a.height());
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) mean.set(x, y, 0.5 * (a.at(x, y) + b.at(x, y)));
+    return mean;
 }
 
 }  // namespace
 
-const std::vector<std::string>& promise_names() {
+const std::vector<std::string>& subject_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
-        for (const Entry& e : kEntries) all.push_back(e.name);
+        for (const Entry& e : entries()) all.push_back(e.name);
         return all;
     }();
     return names;
 }
 
-Promise promise_of(const std::string& name) {
-    for (const Entry& e : kEntries) {
+Subject subject_of(const std::string& name) {
+    for (const Entry& e : entries()) {
         if (name != e.name) continue;
-        Figure figure = e.figure();
+        Figure figure = e.figure ? e.figure() : make_transport_scene(name);
         figure.camera.aspect_ratio.reset();
-        return {.name = name, .scene = compile(figure.scene), .camera = figure.camera, .target = e.target};
+        return {.name = name, .scene = compile(figure.scene), .camera = figure.camera, .finest = e.finest};
     }
     throw ArgumentError("there is no scene " + name);
 }
 
-Reference reference_of(const Promise& promise) {
-    const auto half = [&promise](std::uint64_t seed) {
-        RenderSettings settings = settings_of(promise, seed);
-        settings.error = promise.target / 16;
-        return render(promise.scene, promise.camera, settings).image;
+void render_reference(Subject& subject) {
+    const auto half = [&subject](std::uint64_t seed) {
+        RenderSettings settings = settings_of(subject, seed);
+        settings.threads = 0;
+        settings.error = subject.finest / 8;
+        return render(subject.scene, subject.camera, settings).image;
     };
-    return {half(1'000'001), half(1'000'002)};
+    subject.a = half(1'000'001), subject.b = half(1'000'002);
 }
 
-Stop stop_of(const Promise& promise, const Reference& reference, std::uint64_t seed, bool look_for_fewest) {
-    const auto error_of = [&reference](const Image& image) {
-        return compare_images(image, reference.a, reference.b).corrected_relative_mse;
-    };
-    RenderSettings settings = settings_of(promise, seed);
-    settings.threads = 1;
-    settings.error = promise.target;
-    const RenderResult r = render(promise.scene, promise.camera, settings);
-    Stop stop{.seed = seed,
-              .samples = r.report.samples_per_pixel,
-              .estimate = r.error.estimate,
-              .upper = r.error.ci95_high,
-              .error = error_of(r.image),
-              .seconds = r.report.render_seconds};
-    if (!look_for_fewest || stop.error > promise.target) return stop;
+Known known_after(const Subject& subject, int samples, std::uint64_t seed) {
+    RenderSettings settings = settings_of(subject, seed);
+    settings.samples_per_pixel = samples;
+    return known_of(subject, render(subject.scene, subject.camera, settings), seed);
+}
+
+Known known_at_stop(const Subject& subject, double target, std::uint64_t seed, bool compare) {
+    RenderSettings settings = settings_of(subject, seed);
+    settings.error = target;
+    Known known = known_of(subject, render(subject.scene, subject.camera, settings), seed);
+    if (!compare) return known;
     settings.error = std::numeric_limits<double>::min();  // never reached: a render of so many samples, spread as above
-    int low = 0, high = static_cast<int>(stop.samples);  // in multiples of 4; low is too few
-    while (high - low > std::max(4, high / 50)) {
-        settings.max_samples_per_pixel = (low + high) / 8 * 4;
-        const Image image = render(promise.scene, promise.camera, settings).image;
-        (error_of(image) <= promise.target ? high : low) = settings.max_samples_per_pixel;
+    const auto image_of = [&](int samples, std::uint64_t of_seed) {
+        settings.max_samples_per_pixel = samples, settings.seed = of_seed;
+        return render(subject.scene, subject.camera, settings).image;
+    };
+    const int stop = static_cast<int>(known.samples);
+    if (known.error <= target) {
+        int low = 6, high = stop;  // low is too few: there is no estimate before 8
+        while (high - low > std::max(2, high / 50)) {
+            const int samples = (low + high) / 4 * 2;
+            (error_of(subject, image_of(samples, seed)) <= target ? high : low) = samples;
+        }
+        known.fewest = high;
     }
-    stop.fewest = high;
-    return stop;
+    constexpr std::uint64_t kOthers = 1 << 20;  // seeds that nothing else has
+    known.halves =
+        error_of(subject, mean_of(image_of(stop / 2, seed + kOthers), image_of(stop / 2, seed + 2 * kOthers)));
+    return known;
 }
 
 }  // namespace limn::bench

@@ -1,5 +1,5 @@
 /// \file
-/// Whether a render to an error keeps what it promises: scenes, references, and one render beside its reference.
+/// What limn knows of its own error, measured: scenes, references, and single renders beside their reference.
 #pragma once
 
 #include <cstdint>
@@ -10,38 +10,40 @@
 
 namespace limn::bench {
 
-/// A picture and the relMSE to render it to.
-struct Promise {
+/// A picture whose error is known, by two independent halves of a reference.
+struct Subject {
     std::string name;
     CompiledScene scene;
     Camera camera;
-    double target = 0;
-    int size = 64;  ///< pixels a side
+    int size = 64;      ///< pixels a side
+    double finest = 0;  ///< the least relMSE that it is rendered to; the reference's is an eighth of it in each half
+    Image a{}, b{};     ///< the reference
 };
 
-/// "cornell", "bouncing", "glass", "smoke", "fireflies".
-const std::vector<std::string>& promise_names();
-/// \throws ArgumentError for another name
-Promise promise_of(const std::string& name);
+/// The ten scenes of the convergence report, and "bouncing", "glass" and "fireflies".
+const std::vector<std::string>& subject_names();
+/// Without reference. \throws ArgumentError for another name
+Subject subject_of(const std::string& name);
+void render_reference(Subject& subject);
 
-/// Two independent halves, each to a sixteenth of the target: their mean has an error of at most a thirtieth.
-struct Reference {
-    Image a, b;
-};
-Reference reference_of(const Promise& promise);
-
-/// How a render to the target ended.
-struct Stop {
+/// What a render knew of its error, and what that was.
+struct Known {
     std::uint64_t seed = 0;
     double samples = 0;   ///< a pixel
-    double estimate = 0;  ///< of its relMSE
-    double upper = 0;     ///< end of the interval of that
+    double estimate = 0;  ///< of its relMSE; NaN where there is none
+    double lower = 0;     ///< ends of the interval of that
+    double upper = 0;     ///< \copydoc lower
     double error = 0;     ///< measured, the reference's own subtracted
     double fewest = 0;    ///< samples at which the error meets the target; 0: not looked for, or never
-    double seconds = 0;
+    double halves = 0;    ///< error of the mean of two renders of half as many samples; 0: not measured
 };
 
-/// Renders on one thread. The fewest samples are looked for by bisection, to within 2 %, which takes some more renders.
-Stop stop_of(const Promise& promise, const Reference& reference, std::uint64_t seed, bool look_for_fewest);
+/// Of so many samples in each pixel.
+Known known_after(const Subject& subject, int samples, std::uint64_t seed);
+
+/// Of a render to a target, on one thread. If `compare`, the fewest samples that meet the target are looked for by
+/// bisection, to within 2 % or two samples, and so is what two replicates more would cost: the mean of two renders is
+/// one with twice as many.
+Known known_at_stop(const Subject& subject, double target, std::uint64_t seed, bool compare);
 
 }  // namespace limn::bench

@@ -1,12 +1,11 @@
-"""What `--error` promises and what the samplers give, measured: the last chapter of docs/speed-against-error.md.
+"""What limn knows of its own error, measured: the last chapter of docs/speed-against-error.md.
 
-Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run through ./build.sh promise
-[--full].
+Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run through ./build.sh promise.
 """
 
-import argparse
 import json
 import math
+import statistics
 import subprocess
 
 from machine import ROOT
@@ -14,30 +13,99 @@ from reports import origin, stamp, write
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/promise"
-TITLES = {"cornell": "Cornell box", "bouncing": "bouncing spheres", "glass": "glass", "smoke": "smoke",
+TITLES = {"cornell-empty": "Cornell box, empty", "cornell": "Cornell box (figure 15)", "lamps": "lamps on grey stone",
+          "three-spheres": "three spheres", "depth-of-field": "depth of field", "still-spheres": "still spheres",
+          "smoke": "smoke (figure 16)", "mesh": "mesh in the Cornell box", "glass-mesh": "the same mesh of glass",
+          "many-lights": "200 small lights", "bouncing": "bouncing spheres (figure 1)", "glass": "glass (figure 13)",
           "fireflies": "fireflies"}
 
 
-def measure(program, out, *options):
-    subprocess.run([BIN / program, "--json", out, *options], check=True, cwd=ROOT)
-    return json.loads(out.read_text())
+def lower_bound(part, whole):
+    """Of a share, with 95 % confidence (Wilson, Probable inference, the law of succession, and statistical inference,
+    1927)."""
+    z2, share = 1.645 ** 2, part / whole
+    return (share + z2 / (2 * whole) - math.sqrt(z2 * (share * (1 - share) + z2 / (4 * whole)) / whole)) / (1 + z2 / whole)
 
 
-def promise_lines(head, rows):
-    stops, kept = sum(r["stops"] for r in rows), sum(r["kept"] for r in rows)
-    lines = [f"{stamp(head)}.", "",
-             f"Each scene is rendered to a target with {rows[0]['stops']} seeds, {rows[0]['size']}x{rows[0]['size']} pixels, and each "
-             "picture is compared with a reference in two halves whose mean has at most a thirtieth of that error. Kept: the "
-             "true relMSE is at or under the target. The overshoot is in samples, over the fewest (by bisection) at which "
-             "the same render meets the target; beside it, by how much the true error is under the target. Fireflies: a "
-             "small bright lamp behind a screen, whose light arrives by way of a fuzzy mirror alone.", "",
-             "| scene | target | kept | estimate / true error | samples | median overshoot | target / true error, median |",
-             "|---|---:|---:|---:|---:|---:|---:|"]
-    for r in rows:
-        overshoot = "" if r["median_overshoot"] is None else f"{100 * r['median_overshoot']:.0f} % ({r['overshoots_measured']} seeds)"
-        lines.append(f"| {TITLES[r['scene']]} | {r['target']:.1e} | {r['kept']} of {r['stops']} | {r['estimate_over_error']:.3f} | "
-                     f"{r['median_samples']:.0f} | {overshoot} | {r['median_target_over_error']:.3f} |")
-    return lines + ["", f"Together {kept} of {stops}: {100 * kept / stops:.1f} %.", ""]
+def share(part, whole):
+    return f"{part} of {whole}, ≥ {100 * lower_bound(part, whole):.0f} %" if whole else "–"
+
+
+def read(folder):
+    """The lines of each scene, as limn_promise wrote them."""
+    found = {}
+    for name in TITLES:
+        path = folder / f"{name}.jsonl"
+        if path.exists():
+            found[name] = [json.loads(line) for line in path.read_text().splitlines()]
+    return found
+
+
+def coverage_lines(scenes):
+    counts = sorted({r["after"] for rows in scenes.values() for r in rows} - {0})
+    lines = ["### Whether it knows its error", "",
+             "Estimate over true relMSE, both as means over the seeds that have an estimate; how often the 95 % interval holds "
+             "the true error, with a lower bound of that share at 95 % confidence; and how many have no estimate.", "",
+             "| scene | " + " | ".join(f"{n} samples" for n in counts) + " | all |", "|---|" + "---|" * (len(counts) + 1)]
+    pooled = {n: [0, 0] for n in [*counts, "all"]}
+    for name, rows in scenes.items():
+        cells, of_scene = [], [0, 0]
+        for n in counts:
+            measured = [r for r in rows if r["after"] == n]
+            known = [r for r in measured if r["estimate"] is not None]
+            held = sum(r["lower"] <= r["error"] <= r["upper"] for r in known)
+            for total in (of_scene, pooled[n], pooled["all"]):
+                total[0] += held
+                total[1] += len(known)
+            ratio = sum(r["estimate"] for r in known) / sum(r["error"] for r in known) if known else None
+            none = f", {len(measured) - len(known)} without" if len(known) < len(measured) else ""
+            cells.append(f"{ratio:.2f}; {share(held, len(known))}{none}" if known else "none")
+        lines.append(f"| {TITLES[name]} | " + " | ".join([*cells, share(*of_scene)]) + " |")
+    lines.append("| together | " + " | ".join(share(*pooled[n]) for n in [*counts, "all"]) + " |")
+    return lines + [""]
+
+
+def stop_lines(scenes):
+    targets = sorted({r["target"] for rows in scenes.values() for r in rows if r["target"]}, reverse=True)
+    lines = ["### Whether --error keeps its promise", "",
+             "Kept: the true relMSE is at or under the target. Samples: the median. The overshoot is in samples, over the fewest "
+             "(by bisection, 8 at least) at which the same render meets the target.", "",
+             "| scene | target | kept | samples | median overshoot | target / true error, median |", "|---|---:|---:|---:|---:|---:|"]
+    pooled, overshoots = {t: [0, 0] for t in targets}, []
+    for name, rows in scenes.items():
+        for target in targets:
+            stops = [r for r in rows if r["target"] == target]
+            if not stops:
+                continue
+            kept = sum(r["error"] <= target for r in stops)
+            pooled[target][0] += kept
+            pooled[target][1] += len(stops)
+            over = [r["samples"] / r["fewest"] - 1 for r in stops if r["fewest"]]
+            overshoots += over
+            lines.append(f"| {TITLES[name]} | {target:.0e} | {kept} of {len(stops)} | "
+                         f"{statistics.median(r['samples'] for r in stops):.0f} | "
+                         + (f"{100 * statistics.median(over):.0f} %" if over else "–")
+                         + f" | {statistics.median(target / r['error'] for r in stops):.2f} |")
+    lines += ["", "Together: " + "; ".join(f"{share(*pooled[t])} at {t:.0e}" for t in targets) + "; "
+              + share(*[sum(p[i] for p in pooled.values()) for i in (0, 1)]) + " in all."
+              + (f" The median overshoot of all is {100 * statistics.median(overshoots):.0f} %." if overshoots else "")]
+    return lines + [""]
+
+
+def gain_lines(scenes):
+    targets = sorted({r["target"] for rows in scenes.values() for r in rows if r["halves"]}, reverse=True)
+    lines = ["### What two replicates give back beside four", "",
+             "The error of the mean of two renders of half as many samples, which is that of four replicates, over that of one: "
+             "the geometric mean over seeds, with its standard error, at the samples that each target takes.", "",
+             "| scene | " + " | ".join(f"{t:.0e}" for t in targets) + " |", "|---|" + "---:|" * len(targets)]
+    for name, rows in scenes.items():
+        cells = []
+        for target in targets:
+            logs = [math.log(r["halves"] / r["error"]) for r in rows if r["target"] == target and r["halves"] > 0 < r["error"]]
+            spread = statistics.stdev(logs) / math.sqrt(len(logs)) if len(logs) > 1 else math.nan
+            cells.append(f"{math.exp(statistics.mean(logs)):.2f} ± {100 * spread:.0f} %" if logs else "–")
+        lines.append(f"| {TITLES[name]} | " + " | ".join(cells) + " |")
+    return lines + [""]
 
 
 def slope(variance):
@@ -51,8 +119,8 @@ def rate_lines(rows):
     samples = list(rows[0]["variance"])
     lines = ["### How fast pixels converge", "",
              f"The relative variance of single pixels, over {rows[0]['seeds']} seeds, by the number of samples, and the slope of its "
-             "logarithm. The four replicates, which the error estimate needs, are part of it: they cost an even sequence a "
-             "factor of two at edges (slope -1.5), sixteen where it is smooth (slope -3).", "",
+             "logarithm. The two replicates, which the error estimate needs, are part of it: they cost an even sequence a "
+             "factor of 1.4 at edges (slope -1.5), four where it is smooth (slope -3).", "",
              "| pixel | sampler | " + " | ".join(samples) + " | slope |", "|---|---|" + "---:|" * (len(samples) + 1)]
     for r in rows:
         lines.append(f"| {r['pixel']} | {r['sampler']} | " + " | ".join(f"{v:.1e}" for v in r["variance"].values()) +
@@ -61,16 +129,19 @@ def rate_lines(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--full", action="store_true", help="200 seeds for each scene instead of 50")
-    full = parser.parse_args().full
-    seeds = ("--seeds", "200") if full else ("--seeds", "50", "--searched", "12")
-    head = origin("promise", "./build.sh promise" + (" --full" if full else ""))
-    folder = RAW / (head["sources"] + "-full" * full)  # what was measured otherwise does not count
+    head = origin("promise")
+    folder = RAW / head["sources"]  # what was measured on others does not count
     folder.mkdir(parents=True, exist_ok=True)
-    rates = measure("limn_sampler_rates", folder / "sampler_rates.json")
-    promises = measure("limn_promise", folder / "promise.json", "--folder", folder, *seeds)
-    write("promise", "\n".join(promise_lines(head, promises) + rate_lines(rates)))
+    out = folder / "sampler_rates.json"
+    if not out.exists():
+        subprocess.run([BIN / "limn_sampler_rates", "--json", out], check=True, cwd=ROOT)
+    subprocess.run([BIN / "limn_promise", "--folder", folder], check=True, cwd=ROOT)
+    scenes = read(folder)
+    write("promise", "\n".join([
+        f"{stamp(head)}.", "",
+        "64x64 pixels; references in two independent halves, each to an eighth of the least target. Fireflies: a small bright "
+        "lamp behind a screen, whose light arrives by way of a fuzzy mirror alone.", "",
+        *coverage_lines(scenes), *stop_lines(scenes), *gain_lines(scenes), *rate_lines(json.loads(out.read_text()))]))
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ Image clamped_to_half(Image image, const Console& console) {
     return image;
 }
 
-// Below four samples a pixel no error is known: then that channel is NaN.
+// Below eight samples a pixel no error is known: then that channel is NaN.
 std::vector<ImageLayer> layers_of(const PixelMaps& maps, const RenderOptions& options) {
     std::vector<ImageLayer> layers;
     for (const std::string& name : options.channels) {

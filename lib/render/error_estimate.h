@@ -6,8 +6,8 @@
 
 namespace limn::tracing {
 
-// From so many samples a pixel on the film is asked whether its error is little enough.
-inline constexpr int kFirstCheck = 64;
+// From so many samples a pixel on there is an estimate, and the film is asked whether its error is little enough.
+inline constexpr int kFirstCheck = 8;
 
 // The estimate of the picture's relMSE, its interval and max_sample_share; on the threads of the caller's arena, the
 // same on any number of them. `maps`, if given, gets each pixel's part.
@@ -16,14 +16,11 @@ ErrorEstimate estimate_error(const Film& film, PixelMaps* maps = nullptr);
 // The same without max_sample_share: less work.
 ErrorEstimate check_error(const Film& film);
 
-// In which multiples of the estimate the true error lies, 95 times in 100.
-struct ErrorFactors {
-    double low = 0, high = 0;
-};
-// `values`: how many pixels of equal error the estimate is worth, at least 1.
-ErrorFactors error_factors(double values);
+// The standard deviation of the logarithm of true over estimated error, where the estimate is worth so many pixels of
+// equal error, at least 1.
+double ratio_deviation(double pixels);
 
-// After how many samples the film is to be asked again, in multiples of 4: `upper` is the upper end of its interval
+// After how many samples the film is to be asked again, in multiples of 2: `upper` is the upper end of its interval
 // after `samples`, over `target`.
 int next_check(int samples, double upper, double target);
 

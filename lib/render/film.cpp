@@ -22,6 +22,7 @@ bool Film::add(int x, int y, const Color& sample) {
     const std::uint32_t replicate = p.samples++ % kReplicates;
     if (!is_finite(sample)) return false;
     p.sums[replicate] += sample;
+    p.squares += sample * sample;
     const double kLargest = std::numeric_limits<float>::max();
     p.largest = std::max(p.largest, static_cast<float>(std::min(luminance(sample), kLargest)));
     return true;
@@ -42,6 +43,21 @@ std::uint32_t Film::replicate_samples(int x, int y, std::uint32_t r) const {
 
 Color Film::replicate_mean(int x, int y, std::uint32_t r) const {
     return pixels_[index(x, y)].sums[r] / replicate_samples(x, y, r);
+}
+
+Color Film::variance(int x, int y) const {
+    static_assert(kReplicates == 2);
+    const double n = samples(x, y), first = replicate_samples(x, y, 0), second = replicate_samples(x, y, 1);
+    const Color difference = replicate_mean(x, y, 0) - replicate_mean(x, y, 1);
+    return difference * difference / (n * (1 / first + 1 / second));
+}
+
+Color Film::independent_variance(int x, int y) const {
+    const Pixel& p = pixels_[index(x, y)];
+    const double n = p.samples;
+    const Color m = mean(x, y), about_mean = p.squares / n - m * m;
+    const auto positive = [](double v) { return std::max(0.0, v); };  // rounding may leave it under 0
+    return Color{positive(about_mean.r), positive(about_mean.g), positive(about_mean.b)} / (n - 1);
 }
 
 double Film::largest_share(int x, int y) const {

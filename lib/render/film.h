@@ -1,4 +1,4 @@
-// The film: sums of samples, in four replicates from which the render learns its own error (error_estimate.h).
+// The film: sums of samples, in two replicates from which the render learns its own error (error_estimate.h).
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace limn::tracing {
 
-inline constexpr int kReplicates = 4;
+inline constexpr int kReplicates = 2;
 
-// Sample i of a pixel belongs to replicate i mod 4. Each pixel has one owner at a time and gets its samples in order,
+// Sample i of a pixel belongs to replicate i mod 2. Each pixel has one owner at a time and gets its samples in order,
 // so that the sums, in double, do not depend on threads.
 class Film {
 public:
@@ -31,6 +31,12 @@ public:
     // Samples in replicate r, and their mean. \pre there is one
     std::uint32_t replicate_samples(int x, int y, std::uint32_t r) const;
     Color replicate_mean(int x, int y, std::uint32_t r) const;
+    // The variance of the mean, estimated without bias from the difference of the replicates: one degree of freedom.
+    // \pre each has a sample
+    Color variance(int x, int y) const;
+    // What that variance would be if all samples were independent: the points of a replicate are not, but this estimate
+    // has a degree of freedom for all samples but one. \pre there are two
+    Color independent_variance(int x, int y) const;
     // The largest share that one sample has of the pixel's luminance, 0 to 1.
     double largest_share(int x, int y) const;
 
@@ -48,10 +54,11 @@ public:
 private:
     struct Pixel {
         std::array<Color, kReplicates> sums;
+        Color squares;      // sum of the squares of the samples
         float largest = 0;  // luminance of the brightest sample
         std::uint32_t samples = 0;
     };
-    static_assert(sizeof(Pixel) == 104);
+    static_assert(sizeof(Pixel) == 80);
 
     int width_, height_;
     std::vector<Pixel> pixels_;

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/float_environment.h"
 #include "flat/scene.h"
@@ -61,10 +62,9 @@ public:
 
     void run() {
         report(true);
-        // Without a target there is never a check. The first one comes after the passes of 4, 8, 16, 32 samples and
-        // what is left of the next.
+        // Without a target there is never a check.
         int done = 0, check = settings_.error ? tracing::kFirstCheck : most_samples_;
-        for (int pass = tracing::kReplicates; done < most_samples_ && !ended();
+        for (int pass = tracing::kFirstCheck; done < most_samples_ && !ended();
              pass = std::min(2 * pass, kLargestPass)) {
             const int stop = adaptive_ && done < tracing::kPilot ? tracing::kPilot : check;
             done = std::min({done + pass, stop, most_samples_});
@@ -113,7 +113,7 @@ private:
         tracing::for_each_index(tiles, context_, [&](std::size_t tile) {
             if (interrupted_) return;
             // The first pass is for all pixels, whatever it takes, so that there is a picture and an estimate.
-            if (settings_.time_limit && target > tracing::kReplicates && seconds() >= *settings_.time_limit)
+            if (settings_.time_limit && target > tracing::kFirstCheck && seconds() >= *settings_.time_limit)
                 timed_out_ = true;
             if (timed_out_) return;
             const auto across = static_cast<std::size_t>(columns);
@@ -125,7 +125,8 @@ private:
 
     // Whether the error is little enough after `done` samples a pixel; returns when to ask again.
     int check_error(int done) {
-        const double upper = tracing::check_error(film_).ci95_high;
+        const ErrorEstimate e = tracing::check_error(film_);
+        const double upper = e.reason.empty() ? e.ci95_high : std::numeric_limits<double>::infinity();
         reached_ = upper <= *settings_.error;
         // Where independent samples would reach it: where this stands in between tells how far the render has come.
         samples_needed_ = done * std::max(1.0, upper / *settings_.error);
@@ -226,7 +227,7 @@ private:
     tbb::task_group_context context_;
     std::atomic<bool> interrupted_ = false, timed_out_ = false;
     bool reached_ = false, finished_ = false;
-    double samples_needed_ = 16 * tracing::kFirstCheck;  // a guess before the first check
+    double samples_needed_ = 128 * tracing::kFirstCheck;  // a guess before the first check
     std::atomic<std::uint64_t> rays_ = 0, unusable_rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
     std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
     double last_report_ = 0, last_fraction_ = 0;

@@ -10,7 +10,7 @@
 namespace limn::tracing {
 
 // So many samples a pixel, the same in all, tell how noisy the pixels are.
-inline constexpr int kPilot = 16;
+inline constexpr int kPilot = 8;
 // Of the mean. What the pilot has not seen is still found, at worst with four times the variance.
 inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 

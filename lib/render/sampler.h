@@ -24,7 +24,7 @@ enum class Use : std::uint32_t { light, scattering, roulette, segment, flight };
 // 2020), so that there is no end of them. A number that is drawn for the same use at the same vertex is in the same
 // group in all samples of a pixel, whatever else they draw.
 //
-// Each of the film's replicates has a randomisation of its own: sample i is point i / 4 of replicate i mod 4.
+// Each of the film's replicates has a randomisation of its own: sample i is point i / 2 of replicate i mod 2.
 //
 // `independent` numbers: Philox4x64-10, a block for each four of a group. Salmon et al., Parallel random numbers: as
 // easy as 1, 2, 3, 2011.

@@ -28,7 +28,7 @@ CompiledScene busy_scene() {
 const Camera kView = camera_at({0, 2, 8}, {0, 1, 0}, 40);
 
 RenderSettings settings_of(std::uint64_t seed, int threads) {
-    RenderSettings s = square(37, 6, 8);
+    RenderSettings s = square(37, 9, 8);
     s.height = 29;
     s.seed = seed;
     s.threads = threads;

@@ -59,7 +59,7 @@ TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does no
     const int side = 40;
     const Subject subjects[] = {smoke_ball(side), lit_floor(side)};
     for (const Subject& s : subjects) {
-        for (const int samples : {64}) {
+        for (const int samples : {16, 64}) {
             double estimates = 0, errors = 0;
             int covered = 0;
             for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -77,7 +77,7 @@ TEST_CASE("Error estimate: over 20 seeds it is near the true relMSE, and does no
             }
             INFO(s.name << ", " << samples << " samples: estimated " << estimates / 20 << ", true " << errors / 20);
             CHECK(estimates >= 0.8 * errors);
-            CHECK(estimates <= 3 * errors);  // the larger of two denominators errs on the safe side
+            CHECK(estimates <= 1.2 * errors);
             CHECK(covered >= 16);
         }
     }
@@ -110,18 +110,18 @@ TEST_CASE("Error estimate: a picture without noise has none", "[render][estimate
     CHECK(black.error.max_sample_share == 0);
 }
 
-TEST_CASE("Error estimate: below four samples a pixel there is none, and a reason says so", "[render][estimate]") {
+TEST_CASE("Error estimate: below eight samples a pixel there is none, and a reason says so", "[render][estimate]") {
     const Subject s = smoke_ball(8);
-    for (const int samples : {1, 2, 3}) {
+    for (const int samples : {1, 2, 7}) {
         const RenderResult r = render(s.scene, s.camera, square(8, samples, 1));
         CHECK(std::isnan(r.error.estimate));
         CHECK(std::isnan(r.error.ci95_low));
         CHECK(std::isnan(r.error.ci95_high));
         CHECK_FALSE(r.error.reason.empty());
     }
-    const RenderResult four = render(s.scene, s.camera, square(8, 4, 1));
-    CHECK(std::isfinite(four.error.estimate));
-    CHECK(four.error.reason.empty());
+    const RenderResult eight = render(s.scene, s.camera, square(8, 8, 1));
+    CHECK(std::isfinite(eight.error.estimate));
+    CHECK(eight.error.reason.empty());
 }
 
 TEST_CASE("Error estimate: the largest share of a sample tells of rare bright light", "[render][estimate]") {
@@ -149,17 +149,17 @@ TEST_CASE("Error estimate: a render to an error keeps its promise 95 times in 10
             settings.seed = static_cast<std::uint64_t>(seed);
             settings.sampler = sampler;
             const RenderResult r = render(subject.scene, subject.camera, settings);
-            REQUIRE(r.report.samples_per_pixel > 64);
+            REQUIRE(r.report.samples_per_pixel > 8);
             const double error = compare_images(r.image, subject.truth).relative_mse;
             kept += error <= target;
             margins.push_back(target / error);
         }
         CAPTURE(kept);
         CHECK(kept >= stops * 0.95 - 4.5 * std::sqrt(stops * 0.95 * 0.05));
-        // 576 pixels know their error to 13 %, at 95 %; checks are 3 % apart. Even points make this scene's error fall
-        // in steps, at powers of two.
+        // 576 pixels, whose noise is worth 340 equal ones, know their error to 24 %, at 95 %; checks are 3 % apart.
+        // Even points make this scene's error fall in steps, at powers of two.
         if (sampler == SamplerKind::sobol) continue;
         std::nth_element(margins.begin(), margins.begin() + stops / 2, margins.end());
-        CHECK(margins[static_cast<std::size_t>(stops / 2)] <= 1.25);
+        CHECK(margins[static_cast<std::size_t>(stops / 2)] <= 1.35);
     }
 }

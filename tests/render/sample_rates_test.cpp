@@ -34,11 +34,11 @@ double mean(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// A lamp over a floor under a black sky: noise in one half of the picture, none in the other.
+// A floor and a ball under a black sky, lit by a lamp above the picture: noise in its lower half, none in the other.
 const Camera kEye = camera_at({0, 1, 6}, {0, 1, 0}, 40);
 CompiledScene lit_floor() {
     return compile_with(sky(0), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, grey(0.7)),
-                                 sphere({0, 0.5, 0}, 0.5, grey(0.3)), sphere({0, 3, -1}, 0.3, lamp(20))});
+                                 sphere({0, 0.5, 0}, 0.5, grey(0.3)), sphere({0, 5, -1}, 0.3, lamp(60))});
 }
 
 RenderSettings adaptive(int side, int samples) {
@@ -76,10 +76,10 @@ TEST_CASE("Sample rates: they grow as the standard deviation, and none falls und
 }
 
 TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[render][adaptive]") {
-    const auto even = [](int, int) { return 0.3; };
+    const auto even = [](int, int) { return 0.15; };
     const std::vector<float> before = tracing::sample_rates(piloted(15, 15, even));
     Film film = piloted(15, 15, even);
-    for (int i = 0; i < tracing::kPilot; ++i) film.add(7, 7, Color{1, 1, 1} * (i % 4 == 0 ? 40 : 1));
+    for (int i = 0; i < tracing::kPilot; ++i) film.add(7, 7, Color{1, 1, 1} * (i == 0 ? 1e4 : 1));
     const std::vector<float> after = tracing::sample_rates(film);
     // All of the others share one factor, that of the mean, which the pixels around it have moved.
     const auto noise = [](float rate) { return rate - tracing::kSmallestRate; };
@@ -92,14 +92,14 @@ TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[re
 TEST_CASE("Sample plans: the mean is what was asked for, and no pixel loses samples", "[render][adaptive]") {
     Film film = piloted(13, 9, [](int x, int) { return x < 6 ? 0.01 : 0.5; });
     const std::vector<float> rates = tracing::sample_rates(film);
-    for (const int target : {17, 20, 64, 65, 131, 1000}) {
+    for (const int target : {9, 12, 17, 20, 64, 65, 131, 1000}) {
         const std::vector<std::uint32_t> plan = tracing::plan_samples(film, rates, target);
         CHECK(std::accumulate(plan.begin(), plan.end(), 0u) == static_cast<std::uint32_t>(13 * 9 * target));
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < 13; ++x) {
                 const auto i = static_cast<std::size_t>(13 * y + x);
                 CHECK(plan[i] >= film.samples(x, y));
-                if (i + 1 < plan.size()) CHECK(plan[i] % 4 == 0);
+                if (i + 1 < plan.size()) CHECK(plan[i] % 2 == 0);
                 if (target == 1000) CHECK(std::abs(plan[i] - 1000.0 * rates[i]) <= 8);
                 while (film.samples(x, y) < plan[i]) film.add(x, y, {1, 1, 1});
             }
@@ -158,5 +158,5 @@ TEST_CASE("Adaptive sampling: neither the picture nor the estimate of its error 
     CHECK(count > kSide * kSide / 3);
     CHECK(std::sqrt(chi_squared / count) < 1.25);
     CHECK(std::abs(sum_z) < 4 * std::sqrt(count));
-    CHECK((estimate > 0.95 * error && estimate < 1.25 * error));  // the larger of two: on the safe side
+    CHECK((estimate > 0.9 * error && estimate < 1.1 * error));
 }

@@ -106,7 +106,7 @@ TEST_CASE("Sampler: any two dimensions of a sample, and those of neighbours, are
         for (std::uint64_t sample = 0; sample < kSamples; ++sample) {
             std::size_t column = 0;
             for (const auto& [p, s] :
-                 {std::pair{pixel, sample}, {pixel, sample + 1}, {pixel, sample + 4}, {pixel + 1, sample}})
+                 {std::pair{pixel, sample}, {pixel, sample + 1}, {pixel, sample + 2}, {pixel + 1, sample}})
                 for (const double x : numbers(kind, 7, p, s)) columns[column++].push_back(x - 0.5);
         }
     // Of two independent uniform numbers the mean product has the standard deviation 1 / (12 sqrt(n)); 5 of them are

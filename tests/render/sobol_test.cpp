@@ -30,12 +30,12 @@ std::array<double, 5> numbers(std::uint64_t pixel, std::uint64_t sample, int ver
     return sampler.next_5d();
 }
 
-// Whether samples 4 first, 4 (first + 1) ... of a replicate have one in each of the boxes of 2^-a by 2^-b.
+// Whether samples 2 first, 2 (first + 1) ... of a replicate have one in each of the boxes of 2^-a by 2^-b.
 bool is_net(std::uint64_t pixel, std::uint64_t first, int log2_count, std::size_t i, std::size_t j) {
     for (int a = 0; a <= log2_count; ++a) {
         std::set<std::pair<int, int>> boxes;
         for (std::uint64_t n = 0; n < std::uint64_t{1} << log2_count; ++n) {
-            const auto p = numbers(pixel, 4 * (first + n) + pixel % 4);
+            const auto p = numbers(pixel, 2 * (first + n) + pixel % 2);
             boxes.insert({static_cast<int>(std::ldexp(p[i], a)), static_cast<int>(std::ldexp(p[j], log2_count - a))});
         }
         if (boxes.size() != std::size_t{1} << log2_count) return false;
@@ -93,7 +93,7 @@ TEST_CASE("Sobol: in each of five dimensions 2^k points have one in each of 2^k 
         for (std::size_t d = 0; d < sobol::kDimensions; ++d) {
             std::set<int> parts;
             for (std::uint64_t n = 0; n < 256; ++n)
-                parts.insert(static_cast<int>(256 * numbers(9, 4 * (first + n) + 3)[d]));
+                parts.insert(static_cast<int>(256 * numbers(9, 2 * (first + n) + 1)[d]));
             CHECK(parts.size() == 256);
         }
 }

@@ -32,14 +32,14 @@ inline constexpr int kMostSamples = 1 << 20;
 struct RenderSettings {
     int width = 400;             ///< in pixels, 1 to 1048576
     int height = 400;            ///< in pixels, 1 to 1048576
-    int samples_per_pixel = 64;  ///< at least 1; from 4 on the error is estimated; `error` and `time_limit` replace it
+    int samples_per_pixel = 64;  ///< at least 1; from 8 on the error is estimated; `error` and `time_limit` replace it
     int max_depth = 10;      ///< ray segments a path, at least 1; kUnlimitedDepth: paths end by Russian roulette alone
     std::uint64_t seed = 0;  ///< another seed gives independent noise
     int threads = 0;  ///< 0: as many as the caller's TBB arena has; at most 1024. The picture does not depend on it.
     bool antialias = true;  ///< box filter over the pixel; false: every sample goes through the pixel's centre
     Estimator estimator = Estimator::path;     ///< both converge to the same picture
     SamplerKind sampler = SamplerKind::sobol;  ///< both converge to the same picture
-    /// The relMSE to render to, over 0: the render ends at the first check, from 64 samples a pixel on, at which the
+    /// The relMSE to render to, over 0: the render ends at the first check, from 8 samples a pixel on, at which the
     /// upper end of the estimate's 95 % interval is at or under it. How many samples that takes does not depend on
     /// threads or time.
     std::optional<double> error{};
@@ -48,7 +48,7 @@ struct RenderSettings {
     /// With `error` or `time_limit`: the samples, in the mean over pixels, after which the render ends in any case, at
     /// least 1.
     int max_samples_per_pixel = kMostSamples;
-    /// With `error` or `time_limit`, after 16 samples in each pixel, those whose surroundings are noisier get more, and
+    /// With `error` or `time_limit`, after 8 samples in each pixel, those whose surroundings are noisier get more, and
     /// none less than a quarter of the mean; the picture stays unbiased. True: all get as many.
     bool uniform = false;
     /// Called at the start, at the end, and at most every 50 ms in between, by any thread but never by two at once;

@@ -1,0 +1,190 @@
+#include "render/pixel_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "image/compare_values.h"
+#include "render/parallel.h"
+
+namespace limn::tracing {
+
+namespace {
+
+constexpr int kEvennessReach = 3;  // pixels to each side that tell how much better the film's points are
+constexpr double kSingle = 0.5;    // a sample that has more than this share of a pixel has found its light alone
+
+using Channels = std::array<double, 3>;
+Channels channels(const Color& c) { return {c.r, c.g, c.b}; }
+double square(double x) { return x * x; }
+std::size_t size(int n) { return static_cast<std::size_t>(n); }
+
+// The pixels from `first` to `last` around `at`, as far as there are some.
+struct Span {
+    Span(int at, int reach, int length) : first(std::max(0, at - reach)), last(std::min(length - 1, at + reach)) {}
+    int count() const { return last - first + 1; }
+    int first, last;
+};
+
+// Sums over the columns of a window that moves along a row.
+template <class Value>
+Value sum_of(const std::vector<Value>& columns, const Span& span) {
+    Value sum{};
+    for (int i = span.first; i <= span.last; ++i) sum += columns[size(i)];
+    return sum;
+}
+
+// A pixel's variances, summed over the channels.
+struct Variances {
+    double by_replicates = 0, if_independent = 0;
+    Variances& operator+=(const Variances& o) {
+        by_replicates += o.by_replicates, if_independent += o.if_independent;
+        return *this;
+    }
+};
+
+// For each pixel the variance over that of independent samples, in the 7x7 around it.
+std::vector<float> evenness(const Film& film) {
+    const int width = film.width(), height = film.height();
+    const auto sum = [](const Color& c) { return c.r + c.g + c.b; };
+    std::vector<Variances> variances(film.pixels());
+    for_each_row(height, [&](int y) {
+        for (int x = 0; x < width; ++x)
+            variances[film.index(x, y)] = {sum(film.variance(x, y)), sum(film.independent_variance(x, y))};
+    });
+    std::vector<float> ratios(film.pixels());
+    for_each_row(height, [&](int y) {
+        const Span rows(y, kEvennessReach, height);
+        std::vector<Variances> columns(size(width));
+        for (int j = rows.first; j <= rows.last; ++j)
+            for (int x = 0; x < width; ++x) columns[size(x)] += variances[film.index(x, j)];
+        for (int x = 0; x < width; ++x) {
+            const Variances around = sum_of(columns, Span(x, kEvennessReach, width));
+            ratios[film.index(x, y)] = around.if_independent > around.by_replicates
+                                           ? static_cast<float>(around.by_replicates / around.if_independent)
+                                           : 1.0f;
+        }
+    });
+    return ratios;
+}
+
+// Of one channel of a pixel, or sums over pixels.
+struct Moments {
+    double value = 0, squared = 0, noise = 0;
+    Moments& operator+=(const Moments& o) {
+        value += o.value, squared += o.squared, noise += o.noise;
+        return *this;
+    }
+};
+using PixelMoments = std::array<Moments, 3>;
+PixelMoments& operator+=(PixelMoments& a, const PixelMoments& b) {
+    for (std::size_t c = 0; c < 3; ++c) a[c] += b[c];
+    return a;
+}
+
+// What a pixel's true value is judged to be, and its square; and to which part that is its own mean.
+struct TrueValue {
+    double squared, value, own;
+};
+
+// By the `count` pixels around it, itself among them. Where a single sample decides, the square counts the variance,
+// too, as that of the posterior does.
+TrueValue true_value(const Moments& here, const Moments& around, int count, double share) {
+    if (count == 1) return {square(here.value), here.value, 1};
+    const double others = (around.value - here.value) / (count - 1);
+    const double spread = (around.squared - square(around.value) / count) / (count - 1);
+    const double structure = std::max(0.0, spread - around.noise / count);
+    const double own = structure + here.noise > 0 ? structure / (structure + here.noise) : 1;
+    const double value = others + own * (here.value - others);
+    return {square(value) + share * own * here.noise, value, own};
+}
+
+struct Sums {
+    double error = 0, by_noise = 0, by_surround = 0, not_found = 0;
+    Sums& operator+=(const Sums& o) {
+        error += o.error, by_noise += o.by_noise, by_surround += o.by_surround, not_found += o.not_found;
+        return *this;
+    }
+};
+
+class Rows {
+public:
+    Rows(const Film& film, const std::vector<float>& evenness, PixelErrors& errors)
+        : film_(film), evenness_(evenness), errors_(errors) {}
+
+    Sums row(int y) const {
+        const int width = film_.width();
+        const Span rows(y, 1, film_.height());
+        std::vector<PixelMoments> columns(size(width)), here(size(width));
+        for (int j = rows.first; j <= rows.last; ++j)
+            for (int x = 0; x < width; ++x) {
+                const PixelMoments m = moments(x, j);
+                columns[size(x)] += m;
+                if (j == y) here[size(x)] = m;
+            }
+        Sums sums;
+        for (int x = 0; x < width; ++x) {
+            const Span across(x, 1, width);
+            sums += pixel(x, y, here[size(x)], sum_of(columns, across), rows.count() * across.count());
+        }
+        return sums;
+    }
+
+private:
+    PixelMoments moments(int x, int y) const {
+        const Channels means = channels(film_.mean(x, y)), independent = channels(film_.independent_variance(x, y));
+        PixelMoments m;
+        for (std::size_t c = 0; c < 3; ++c)
+            m[c] = {means[c], square(means[c]), evenness_[film_.index(x, y)] * independent[c]};
+        return m;
+    }
+
+    Sums pixel(int x, int y, const PixelMoments& here, const PixelMoments& around, int count) const {
+        const Channels variance = channels(film_.variance(x, y));
+        const Channels independent = channels(film_.independent_variance(x, y));
+        const double share = film_.largest_share(x, y);
+        Sums sums;
+        double own = 0, mean = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const TrueValue r = true_value(here[c], around[c], count, share);
+            const double error = variance[c] / (r.squared + kDarkness) / 3, noise = r.own * independent[c];
+            const double by_itself = variance[c] / (square(here[c].value) + kDarkness) / 3;
+            sums += {error, error * noise / (square(r.value) + noise + kDarkness),
+                     r.own * std::max(0.0, error - by_itself), 0};
+            own += r.own / 3;
+            mean += here[c].value / 3;
+        }
+        if (share > kSingle && square(mean) > kDarkness)
+            sums.not_found = sums.error * own * std::log(square(mean) / kDarkness) / 2;
+        errors_.error[film_.index(x, y)] = static_cast<float>(sums.error);
+        errors_.own[film_.index(x, y)] = static_cast<float>(own);
+        return sums;
+    }
+
+    const Film& film_;
+    const std::vector<float>& evenness_;
+    PixelErrors& errors_;
+};
+
+}  // namespace
+
+PixelErrors pixel_errors(const Film& film) {
+    const std::vector<float> even = evenness(film);
+    PixelErrors errors;
+    errors.error.resize(film.pixels());
+    errors.own.resize(film.pixels());
+    std::vector<Sums> rows(size(film.height()));
+    const Rows worker(film, even, errors);
+    for_each_row(film.height(), [&](int y) { rows[size(y)] = worker.row(y); });
+    Sums all;  // row by row, so that threads do not change the rounding
+    for (const Sums& row : rows) all += row;
+    errors.sum = all.error;
+    if (all.error > 0) {
+        errors.by_noise = all.by_noise / all.error;
+        errors.by_surround = all.by_surround / all.error;
+        errors.not_found = all.not_found / all.error;
+    }
+    return errors;
+}
+
+}  // namespace limn::tracing
