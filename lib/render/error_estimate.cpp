@@ -7,6 +7,7 @@
 
 #include "render/parallel.h"
 #include "render/pixel_errors.h"
+#include "render/window.h"
 
 namespace limn::tracing {
 
@@ -44,20 +45,14 @@ double equal_pixels(const Film& film, const PixelErrors& errors) {
     };
     std::vector<Sums> rows(static_cast<std::size_t>(height));
     for_each_row(height, [&](int y) {
-        const int top = std::max(0, y - kReach), bottom = std::min(height - 1, y + kReach);
-        std::vector<double> columns(static_cast<std::size_t>(width));
-        for (int j = top; j <= bottom; ++j)
-            for (int x = 0; x < width; ++x) columns[static_cast<std::size_t>(x)] += errors.error[film.index(x, j)];
-        for (int x = 0; x < width; ++x) {
-            const int left = std::max(0, x - kReach), right = std::min(width - 1, x + kReach);
-            const int others = (right - left + 1) * (bottom - top + 1) - 1;
-            const double error = errors.error[film.index(x, y)], own = others > 0 ? errors.own[film.index(x, y)] : 1;
-            double around = -error;
-            for (int i = left; i <= right; ++i) around += columns[static_cast<std::size_t>(i)];
-            const double squared = error * ((1 - own) * around / std::max(1, others) + own * error / 3);
-            rows[static_cast<std::size_t>(y)].squares += squared;
-            rows[static_cast<std::size_t>(y)].spread += square(squared);
-        }
+        Sums& row = rows[static_cast<std::size_t>(y)];
+        const auto error_at = [&](int i, int j) { return static_cast<double>(errors.error[film.index(i, j)]); };
+        for_each_window(width, height, y, kReach, error_at, [&](int x, double sum, int count) {
+            const double error = error_at(x, y), own = count > 1 ? errors.own[film.index(x, y)] : 1;
+            const double around = (sum - error) / std::max(1, count - 1);
+            const double squared = error * ((1 - own) * around + own * error / 3);
+            row.squares += squared, row.spread += square(squared);
+        });
     });
     Sums all;
     for (const Sums& row : rows) all.squares += row.squares, all.spread += row.spread;

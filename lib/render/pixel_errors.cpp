@@ -6,6 +6,7 @@
 
 #include "image/compare_values.h"
 #include "render/parallel.h"
+#include "render/window.h"
 
 namespace limn::tracing {
 
@@ -18,21 +19,6 @@ using Channels = std::array<double, 3>;
 Channels channels(const Color& c) { return {c.r, c.g, c.b}; }
 double square(double x) { return x * x; }
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
-
-// The pixels from `first` to `last` around `at`, as far as there are some.
-struct Span {
-    Span(int at, int reach, int length) : first(std::max(0, at - reach)), last(std::min(length - 1, at + reach)) {}
-    int count() const { return last - first + 1; }
-    int first, last;
-};
-
-// Sums over the columns of a window that moves along a row.
-template <class Value>
-Value sum_of(const std::vector<Value>& columns, const Span& span) {
-    Value sum{};
-    for (int i = span.first; i <= span.last; ++i) sum += columns[size(i)];
-    return sum;
-}
 
 // A pixel's variances, summed over the channels.
 struct Variances {
@@ -54,16 +40,12 @@ std::vector<float> evenness(const Film& film) {
     });
     std::vector<float> ratios(film.pixels());
     for_each_row(height, [&](int y) {
-        const Span rows(y, kEvennessReach, height);
-        std::vector<Variances> columns(size(width));
-        for (int j = rows.first; j <= rows.last; ++j)
-            for (int x = 0; x < width; ++x) columns[size(x)] += variances[film.index(x, j)];
-        for (int x = 0; x < width; ++x) {
-            const Variances around = sum_of(columns, Span(x, kEvennessReach, width));
+        const auto variances_at = [&](int i, int j) { return variances[film.index(i, j)]; };
+        for_each_window(width, height, y, kEvennessReach, variances_at, [&](int x, const Variances& around, int) {
             ratios[film.index(x, y)] = around.if_independent > around.by_replicates
                                            ? static_cast<float>(around.by_replicates / around.if_independent)
                                            : 1.0f;
-        }
+        });
     });
     return ratios;
 }
@@ -76,11 +58,13 @@ struct Moments {
         return *this;
     }
 };
-using PixelMoments = std::array<Moments, 3>;
-PixelMoments& operator+=(PixelMoments& a, const PixelMoments& b) {
-    for (std::size_t c = 0; c < 3; ++c) a[c] += b[c];
-    return a;
-}
+struct PixelMoments {
+    std::array<Moments, 3> channels;
+    PixelMoments& operator+=(const PixelMoments& o) {
+        for (std::size_t c = 0; c < 3; ++c) channels[c] += o.channels[c];
+        return *this;
+    }
+};
 
 // What a pixel's true value is judged to be, and its square; and to which part that is its own mean.
 struct TrueValue {
@@ -113,20 +97,10 @@ public:
         : film_(film), evenness_(evenness), errors_(errors) {}
 
     Sums row(int y) const {
-        const int width = film_.width();
-        const Span rows(y, 1, film_.height());
-        std::vector<PixelMoments> columns(size(width)), here(size(width));
-        for (int j = rows.first; j <= rows.last; ++j)
-            for (int x = 0; x < width; ++x) {
-                const PixelMoments m = moments(x, j);
-                columns[size(x)] += m;
-                if (j == y) here[size(x)] = m;
-            }
         Sums sums;
-        for (int x = 0; x < width; ++x) {
-            const Span across(x, 1, width);
-            sums += pixel(x, y, here[size(x)], sum_of(columns, across), rows.count() * across.count());
-        }
+        for_each_window(
+            film_.width(), film_.height(), y, 1, [this](int i, int j) { return moments(i, j); },
+            [&](int x, const PixelMoments& around, int count) { sums += pixel(x, y, around, count); });
         return sums;
     }
 
@@ -135,24 +109,25 @@ private:
         const Channels means = channels(film_.mean(x, y)), independent = channels(film_.independent_variance(x, y));
         PixelMoments m;
         for (std::size_t c = 0; c < 3; ++c)
-            m[c] = {means[c], square(means[c]), evenness_[film_.index(x, y)] * independent[c]};
+            m.channels[c] = {means[c], square(means[c]), evenness_[film_.index(x, y)] * independent[c]};
         return m;
     }
 
-    Sums pixel(int x, int y, const PixelMoments& here, const PixelMoments& around, int count) const {
+    Sums pixel(int x, int y, const PixelMoments& around, int count) const {
+        const PixelMoments here = moments(x, y);
         const Channels variance = channels(film_.variance(x, y));
         const Channels independent = channels(film_.independent_variance(x, y));
         const double share = film_.largest_share(x, y);
         Sums sums;
         double own = 0, mean = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const TrueValue r = true_value(here[c], around[c], count, share);
+            const TrueValue r = true_value(here.channels[c], around.channels[c], count, share);
             const double error = variance[c] / (r.squared + kDarkness) / 3, noise = r.own * independent[c];
-            const double by_itself = variance[c] / (square(here[c].value) + kDarkness) / 3;
+            const double by_itself = variance[c] / (square(here.channels[c].value) + kDarkness) / 3;
             sums += {error, error * noise / (square(r.value) + noise + kDarkness),
                      r.own * std::max(0.0, error - by_itself), 0};
             own += r.own / 3;
-            mean += here[c].value / 3;
+            mean += here.channels[c].value / 3;
         }
         if (share > kSingle && square(mean) > kDarkness)
             sums.not_found = sums.error * own * std::log(square(mean) / kDarkness) / 2;
