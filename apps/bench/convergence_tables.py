@@ -4,22 +4,10 @@ import statistics
 
 import convergence_numbers as numbers
 from reports import stamp
+from titles import SCENES
 
 ERRORS = (1e-2, 1e-3, 1e-4)
 GOAL = 0.5  # limn's seconds to relMSE 1e-3 over those of the best peer
-
-SCENES = {
-    "cornell-empty": "Cornell box, empty",
-    "cornell": "Cornell box (figure 15)",
-    "lamps": "lamps on grey stone (figure 12)",
-    "three-spheres": "three spheres (figure 13)",
-    "depth-of-field": "depth of field (figure 18)",
-    "still-spheres": "the bouncing spheres, still (figure 1)",
-    "smoke": "smoke in the Cornell box (figure 16)",
-    "mesh": "a mesh of 69312 triangles in the Cornell box",
-    "glass-mesh": "the same mesh of glass",
-    "many-lights": "200 small lights in the Cornell box",
-}
 
 
 def is_peer(key):

@@ -29,31 +29,26 @@ Figure fireflies() {
             .settings = {}};
 }
 
+// Beside those of the convergence report.
 struct Entry {
-    std::string name;
-    Figure (*figure)();  // null: of the convergence report
-    double finest;
+    const char* name;
+    Figure (*figure)();
 };
 
-// As fine as takes a few thousand samples a pixel.
-const std::vector<Entry>& entries() {
-    static const std::vector<Entry> all{
-        {"cornell-empty", nullptr, 1e-4},
-        {"cornell", nullptr, 1e-4},
-        {"lamps", nullptr, 1e-4},
-        {"three-spheres", nullptr, 1e-4},
-        {"depth-of-field", nullptr, 1e-4},
-        {"still-spheres", nullptr, 1e-4},
-        {"smoke", nullptr, 1e-4},
-        {"mesh", nullptr, 1e-4},
-        {"glass-mesh", nullptr, 1e-2},
-        {"many-lights", nullptr, 1e-4},
-        {"bouncing", [] { return figures::fig01_bouncing_spheres(); }, 1e-4},
-        {"glass", [] { return figures::fig13_dielectric(); }, 1e-4},
-        {"fireflies", fireflies, 1e-4},
-    };
-    return all;
+constexpr Entry kOthers[] = {
+    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }},
+    {"glass", [] { return figures::fig13_dielectric(); }},
+    {"fireflies", fireflies},
+};
+
+Figure figure_of(const std::string& name) {
+    for (const Entry& e : kOthers)
+        if (name == e.name) return e.figure();
+    return make_transport_scene(name);
 }
+
+// As fine as takes a few thousand samples a pixel.
+double finest_of(const std::string& name) { return name == "glass-mesh" ? 1e-2 : 1e-4; }
 
 RenderSettings settings_of(const Subject& subject, std::uint64_t seed) {
     return {.width = subject.size, .height = subject.size, .seed = seed, .threads = 1};
@@ -83,21 +78,17 @@ Image mean_of(const Image& a, const Image& b) {
 
 const std::vector<std::string>& subject_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const Entry& e : entries()) all.push_back(e.name);
+        std::vector<std::string> all = transport_scene_names();
+        for (const Entry& e : kOthers) all.push_back(e.name);
         return all;
     }();
     return names;
 }
 
 Subject subject_of(const std::string& name) {
-    for (const Entry& e : entries()) {
-        if (name != e.name) continue;
-        Figure figure = e.figure ? e.figure() : make_transport_scene(name);
-        figure.camera.aspect_ratio.reset();
-        return {.name = name, .scene = compile(figure.scene), .camera = figure.camera, .finest = e.finest};
-    }
-    throw ArgumentError("there is no scene " + name);
+    Figure figure = figure_of(name);
+    figure.camera.aspect_ratio.reset();
+    return {.name = name, .scene = compile(figure.scene), .camera = figure.camera, .finest = finest_of(name)};
 }
 
 void render_reference(Subject& subject) {
@@ -135,9 +126,9 @@ Known known_at_stop(const Subject& subject, double target, std::uint64_t seed, b
         }
         known.fewest = high;
     }
-    constexpr std::uint64_t kOthers = 1 << 20;  // seeds that nothing else has
+    constexpr std::uint64_t kOtherSeeds = 1 << 20;  // that nothing else has
     known.halves =
-        error_of(subject, mean_of(image_of(stop / 2, seed + kOthers), image_of(stop / 2, seed + 2 * kOthers)));
+        error_of(subject, mean_of(image_of(stop / 2, seed + kOtherSeeds), image_of(stop / 2, seed + 2 * kOtherSeeds)));
     return known;
 }
 

@@ -10,14 +10,11 @@ import subprocess
 
 from machine import ROOT
 from reports import origin, stamp, write
+from titles import SCENES
 
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/promise"
-TITLES = {"cornell-empty": "Cornell box, empty", "cornell": "Cornell box (figure 15)", "lamps": "lamps on grey stone",
-          "three-spheres": "three spheres", "depth-of-field": "depth of field", "still-spheres": "still spheres",
-          "smoke": "smoke (figure 16)", "mesh": "mesh in the Cornell box", "glass-mesh": "the same mesh of glass",
-          "many-lights": "200 small lights", "bouncing": "bouncing spheres (figure 1)", "glass": "glass (figure 13)",
-          "fireflies": "fireflies"}
+TITLES = {**SCENES, "bouncing": "bouncing spheres (figure 1)", "glass": "glass (figure 13)", "fireflies": "fireflies"}
 
 
 def lower_bound(part, whole):

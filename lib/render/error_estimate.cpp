@@ -74,8 +74,8 @@ ErrorEstimate without(const std::string& reason) {
 double most_not_found(double samples) { return samples < 16 ? 0.2 : 3; }
 
 ErrorEstimate estimate(const Film& film, PixelMaps* maps) {
-    if (film.fewest_samples() < kFirstCheck)
-        return without("fewer than " + std::to_string(kFirstCheck) + " samples in a pixel");
+    if (film.fewest_samples() < kFirstPass)
+        return without("fewer than " + std::to_string(kFirstPass) + " samples in a pixel");
     PixelErrors errors = pixel_errors(film);
     if (!std::isfinite(errors.sum)) return without("samples too large for their squares");
     if (errors.not_found > most_not_found(film.mean_samples()))

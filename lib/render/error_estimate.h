@@ -6,9 +6,6 @@
 
 namespace limn::tracing {
 
-// From so many samples a pixel on there is an estimate, and the film is asked whether its error is little enough.
-inline constexpr int kFirstCheck = 8;
-
 // The estimate of the picture's relMSE, its interval and max_sample_share; on the threads of the caller's arena, the
 // same on any number of them. `maps`, if given, gets each pixel's part.
 ErrorEstimate estimate_error(const Film& film, PixelMaps* maps = nullptr);

@@ -11,6 +11,9 @@
 namespace limn::tracing {
 
 inline constexpr int kReplicates = 2;
+// Samples of each pixel in the first pass of a render. From so many on there is an estimate of the error, and they tell
+// adaptive sampling how noisy the pixels are.
+inline constexpr int kFirstPass = 8;
 
 // Sample i of a pixel belongs to replicate i mod 2. Each pixel has one owner at a time and gets its samples in order,
 // so that the sums, in double, do not depend on threads.

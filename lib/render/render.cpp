@@ -63,12 +63,11 @@ public:
     void run() {
         report(true);
         // Without a target there is never a check.
-        int done = 0, check = settings_.error ? tracing::kFirstCheck : most_samples_;
-        for (int pass = tracing::kFirstCheck; done < most_samples_ && !ended();
+        int done = 0, check = settings_.error ? tracing::kFirstPass : most_samples_;
+        for (int pass = tracing::kFirstPass; done < most_samples_ && !ended();
              pass = std::min(2 * pass, kLargestPass)) {
-            const int stop = adaptive_ && done < tracing::kPilot ? tracing::kPilot : check;
-            done = std::min({done + pass, stop, most_samples_});
-            if (adaptive_ && rates_.empty() && done > tracing::kPilot) rates_ = tracing::sample_rates(film_);
+            done = std::min({done + pass, check, most_samples_});
+            if (adaptive_ && rates_.empty() && done > tracing::kFirstPass) rates_ = tracing::sample_rates(film_);
             if (!rates_.empty()) plan_ = tracing::plan_samples(film_, rates_, done);
             render_pass(done);
             if (done == check && settings_.error && !ended()) check = check_error(done);
@@ -113,7 +112,7 @@ private:
         tracing::for_each_index(tiles, context_, [&](std::size_t tile) {
             if (interrupted_) return;
             // The first pass is for all pixels, whatever it takes, so that there is a picture and an estimate.
-            if (settings_.time_limit && target > tracing::kFirstCheck && seconds() >= *settings_.time_limit)
+            if (settings_.time_limit && target > tracing::kFirstPass && seconds() >= *settings_.time_limit)
                 timed_out_ = true;
             if (timed_out_) return;
             const auto across = static_cast<std::size_t>(columns);
@@ -227,7 +226,7 @@ private:
     tbb::task_group_context context_;
     std::atomic<bool> interrupted_ = false, timed_out_ = false;
     bool reached_ = false, finished_ = false;
-    double samples_needed_ = 128 * tracing::kFirstCheck;  // a guess before the first check
+    double samples_needed_ = 128 * tracing::kFirstPass;  // a guess before the first check
     std::atomic<std::uint64_t> rays_ = 0, unusable_rays_ = 0, nonfinite_ = 0, samples_done_ = 0;
     std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
     double last_report_ = 0, last_fraction_ = 0;

@@ -9,9 +9,7 @@
 
 namespace limn::tracing {
 
-// So many samples a pixel, the same in all, tell how noisy the pixels are.
-inline constexpr int kPilot = 8;
-// Of the mean. What the pilot has not seen is still found, at worst with four times the variance.
+// Of the mean. What the first pass has not seen is still found, at worst with four times the variance.
 inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 
 // Samples of each pixel, row by row, in multiples of their mean over the picture.
@@ -22,7 +20,8 @@ inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 // samples a pixel gets is independent of them, but for the one factor that all share, so that its mean stays unbiased,
 // and so does what its replicates say of its variance. (Weighing by the rays that a sample takes, too, gained nothing.)
 //
-// \pre the film has kPilot samples in each pixel. Runs on the threads of the caller's arena, the same on any number.
+// \pre the film has kFirstPass samples in each pixel. Runs on the threads of the caller's arena, the same on any
+// number.
 std::vector<float> sample_rates(const Film& film);
 
 // How many samples each pixel is to have when the mean is `target`, which it then is exactly: never fewer than it has,

@@ -16,14 +16,14 @@ using tracing::Film;
 
 namespace {
 
-// kPilot samples a pixel, whose standard deviation is `noise(x, y)`.
+// kFirstPass samples a pixel, whose standard deviation is `noise(x, y)`.
 template <class Noise>
 Film piloted(int width, int height, const Noise& noise, std::uint64_t seed = 1) {
     Film film(width, height);
     Random random(seed);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            for (int i = 0; i < tracing::kPilot; ++i) {
+            for (int i = 0; i < tracing::kFirstPass; ++i) {
                 const double value = 1 + noise(x, y) * std::sqrt(3.0) * (2 * random.uniform() - 1);
                 film.add(x, y, {value, value, value});
             }
@@ -79,7 +79,7 @@ TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[re
     const auto even = [](int, int) { return 0.15; };
     const std::vector<float> before = tracing::sample_rates(piloted(15, 15, even));
     Film film = piloted(15, 15, even);
-    for (int i = 0; i < tracing::kPilot; ++i) film.add(7, 7, Color{1, 1, 1} * (i == 0 ? 1e4 : 1));
+    for (int i = 0; i < tracing::kFirstPass; ++i) film.add(7, 7, Color{1, 1, 1} * (i == 0 ? 1e4 : 1));
     const std::vector<float> after = tracing::sample_rates(film);
     // All of the others share one factor, that of the mean, which the pixels around it have moved.
     const auto noise = [](float rate) { return rate - tracing::kSmallestRate; };
