@@ -10,7 +10,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
-       ./build.sh fuzz [load_image] [load_obj] [--seconds N]
+       ./build.sh fuzz [load_film] [load_image] [load_obj] [read_rays] [--seconds N]
        ./build.sh release [--renew]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
@@ -23,7 +23,10 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
                --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
-  fuzz         the readers of pictures and models on damaged files, half an hour each
+  fuzz         the readers of films, pictures, models and rays on damaged files, half an hour each
+  films        what checkpoints cost, how even shards are, how long a merge takes: docs/long-renders.md
+  faults       killed renders, full disks, damaged films: docs/long-renders.md
+  cluster      a render on a Slurm of two nodes here, one of which is lost: docs/long-renders.md (installs Slurm; root)
   mutants      faults that the suite must catch: docs/mutants.md
   docs         the API reference: build/docs/html/index.html
   release      whether all reports are of these sources, and claims true; --renew makes those anew that are not
@@ -55,7 +58,7 @@ install_missing() {
 
 # Compiler, what the libraries link and what the programs need.
 program_packages=(
-    g++ cmake ninja-build libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev
+    g++ cmake ninja-build libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev libxxhash-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev xplanet-images)
 
 # And what the suite needs: the default targets are all of these.
@@ -96,7 +99,7 @@ fuzz() {
     local targets=() seconds=1800 target failed=0
     while [[ $# -gt 0 ]]; do
         case $1 in
-            load_image | load_obj) targets+=("$1") ;;
+            load_film | load_image | load_obj | read_rays) targets+=("$1") ;;
             --seconds)
                 [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
                 seconds=$2
@@ -106,7 +109,7 @@ fuzz() {
         esac
         shift
     done
-    [[ ${#targets[@]} -gt 0 ]] || targets=(load_image load_obj)
+    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_image load_obj read_rays)
     install_needs
     install_missing clang-14 libclang-rt-14-dev
     for target in "${targets[@]}"; do
@@ -193,6 +196,21 @@ case $command in
         install_needs
         install_missing ccache
         /usr/bin/python3 tests/mutants/run.py "${full[@]}"
+        ;;
+    films | faults | cluster)
+        build
+        install_missing python3 python3-numpy python3-openimageio
+        case $command in
+            films) /usr/bin/python3 -B apps/bench/films.py ;;
+            faults)
+                install_missing faketime
+                /usr/bin/python3 -B tests/faults/run.py
+                ;;
+            cluster)
+                install_missing slurm-wlm
+                as_root env PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 tests/cluster/run.py
+                ;;
+        esac
         ;;
     fuzz) fuzz "${others[@]}" ;;
     docs) docs ;;

@@ -5,8 +5,8 @@
 #include "bench/transport_scenes.h"
 #include "parse.h"
 #include "program.h"
-#include "render_job.h"
 #include "render_options.h"
+#include "render_task.h"
 #include "text_file.h"
 
 namespace {
@@ -45,9 +45,9 @@ int transport_main(int argc, char** argv) {
         app::write_text(description, app::json_text(bench::describe_scene(figure)));
         return app::kDone;
     }
-    if (options.outputs.empty()) options.outputs = {scene + ".exr"};
-    const app::RenderJob job{.make = [&] { return bench::make_transport_scene(scene); }, .inputs = {}};
-    return app::run_render_job(job, options, {.program = "limn_transport", .quiet = options.quiet});
+    app::check_together(options, {scene + ".exr"});
+    const app::RenderTask task{.make = [&] { return bench::make_transport_scene(scene); }, .inputs = {}};
+    return app::run_render_task(task, options, {.program = "limn_transport", .quiet = options.quiet});
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include "options.h"
 #include "parse.h"
 #include "program.h"
-#include "render_job.h"
 #include "render_options.h"
+#include "render_task.h"
 
 namespace limn {
 
@@ -59,10 +59,10 @@ int figure_main(int argc, char** argv, std::string_view name, const std::functio
             }
         };
         if (!command.parse(argc, argv, state)) return app::kDone;
-        if (options.outputs.empty()) options.outputs = {exr, png};
+        app::check_together(options, {exr, png});
 
-        const app::RenderJob job{.make = [&] { return make(inputs); }, .inputs = {inputs.texture}};
-        return app::run_render_job(job, options, {.program = program, .quiet = options.quiet});
+        const app::RenderTask task{.make = [&] { return make(inputs); }, .inputs = {inputs.texture}};
+        return app::run_render_task(task, options, {.program = program, .quiet = options.quiet});
     });
 }
 

@@ -87,7 +87,9 @@ void Options::add(const Option& o, Use use) {
     CLI::Option* const option = parser_->app.add_option(o.name, take, described(o.help, o.preset));
     option->type_name(o.value)->required(o.required)->group(o.group);
     if (o.repeatable) option->expected(1, CLI::detail::expected_max_vector_size);
-    option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+    // One value after each -o, but any number of arguments.
+    const bool is_argument = !o.name.starts_with('-');
+    option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(o.repeatable && is_argument);
     parser_->keep(o.name, option, o.help);
 }
 
@@ -97,13 +99,6 @@ void Options::add_flag(const std::string& name, bool& value, const std::string& 
                       ->disable_flag_override()
                       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast),
                   help);
-}
-
-void Options::reserve(const std::string& name) {
-    const auto refuse = [name](const CLI::results_t&) -> bool {
-        throw ArgumentError(name + ": this option is reserved and not available in this version");
-    };
-    parser_->app.add_option(name, refuse)->expected(0, 1)->group("");
 }
 
 void Options::preset(const std::string& name, const std::string& text) {

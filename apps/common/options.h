@@ -38,8 +38,6 @@ public:
     void add(const Option& option, Use use);
     /// An option without a value. `value` must outlive the parsing.
     void add_flag(const std::string& name, bool& value, const std::string& help);
-    /// A name for later versions: refused as such, and not in --help.
-    void reserve(const std::string& name);
     /// Replaces what --help says of the case without the option.
     void preset(const std::string& name, const std::string& text);
 

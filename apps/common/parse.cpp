@@ -51,6 +51,12 @@ double parse_number(std::string_view option, std::string_view text) {
     return value;
 }
 
+double parse_positive(std::string_view option, std::string_view text) {
+    const double value = parse_number(option, text);
+    if (!(value > 0)) refuse(option, text, "must be over 0");
+    return value;
+}
+
 std::array<double, 3> parse_triple(std::string_view option, std::string_view text) {
     std::array<double, 3> values{};
     std::string_view rest = text;
@@ -78,6 +84,23 @@ Size parse_size(std::string_view option, std::string_view text) {
         }
     };
     return {side(text.substr(0, x)), side(text.substr(x + 1))};
+}
+
+std::string command_line(int argc, const char* const* argv) {
+    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+    std::string line;
+    for (int i = 0; i < argc; ++i) {
+        if (i > 0) line += ' ';
+        const std::string word = argv[i];
+        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
 }
 
 }  // namespace limn::app

@@ -38,6 +38,8 @@ Use file_names(std::string option, std::vector<std::string>& paths);
 Use picture_names(std::string option, std::vector<std::string>& paths);
 
 double parse_number(std::string_view option, std::string_view text);
+/// Over 0.
+double parse_positive(std::string_view option, std::string_view text);
 
 /// Three numbers with commas between them.
 std::array<double, 3> parse_triple(std::string_view option, std::string_view text);
@@ -47,5 +49,8 @@ struct Size {
 };
 /// WIDTHxHEIGHT in pixels.
 Size parse_size(std::string_view option, std::string_view text);
+
+/// The arguments as one line that a shell would read back.
+std::string command_line(int argc, const char* const* argv);
 
 }  // namespace limn::app

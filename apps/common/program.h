@@ -13,6 +13,7 @@ namespace limn::app {
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;        ///< something is wrong in files, memory or environment
 inline constexpr int kBadArguments = 2;  ///< something is wrong in the arguments alone
+inline constexpr int kUnfinished = 3;    ///< limn merge: another round is to be rendered
 
 /// Speaks on stderr, each line with the program's name before it.
 struct Console {

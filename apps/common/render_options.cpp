@@ -17,12 +17,6 @@ constexpr int kMostThreads = 1024;
 // Stands for what only the scene can tell: see state_presets.
 constexpr const char* kOfScene = "the scene's own";
 
-double parse_positive(const char* option, const std::string& text) {
-    const double value = parse_number(option, text);
-    if (!(value > 0)) refuse(option, text, "must be over 0");
-    return value;
-}
-
 void add_numbers(Options& options, RenderOptions& o) {
     options.add({.name = "--size", .value = "WxH", .help = "Size in pixels", .preset = kOfScene},
                 [&o](const std::string& s) { o.size = parse_size("--size", s); });
@@ -80,18 +74,30 @@ void add_numbers(Options& options, RenderOptions& o) {
                 });
 }
 
-// Names of channels with commas between them, each once.
-std::vector<std::string> parse_channels(const std::string& text) {
-    std::vector<std::string> names;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string name = text.substr(begin, end - begin);
-        if (name != "error" && name != "samples") refuse("--channels", text, "must be error, samples or error,samples");
-        if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
-        names.push_back(name);
-        begin = end + 1;
-    }
-    return names;
+Shard parse_shard(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos) refuse("--shard", text, "is not of the form I/N");
+    const int count = parse_integer("--shard", std::string_view(text).substr(slash + 1), 1, 1 << 24);
+    return {.index = parse_integer("--shard", std::string_view(text).substr(0, slash), 1, count), .count = count};
+}
+
+void add_films(Options& options, RenderOptions& o) {
+    const auto add = [&options](const char* name, const char* value, const char* help, const char* preset,
+                                const Use& use) {
+        options.add({.name = name, .value = value, .help = help, .preset = preset, .group = "Long renders"}, use);
+    };
+    add("--checkpoint", "FILE", "Save the film again and again, and at the end", "none",
+        file_name("--checkpoint", o.checkpoint));
+    add("--every", "SECONDS", "Between two checkpoints", "60",
+        [&o](const std::string& s) { o.every = parse_positive("--every", s); });
+    add("--resume", "FILE",
+        "Go on from a film of this render; threads, outputs, --spp, --error and --time-limit may be others. If the "
+        "same "
+        "file is written, it need not be there yet",
+        "none", file_name("--resume", o.resume));
+    add("--shard", "I/N", "Render one part of N, 1 to N, with --film; limn merge brings them together", "1/1",
+        [&o](const std::string& s) { o.shard = parse_shard(s); });
+    add("--plan", "FILE", "Render as many samples as limn merge --plan wants", "none", file_name("--plan", o.plan));
 }
 
 void add_camera(Options& options, CameraOptions& o) {
@@ -145,32 +151,29 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
 }  // namespace
 
 void add_render_options(Options& options, RenderOptions& o, const std::string& outputs) {
-    options.add({.name = "-o,--output",
-                 .value = "FILE",
-                 .help = "A picture to write, .exr or .png; may be repeated",
-                 .preset = outputs,
-                 .required = outputs.empty(),
-                 .repeatable = true},
-                picture_names("-o", o.outputs));
+    add_picture_options(options, o, outputs);
     add_numbers(options, o);
     options.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
-    options.add(
-        {.name = "--channels",
-         .value = "error,samples",
-         .help = "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples "
-                 "it has",
-         .preset = "none"},
-        [&o](const std::string& s) { o.channels = parse_channels(s); });
-    options.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
-    options.add({.name = "--report",
-                 .value = "FILE.json",
-                 .help = "Write what was done and how well as JSON; - for standard output",
-                 .preset = "none"},
-                file_name("--report", o.report));
-    options.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    add_films(options, o);
     add_camera(options, o.camera);
-    // Refused, so that no script comes to rely on their absence.
-    for (const char* name : {"--shard", "--checkpoint", "--resume"}) options.reserve(name);
+}
+
+void check_together(RenderOptions& o, const std::vector<std::string>& outputs) {
+    const auto require = [](bool holds, const char* what) {
+        if (!holds) throw ArgumentError(what);
+    };
+    const bool is_part = o.shard && o.shard->count > 1;
+    require(!o.every || !o.checkpoint.empty(), "--every: there is no --checkpoint");
+    require(!is_part || !o.film.empty() || !o.checkpoint.empty(),
+            "--shard: needs --film or --checkpoint, for a part of a picture is no picture");
+    require(!is_part || o.outputs.empty(), "--shard: a part of a picture cannot be written by -o; see limn merge");
+    require(!is_part || (!o.error && !o.time_limit),
+            "--shard: goes with --spp or --plan; what the error is, limn merge knows");
+    require(o.plan.empty() || (!o.error && !o.time_limit && !o.samples_per_pixel),
+            "--plan: says how many samples, and so do --spp, --error and --time-limit");
+    if (is_part) return;
+    if (o.outputs.empty() && o.film.empty()) o.outputs = outputs;
+    require(!o.outputs.empty() || !o.film.empty(), "-o is missing: nothing would be written");
 }
 
 void state_presets(Options& options, const Figure& figure) {
@@ -204,6 +207,7 @@ void apply(const RenderOptions& o, Figure& figure) {
     if (o.error) settings.error = o.error;
     if (o.time_limit) settings.time_limit = o.time_limit;
     if (o.uniform) settings.uniform = true;
+    replace(settings.shard, o.shard);
     replace(settings.seed, o.seed);
     replace(settings.threads, o.threads);
     replace(settings.max_depth, o.max_depth);
@@ -216,6 +220,7 @@ void apply(const RenderOptions& o, Figure& figure) {
 std::vector<std::string> RenderOptions::all_outputs() const {
     std::vector<std::string> all = outputs;
     if (!report.empty()) all.push_back(report);
+    if (!film.empty()) all.push_back(film);
     return all;
 }
 
@@ -225,23 +230,6 @@ void check_camera_alone(const CameraOptions& o) {
     Camera camera;
     replace_camera(camera, o);
     CameraRays(camera, 1, 1);
-}
-
-std::string command_line(int argc, const char* const* argv) {
-    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-    std::string line;
-    for (int i = 0; i < argc; ++i) {
-        if (i > 0) line += ' ';
-        const std::string word = argv[i];
-        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-            line += word;
-            continue;
-        }
-        line += '\'';
-        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += '\'';
-    }
-    return line;
 }
 
 }  // namespace limn::app

@@ -65,8 +65,7 @@ std::string report_json(const RenderResult& result, double save_seconds) {
     return json_text(json);
 }
 
-std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result,
-                                                               const RenderSettings& settings,
+std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result, const FilmInfo& info,
                                                                const std::string& command_line) {
     const RenderReport& r = result.report;
     const ErrorEstimate& e = result.error;
@@ -78,9 +77,9 @@ std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResul
         {"seed", text(r.seed)},
         {"spp", text(r.samples_per_pixel)},
         {"max_depth", r.max_depth == kUnlimitedDepth ? "unlimited" : text(r.max_depth)},
-        {"antialias", settings.antialias ? "yes" : "no"},
-        {"estimator", settings.estimator == Estimator::path ? "path" : "naive"},
-        {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
+        {"antialias", info.antialias ? "yes" : "no"},
+        {"estimator", info.estimator == Estimator::path ? "path" : "naive"},
+        {"sampler", info.sampler == SamplerKind::sobol ? "sobol" : "independent"},
         {"seconds.compile", text(r.compile_seconds)},
         {"seconds.render", text(r.render_seconds)},
         {"error.metric", kMetric},

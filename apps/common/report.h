@@ -14,8 +14,7 @@ namespace limn::app {
 std::string report_json(const RenderResult& result, double save_seconds);
 
 /// The same under the same names as far as it is known before saving, and how the picture was made.
-std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result,
-                                                               const RenderSettings& settings,
+std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result, const FilmInfo& info,
                                                                const std::string& command_line);
 
 }  // namespace limn::app

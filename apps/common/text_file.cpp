@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "limn/core/error.h"
-#include "limn/io/files.h"
+#include "limn/core/files.h"
 
 namespace limn::app {
 

@@ -6,6 +6,7 @@ namespace limn::app {
 
 int render_command(int argc, const char* const* argv);
 int compare_command(int argc, const char* const* argv);
+int merge_command(int argc, const char* const* argv);
 int info_command(int argc, const char* const* argv);
 int trace_command(int argc, const char* const* argv);
 int bench_command(int argc, const char* const* argv);

@@ -8,6 +8,7 @@
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
 #include "limn/io/obj.h"
+#include "limn/render/film.h"
 #include "limn/shape/mesh_edges.h"
 #include "parse.h"
 #include "program.h"
@@ -111,8 +112,47 @@ Description describe_image(const std::string& path) {
     return d;
 }
 
+// All of the film is read, so that this tells whether it is whole.
+Description describe_film(const std::string& path) {
+    const Film film = Film::load(path);
+    const FilmInfo& info = film.info();
+    const Film::Counts counts = film.counts();
+    const std::string shard = fmt::format("{}/{}", info.shard.index, info.shard.count);
+
+    Description d;
+    const auto row = [&d](const char* name, const auto& value) {
+        d.table += table_row(name, fmt::format("{}", value));
+    };
+    row("film of", info.scene);
+    row("size", fmt::format("{} x {}", info.width, info.height));
+    row("shard", shard);
+    row("samples a pixel", film.mean_samples());
+    row("finished", yes_or_no(film.is_finished()));
+    row("adaptive", yes_or_no(!film.plan().rates.empty()));
+    row("seed", info.seed);
+    row("rays", counts.rays);
+    row("seconds", film.seconds());
+    row("bound to its program", yes_or_no(info.program != Hash128{}));
+
+    d.json = {{"file", path},
+              {"kind", "film"},
+              {"scene", info.scene},
+              {"width", info.width},
+              {"height", info.height},
+              {"shard", shard},
+              {"spp", film.mean_samples()},
+              {"finished", film.is_finished()},
+              {"adaptive", !film.plan().rates.empty()},
+              {"seed", info.seed},
+              {"rays", counts.rays},
+              {"seconds", film.seconds()},
+              {"bound_to_its_program", info.program != Hash128{}}};
+    return d;
+}
+
 // A model first, for which no library of images is loaded.
 Description describe(const std::string& path) {
+    if (is_film_file(path)) return describe_film(path);
     try {
         return describe_model(path);
     } catch (const FileError& no_model) {
@@ -131,12 +171,13 @@ Description describe(const std::string& path) {
 int info_command(int argc, const char* const* argv) {
     Options options(
         "limn info",
-        "Prints what a model holds (a Wavefront OBJ), or an image: its size, channels and the facts of the render that "
-        "made it. The contents tell which of them a file is, whatever its name.",
+        "Prints what a model holds (a Wavefront OBJ), a film, or an image: its size, channels and the facts of the "
+        "render that made it. The contents tell which of them a file is, whatever its name.",
         "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "
         "is\nclosed. Vertices at the same place count as one there, and triangles without an area are left out.");
     std::string file;
-    options.add({.name = "FILE", .value = "", .help = "The model or image", .required = true}, file_name("FILE", file));
+    options.add({.name = "FILE", .value = "", .help = "The model, film or image", .required = true},
+                file_name("FILE", file));
     JsonOption json_option(options);
     if (!options.parse(argc, argv)) return kDone;
     json_option.check({file});

@@ -16,8 +16,9 @@ namespace {
 // After a message, on lines of its own.
 constexpr std::string_view kUsage =
     "\nusage: limn render MODEL.obj -o OUT.exr [options]    render a model\n"
+    "       limn merge FILM ... -o OUT.exr [options]      one picture from films of its parts\n"
     "       limn compare TEST REF [REF_B] [options]       the error between two images\n"
-    "       limn info FILE [--json FILE]                  what a model or an image holds\n"
+    "       limn info FILE [--json FILE]                  what a model, a film or an image holds\n"
     "       limn trace MODEL.obj [options]                which face each ray hits: text or float64 in and out\n"
     "       limn bench [MODEL.obj ...] [options]          rays a second here, beside Embree where it is there\n"
     "       limn help COMMAND                             the options of a command; limn COMMAND --help too\n"
@@ -27,18 +28,12 @@ struct Command {
     std::string name;
     int (*run)(int argc, const char* const* argv);
 };
-const std::vector<Command> kCommands{{"render", render_command},
-                                     {"compare", compare_command},
-                                     {"info", info_command},
-                                     {"trace", trace_command},
-                                     {"bench", bench_command}};
-constexpr std::string_view kReserved[] = {"merge"};
+const std::vector<Command> kCommands{{"render", render_command}, {"merge", merge_command}, {"compare", compare_command},
+                                     {"info", info_command},     {"trace", trace_command}, {"bench", bench_command}};
 
 const Command& find_command(const std::string& name) {
     for (const Command& command : kCommands)
         if (command.name == name) return command;
-    for (const std::string_view reserved : kReserved)
-        if (name == reserved) throw ArgumentError(name + ": this command is not available in this version");
     std::vector<std::string> words{"help", "--help", "--version"};
     for (const Command& command : kCommands) words.push_back(command.name);
     throw ArgumentError("'" + name + "' is not a command" + did_you_mean(name, words) + std::string(kUsage));

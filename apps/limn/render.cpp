@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "limn/io/obj.h"
 #include "parse.h"
-#include "render_job.h"
+#include "render_task.h"
 #include "text_file.h"
 #include "viewing_scene.h"
 
@@ -45,10 +45,11 @@ int render_command(int argc, const char* const* argv) {
     command.preset("--look-from", "the front right of the model, all of which is seen");
     command.preset("--look-at", "the middle of the model");
     if (!command.parse(argc, argv)) return kDone;
+    check_together(options);
 
     const Console console{.program = "limn", .quiet = options.quiet};
-    const RenderJob job{.make = [&] { return view_of(model, options, console); }, .inputs = {model}};
-    return run_render_job(job, options, console);
+    const RenderTask task{.make = [&] { return view_of(model, options, console); }, .inputs = {model}};
+    return run_render_task(task, options, console);
 }
 
 }  // namespace limn::app

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "limn/core/tagged.h"
 #include "limn/records.h"
 
 namespace limn {
@@ -44,6 +45,9 @@ public:
     /// A group that instances and media refer to: `fill` writes its shapes, the first time only.
     /// \throws ArgumentError if an object contains itself
     GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
+
+    /// What a user-defined object, which foreign records call, is; null: it does not tell.
+    void identify(const Tagged* object);
 
     /// Around the description of an object that contains others.
     /// \throws ArgumentError if it is being described already

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "limn/core/box.h"
@@ -117,8 +118,8 @@ static_assert(sizeof(QuadRecord) == 80);
 
 /// Arrays that the mesh's owner shares.
 struct MeshRecord {
-    MeshView arrays;                    ///< valid as long as the owner
-    std::vector<MaterialId> materials;  ///< by slot; at least one
+    MeshView arrays;                      ///< valid as long as the owner
+    std::vector<MaterialId> materials;    ///< by slot; at least one
     std::shared_ptr<const void> owner{};  ///< of the arrays; RecordSink::mesh sets it
 };
 
@@ -200,6 +201,8 @@ struct SceneRecords {
 
     std::vector<GroupRecord> groups = std::vector<GroupRecord>(1);  ///< row 0 is the scene itself
     std::vector<std::shared_ptr<const void>> kept;                  ///< owners of what the records point to
+    std::vector<std::string> tags;  ///< of user-defined objects, in the order of description
+    bool untagged = false;          ///< whether there are such objects without one
 };
 
 }  // namespace limn

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "compile/digest.h"
 #include "compile/groups.h"
 #include "compile/lights.h"
 #include "core/plane_normal.h"
@@ -214,6 +215,8 @@ flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
         out.first_of_object.push_back(sink.primitives());
         object->lower(sink);
     }
+    out.digest = digest(sink.records(), scene.background);
+    out.untagged = sink.records().untagged;
     move_tables(std::move(sink).take(), out);
     if (!out.foreign.empty())  // their records point into the described objects
         for (const auto& object : scene.objects()) out.kept.push_back(object);

@@ -16,6 +16,7 @@
 #include "flat/tree.h"
 #include "limn/core/box.h"
 #include "limn/core/color.h"
+#include "limn/core/hash128.h"
 #include "limn/core/math.h"
 #include "limn/records.h"
 
@@ -130,6 +131,8 @@ struct Scene {
     Features features;
     unsigned kinds = 0;  // of primitives in the trees: bit 1 << PrimitiveKind
     std::string feature_names;
+    Hash128 digest{};       // of what was compiled
+    bool untagged = false;  // it has user-defined objects that the digest does not know
     std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
     std::size_t unassigned = 0;  // stored primitives without a material
     std::size_t memory_bytes = 0;

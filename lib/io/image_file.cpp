@@ -6,11 +6,11 @@
 #include <new>
 #include <type_traits>
 
+#include "core/read_file.h"
+#include "core/replace_file.h"
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
 #include "io/image_codec.h"
-#include "io/read_file.h"
-#include "io/replace_file.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
 

@@ -2,11 +2,11 @@
 
 #include <iterator>
 
+#include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/obj_materials.h"
 #include "io/obj_mesh.h"
 #include "io/obj_parse.h"
-#include "io/read_file.h"
 #include "limn/core/error.h"
 #include "limn/material/lambertian.h"
 

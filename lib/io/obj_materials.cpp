@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
+#include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/mtl.h"
-#include "io/read_file.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"

@@ -13,7 +13,8 @@ constexpr MaterialThunks kVirtualCalls{
 
 }  // namespace
 
-MaterialRecord Material::lower(RecordSink&) const {
+MaterialRecord Material::lower(RecordSink& sink) const {
+    sink.identify(dynamic_cast<const Tagged*>(this));
     MaterialRecord record;
     record.kind = MaterialKind::foreign;
     record.object = this;

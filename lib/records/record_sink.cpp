@@ -116,6 +116,13 @@ GroupId RecordSink::group(const std::shared_ptr<const void>& object, const std::
     return id;
 }
 
+void RecordSink::identify(const Tagged* object) {
+    if (object)
+        records_.tags.push_back(object->tag());
+    else
+        records_.untagged = true;
+}
+
 void RecordSink::enter(const void* object) {
     if (!entered_.insert(object).second) throw ArgumentError("scene: an object contains itself");
 }

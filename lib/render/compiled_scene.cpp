@@ -151,6 +151,8 @@ Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
 
 const std::string& CompiledScene::features() const { return scene_->feature_names; }
 const std::string& CompiledScene::name() const { return scene_->name; }
+const Hash128& CompiledScene::digest() const { return scene_->digest; }
+bool CompiledScene::has_untagged() const { return scene_->untagged; }
 
 CompiledScene compile(const Scene& scene, const CompileSettings& settings) {
     const FloatEnvironment environment;

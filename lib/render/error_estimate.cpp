@@ -74,8 +74,9 @@ ErrorEstimate without(const std::string& reason) {
 double most_not_found(double samples) { return samples < 16 ? 0.2 : 3; }
 
 ErrorEstimate estimate(const Film& film, PixelMaps* maps) {
-    if (film.fewest_samples() < kFirstPass)
-        return without("fewer than " + std::to_string(kFirstPass) + " samples in a pixel");
+    if (!film.is_whole()) return without("only some of the picture's pixels are rendered");
+    if (film.fewest_samples() < SamplePlan::kFirstPass)
+        return without("fewer than " + std::to_string(SamplePlan::kFirstPass) + " samples in a pixel");
     PixelErrors errors = pixel_errors(film);
     if (!std::isfinite(errors.sum)) return without("samples too large for their squares");
     if (errors.not_found > most_not_found(film.mean_samples()))
@@ -111,13 +112,47 @@ ErrorEstimate estimate_error(const Film& film, PixelMaps* maps) {
     return e;
 }
 
-// Steps of 3 % near the target. Further away one may jump to where the error would be if it fell with the square of the
-// samples: faster than any picture's does, so that the target is not jumped over, and never by more than a quarter.
+namespace {
+
+constexpr std::int64_t kRound = Film::kReplicates;
+
+std::int64_t grown(std::int64_t samples, double factor) {
+    return std::max(static_cast<std::int64_t>(static_cast<double>(samples) * factor) / kRound * kRound,
+                    samples + kRound);
+}
+
+std::int64_t next_milestone(std::int64_t milestone) { return grown(milestone, 1.25); }
+
+// The last one at or before so many samples.
+std::int64_t last_milestone(int samples) {
+    std::int64_t milestone = SamplePlan::kFirstPass;
+    while (next_milestone(milestone) <= samples) milestone = next_milestone(milestone);
+    return milestone;
+}
+
+int as_samples(std::int64_t samples) {
+    return static_cast<int>(std::min<std::int64_t>(samples, std::numeric_limits<int>::max() - 1));
+}
+
+}  // namespace
+
+bool is_milestone(int samples) { return last_milestone(samples) == samples; }
+
+// The error falls no faster than with the square of the samples: by that, a milestone may be skipped or not.
 int next_check(int samples, double upper, double target) {
-    constexpr double kSmallestGrowth = 1.03, kLargestGrowth = 1.25;
-    const double growth = std::clamp(std::sqrt(upper / target), kSmallestGrowth, kLargestGrowth);
-    const double next = std::min(samples * growth, static_cast<double>(std::numeric_limits<int>::max() - kReplicates));
-    return std::max(static_cast<int>(next) / kReplicates * kReplicates, samples + kReplicates);
+    if (samples < SamplePlan::kFirstPass) return SamplePlan::kFirstPass;
+    const std::int64_t milestone = last_milestone(samples), next = next_milestone(milestone);
+    if (upper > target * square(static_cast<double>(next) / static_cast<double>(milestone))) return as_samples(next);
+    std::int64_t check = milestone;
+    while (check <= samples) check = grown(check, 1.03);
+    return as_samples(std::min(check, next));
+}
+
+// Each round costs every machine a start, so that they are fewer than checks, and their steps as large as the same rule
+// allows.
+int next_round(int samples, double upper, double target) {
+    const double growth = std::isfinite(upper) ? std::clamp(std::sqrt(upper / target), 1.05, 4.0) : 2;
+    return as_samples(grown(std::max(samples, SamplePlan::kFirstPass), growth));
 }
 
 }  // namespace limn::tracing

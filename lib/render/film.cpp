@@ -1,24 +1,92 @@
-#include "render/film.h"
+#include "limn/render/film.h"
 
 #include <algorithm>
-#include <limits>
-#include <string>
+#include <cstring>
+#include <new>
+#include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "limn/core/error.h"
 
-namespace limn::tracing {
+namespace limn {
 
-Film::Film(int width, int height) : width_(width), height_(height) {
+namespace {
+
+std::uint32_t tiles_along(int pixels) { return static_cast<std::uint32_t>((pixels + Film::kTile - 1) / Film::kTile); }
+
+Error too_large(const FilmInfo& info) {
+    return Error("render: not enough memory for a picture of " + std::to_string(info.width) + " x " +
+                 std::to_string(info.height));
+}
+
+// The bits of a number apart, a zero between each two.
+std::uint64_t spread_bits(std::uint32_t number) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 32; ++i) bits |= static_cast<std::uint64_t>(number >> i & 1u) << (2 * i);
+    return bits;
+}
+
+// Along a Z curve tiles of equal place modulo any number lie evenly over the picture.
+std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
+    const Shard& shard = info.shard;
+    const std::uint32_t across = tiles_along(info.width), all = Film::tile_count(info);
+    if (shard.index < 1 || shard.index > shard.count || static_cast<std::uint32_t>(shard.count) > all)
+        throw ArgumentError("render: there is no shard " + std::to_string(shard.index) + " of " +
+                            std::to_string(shard.count) + " of a picture of " + std::to_string(all) + " tiles");
+    std::vector<std::uint32_t> order(all);
+    std::iota(order.begin(), order.end(), 0u);
+    if (shard.count == 1) return order;
+    const auto place = [across](std::uint32_t t) { return spread_bits(t % across) | spread_bits(t / across) << 1; };
+    std::ranges::sort(order, {}, place);
+    std::vector<std::uint32_t> some;
+    for (auto i = static_cast<std::size_t>(shard.index - 1); i < all; i += static_cast<std::size_t>(shard.count))
+        some.push_back(order[i]);
+    std::ranges::sort(some);
+    return some;
+}
+
+FilmInfo of_size(int width, int height) {
+    FilmInfo info;
+    info.width = width, info.height = height;
+    return info;
+}
+
+}  // namespace
+
+Film::Film(const FilmInfo& info, std::vector<std::uint32_t> tiles)
+    : info_(info), across_(tiles_along(info_.width)), tiles_(std::move(tiles)) {
+    const std::uint32_t all = tile_count(info_);
     try {
-        pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    } catch (const std::exception&) {
-        throw Error("render: not enough memory for a picture of " + std::to_string(width) + " x " +
-                    std::to_string(height));
+        slots_.assign(all, static_cast<std::uint32_t>(tiles_.size()));
+        for (std::uint32_t i = 0; i < tiles_.size(); ++i) slots_[tiles_[i]] = i;
+        pixels_.resize((tiles_.size() + 1) * kTilePixels);
+        counts_.resize(tiles_.size());
+    } catch (const std::bad_alloc&) {
+        throw too_large(info_);
     }
 }
 
+Film::Film(const FilmInfo& info) : Film(info, tiles_of(info)) {}
+Film::Film(int width, int height) : Film(of_size(width, height)) {}
+
+bool Film::is_finished(std::span<const std::uint32_t> tiles) const {
+    for (const std::uint32_t number : tiles) {
+        const Tile t = tile(number);
+        for (int y = t.top; y < t.bottom; ++y)
+            for (int x = t.left; x < t.right; ++x)
+                if (samples(x, y) < plan_.wanted(x, y, place(x, y))) return false;
+    }
+    return true;
+}
+
+std::size_t Film::memory_bytes() const {
+    return pixels_.size() * sizeof(Pixel) + counts_.size() * sizeof(Counts) +
+           (tiles_.size() + slots_.size()) * sizeof(std::uint32_t) + plan_.rates.size() * sizeof(float);
+}
+
 bool Film::add(int x, int y, const Color& sample) {
-    Pixel& p = pixels_[index(x, y)];
+    Pixel& p = pixels_[place(x, y)];
     const std::uint32_t replicate = p.samples++ % kReplicates;
     if (!is_finite(sample)) return false;
     p.sums[replicate] += sample;
@@ -29,7 +97,7 @@ bool Film::add(int x, int y, const Color& sample) {
 }
 
 Color Film::mean(int x, int y) const {
-    const Pixel& p = pixels_[index(x, y)];
+    const Pixel& p = at(x, y);
     if (p.samples == 0) return {};
     Color sum;
     for (const Color& c : p.sums) sum += c;
@@ -37,12 +105,12 @@ Color Film::mean(int x, int y) const {
 }
 
 std::uint32_t Film::replicate_samples(int x, int y, std::uint32_t r) const {
-    const std::uint32_t all = pixels_[index(x, y)].samples;
+    const std::uint32_t all = at(x, y).samples;
     return all / kReplicates + (r < all % kReplicates ? 1 : 0);
 }
 
 Color Film::replicate_mean(int x, int y, std::uint32_t r) const {
-    return pixels_[index(x, y)].sums[r] / replicate_samples(x, y, r);
+    return at(x, y).sums[r] / replicate_samples(x, y, r);
 }
 
 Color Film::variance(int x, int y) const {
@@ -53,7 +121,7 @@ Color Film::variance(int x, int y) const {
 }
 
 Color Film::independent_variance(int x, int y) const {
-    const Pixel& p = pixels_[index(x, y)];
+    const Pixel& p = at(x, y);
     const double n = p.samples;
     const Color m = mean(x, y), about_mean = p.squares / n - m * m;
     const auto positive = [](double v) { return std::max(0.0, v); };  // rounding may leave it under 0
@@ -62,26 +130,85 @@ Color Film::independent_variance(int x, int y) const {
 
 double Film::largest_share(int x, int y) const {
     const double sum = luminance(mean(x, y)) * samples(x, y);
-    return sum > 0 ? std::min(1.0, pixels_[index(x, y)].largest / sum) : 0;
+    return sum > 0 ? std::min(1.0, at(x, y).largest / sum) : 0;
 }
 
 Image Film::image() const {
-    Image image(width_, height_);
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x) image.set(x, y, mean(x, y));
+    Image image(width(), height());
+    for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) image.set(x, y, mean(x, y));
     return image;
 }
 
-double Film::mean_samples() const {
-    double sum = 0;
+double Film::mean_samples() const { return static_cast<double>(all_samples()) / static_cast<double>(own_pixels()); }
+
+std::uint64_t Film::all_samples() const {
+    std::uint64_t sum = 0;
     for (const Pixel& p : pixels_) sum += p.samples;
-    return sum / static_cast<double>(pixels_.size());
+    return sum;
+}
+
+std::size_t Film::own_pixels() const {
+    std::size_t count = 0;
+    for (const std::uint32_t number : tiles_) {
+        const Tile t = tile(number);
+        count += static_cast<std::size_t>(t.right - t.left) * static_cast<std::size_t>(t.bottom - t.top);
+    }
+    return count;
 }
 
 std::uint32_t Film::fewest_samples() const {
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
-    for (const Pixel& p : pixels_) fewest = std::min(fewest, p.samples);
+    for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) fewest = std::min(fewest, samples(x, y));
     return fewest;
 }
 
-}  // namespace limn::tracing
+void Film::set_rates(std::span<const std::uint32_t> tiles, std::span<const float> rates) {
+    if (rates.size() != tiles.size() * kTilePixels) throw ArgumentError("film: rates of other tiles");
+    plan_.rates.resize(places());
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        if (const std::size_t slot = slots_[tiles[i]]; slot < tiles_.size())
+            std::ranges::copy(rates.subspan(i * kTilePixels, kTilePixels), &plan_.rates[slot * kTilePixels]);
+}
+
+Film::Counts& Film::Counts::operator+=(const Counts& other) {
+    rays += other.rays;
+    unusable_rays += other.unusable_rays;
+    nonfinite += other.nonfinite;
+    return *this;
+}
+
+Film::Counts Film::counts() const {
+    Counts sum;
+    for (const Counts& c : counts_) sum += c;
+    return sum;
+}
+
+std::uint32_t Film::tile_count(const FilmInfo& info) {
+    constexpr std::uint64_t kMost = 1 << 24;
+    const std::uint64_t count = std::uint64_t{tiles_along(info.width)} * tiles_along(info.height);
+    if (count > kMost) throw too_large(info);
+    return static_cast<std::uint32_t>(count);
+}
+
+Film::Tile Film::tile(const FilmInfo& info, std::uint32_t number) {
+    const std::uint32_t across = tiles_along(info.width);
+    const int left = static_cast<int>(number % across) * kTile, top = static_cast<int>(number / across) * kTile;
+    return {left, top, std::min(left + kTile, info.width), std::min(top + kTile, info.height)};
+}
+
+std::vector<std::byte> Film::tile_bytes(std::uint32_t number) const {
+    static_assert(std::is_trivially_copyable_v<Pixel> && kTileBytes == sizeof(Counts) + kTilePixels * sizeof(Pixel));
+    std::vector<std::byte> bytes(kTileBytes);
+    std::memcpy(bytes.data(), &counts_[slots_[number]], sizeof(Counts));
+    std::memcpy(&bytes[sizeof(Counts)], &pixels_[slots_[number] * kTilePixels], kTilePixels * sizeof(Pixel));
+    return bytes;
+}
+
+void Film::set_tile(std::uint32_t number, std::span<const std::byte, kTileBytes> bytes) {
+    std::memcpy(&counts_[slots_[number]], bytes.data(), sizeof(Counts));
+    std::memcpy(&pixels_[slots_[number] * kTilePixels], &bytes[sizeof(Counts)], kTilePixels * sizeof(Pixel));
+}
+
+}  // namespace limn

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/film.h"
+#include "limn/render/film.h"
 
 namespace limn::tracing {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "image/compare_values.h"
 #include "render/parallel.h"
@@ -24,7 +25,7 @@ double relative_variance(const Film& film, int x, int y) {
 
 std::vector<float> sample_rates(const Film& film) {
     const int width = film.width(), height = film.height();
-    std::vector<float> variances(film.pixels()), rates(film.pixels());
+    std::vector<float> variances(film.pixels()), rates(film.places());
     for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) variances[film.index(x, y)] = static_cast<float>(relative_variance(film, x, y));
     });
@@ -40,14 +41,14 @@ std::vector<float> sample_rates(const Film& film) {
                     if (i != x || j != y) around += variances[film.index(i, j)];
             const int pixels = (right - left + 1) * (bottom - top + 1) - 1;
             const double deviation = std::sqrt(around / std::max(1, pixels));
-            rates[film.index(x, y)] = static_cast<float>(deviation);
+            rates[film.place(x, y)] = static_cast<float>(deviation);
             sums[static_cast<std::size_t>(y)] += deviation;
         }
     });
 
     double mean = 0;
     for (const double sum : sums) mean += sum;
-    mean /= static_cast<double>(rates.size());
+    mean /= static_cast<double>(film.pixels());
     const bool usable = mean > 0 && std::isfinite(mean);  // no noise, or values beyond float: all alike
     for (float& rate : rates)
         rate = usable ? std::min(kSmallestRate + (1 - kSmallestRate) * static_cast<float>(rate / mean), kLargestRate)
@@ -55,29 +56,30 @@ std::vector<float> sample_rates(const Film& film) {
     return rates;
 }
 
-std::vector<std::uint32_t> plan_samples(const Film& film, std::span<const float> rates, int target) {
-    std::vector<std::uint32_t> plan(rates.size());
-    std::uint64_t left = rates.size() * static_cast<std::uint64_t>(target);
-    double needed = 0;
-    const auto need = [&](std::size_t i) { return std::max(0.0, rates[i] * static_cast<double>(target) - plan[i]); };
-    for (std::size_t i = 0, width = static_cast<std::size_t>(film.width()); i < plan.size(); ++i) {
-        plan[i] = film.samples(static_cast<int>(i % width), static_cast<int>(i / width));
-        left -= plan[i];
-        needed += need(i);
+// By regula falsi with a share of bisection: the sum of samples grows with the scale, nearly in proportion.
+double scale_for(const Film& film, std::span<const float> rates, int samples, bool exact) {
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(film.height()));
+    const auto sum_at = [&](double scale) {
+        for_each_row(film.height(), [&](int y) {
+            std::uint64_t sum = 0;
+            for (int x = 0; x < film.width(); ++x) sum += SamplePlan::wanted(x, y, rates[film.place(x, y)], scale);
+            sums[static_cast<std::size_t>(y)] = sum;
+        });
+        return static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}));
+    };
+    const double pixels = static_cast<double>(film.pixels()), target = pixels * samples;
+    const double near_enough = exact ? 1 : std::max(1.0, pixels / 65536);
+    double low = 0, sum_low = pixels * SamplePlan::kFirstPass, high = samples, sum_high = sum_at(high);
+    for (; sum_high <= target && high < 0x1p40; sum_high = sum_at(high)) low = high, sum_low = sum_high, high *= 2;
+    for (int i = 0; i < 64 && target - sum_low > near_enough; ++i) {
+        const double by_line = (target - sum_low) / std::max(1.0, sum_high - sum_low);
+        const double scale = low + (high - low) * std::clamp(by_line, 0.01, 0.99), sum = sum_at(scale);
+        if (sum <= target)
+            low = scale, sum_low = sum;
+        else
+            high = scale, sum_high = sum;
     }
-    // Pixels that have more than their share leave less for the others. What a pixel lacks to a whole round goes to the
-    // next.
-    const double share = needed > 0 ? static_cast<double>(left) / needed : 0;
-    double carried = 0;
-    for (std::size_t i = 0; i < plan.size(); ++i) {
-        carried += share * need(i);
-        const auto rounds = std::min(static_cast<std::uint64_t>(carried / kReplicates), left / kReplicates);
-        plan[i] += static_cast<std::uint32_t>(rounds * kReplicates);
-        carried -= static_cast<double>(rounds * kReplicates);
-        left -= rounds * kReplicates;
-    }
-    if (!plan.empty()) plan.back() += static_cast<std::uint32_t>(left);
-    return plan;
+    return low;
 }
 
 }  // namespace limn::tracing

@@ -11,8 +11,8 @@
 #include "kernels/sobol.h"
 #include "limn/core/surface.h"
 #include "limn/core/vec.h"
+#include "limn/render/film.h"
 #include "limn/render/settings.h"
-#include "render/film.h"
 
 namespace limn::tracing {
 
@@ -33,9 +33,9 @@ public:
     Sampler(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample, SamplerKind kind = SamplerKind::sobol)
         : kind_(kind), seed_(seed), pixel_(pixel), sample_(sample) {
         if (kind_ == SamplerKind::independent) return;
-        const std::uint64_t point = sample / kReplicates, replicate = sample % kReplicates;
+        const std::uint64_t point = sample / Film::kReplicates, replicate = sample % Film::kReplicates;
         // A sequence ends after 2^24 points; what follows is another randomisation.
-        const std::uint64_t sequence = (point >> sobol::kIndexBits) * kReplicates + replicate;
+        const std::uint64_t sequence = (point >> sobol::kIndexBits) * Film::kReplicates + replicate;
         base_ = sobol::seeds_of(sobol::seeds_of(sobol::mixed(seed + sobol::kStep), pixel), sequence);
         index_ = sobol::reversed(static_cast<std::uint32_t>(point)) & ~0xffU;
     }

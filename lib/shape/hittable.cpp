@@ -21,6 +21,9 @@ bool call_hit(const Hittable& object, const Ray& ray, ForeignHit& out) {
 
 }  // namespace
 
-void Hittable::lower(RecordSink& sink) const { sink.foreign({bounds(), this, &call_hit}); }
+void Hittable::lower(RecordSink& sink) const {
+    sink.identify(dynamic_cast<const Tagged*>(this));
+    sink.foreign({bounds(), this, &call_hit});
+}
 
 }  // namespace limn

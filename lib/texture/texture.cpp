@@ -2,7 +2,8 @@
 
 namespace limn {
 
-TextureRecord Texture::lower(RecordSink&) const {
+TextureRecord Texture::lower(RecordSink& sink) const {
+    sink.identify(dynamic_cast<const Tagged*>(this));
     TextureRecord record;
     record.kind = TextureKind::foreign;
     record.object = this;

@@ -46,6 +46,7 @@ const std::vector<Library>& libraries() {
         row("tinyobjloader", "tiny_obj_.*", R"(\btinyobj\b)", R"(lib/io/.*\.cpp)"),
         row("oneTBB", "(tbb|oneapi)/.*", R"(\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::)", "lib/(render|compile|accel)/.*"),
         row("Random123", "Random123/.*", R"(\br123\b)", "lib/render/.*"),
+        row("xxHash", "xxhash\\.h", R"(\bXXH\w+)", R"(lib/core/checksum\.cpp)"),
         row("Highway", "hwy/.*", R"(\bhwy\b)", "lib/kernels/.*"),
         row("fmt", "fmt/.*", R"(\bfmt\s*::)", "apps/.*"),
         row("CLI11", "CLI/.*", R"(\bCLI\s*::)", "apps/.*"),
@@ -62,7 +63,7 @@ bool is_of_library(const Include& include) {
 // std headers have neither a dot nor a slash; writing files safely and huge pages need POSIX.
 bool is_std_or_posix(const SourceFile& file, const Include& include) {
     static const std::regex std_name("[a-z0-9_]+"), posix(R"((unistd|fcntl|sys/\w+)\.h)"),
-        home(R"(lib/(io/.*|core/huge_pages)\.cpp)");
+        home(R"(lib/(core/(file_lock|huge_pages|replace_file)|io/image_checks)\.cpp)");
     return std::regex_match(include.path, std_name) ||
            (std::regex_match(include.path, posix) && std::regex_match(file.path, home));
 }

@@ -35,7 +35,8 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
         "-o a.exr --output=b.png --size 30x20 --spp 7 --seed 18446744073709551615 --threads 3 --max-depth unlimited "
         "--report - --quiet --estimator naive --sampler independent --error 2e-3 --time-limit .5 "
         "--uniform --channels samples,error --no-antialias --half --look-from -1,2e0,.5 --look-at 0,0,-3 "
-        "--vup 0,0,1 --vfov 33 --aperture-angle 0.25 --focus-dist 4";
+        "--vup 0,0,1 --vfov 33 --aperture-angle 0.25 --focus-dist 4 "
+        "--checkpoint c.film --every 1.5 --resume r.film --film f.film --plan p --shard 2/3";
     std::istringstream stream(line);
     const std::vector<std::string> words(std::istream_iterator<std::string>{stream}, {});
     std::vector<const char*> arguments;
@@ -44,6 +45,8 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
     CHECK(o.outputs == std::vector<std::string>{"a.exr", "b.png"});
     CHECK(o.report == "-");
     CHECK((o.quiet && o.half));
+    CHECK((o.checkpoint == "c.film" && o.resume == "r.film" && o.film == "f.film" && o.plan == "p"));
+    CHECK(o.every == 1.5);
     Figure figure;
     figure.camera.aspect_ratio = 9.0;
     apply(o, figure);
@@ -52,6 +55,7 @@ TEST_CASE("Options: every value reaches the figure", "[cli]") {
     CHECK((figure.settings.samples_per_pixel == 7 && figure.settings.max_samples_per_pixel == 7));
     CHECK((figure.settings.error == 2e-3 && figure.settings.time_limit == 0.5));
     CHECK(figure.settings.uniform);
+    CHECK((figure.settings.shard.index == 2 && figure.settings.shard.count == 3));
     CHECK(figure.settings.sampler == SamplerKind::independent);
     CHECK(o.channels == std::vector<std::string>{"samples", "error"});
     CHECK(figure.settings.seed == 18446744073709551615u);
@@ -147,14 +151,17 @@ TEST_CASE("Options: the ends of each range are allowed", "[cli]") {
     CHECK(parsed({"--vfov", "179.9"}).camera.vertical_fov == 179.9);
 }
 
-TEST_CASE("Options: what is reserved for later versions is refused as such", "[cli]") {
-    for (const char* option : {"--shard", "--checkpoint", "--resume"}) {
-        CAPTURE(option);
-        const std::string message = refusal({option, "1"});
-        CHECK(message.find(option) != std::string::npos);
-        CHECK(message.find("reserved") != std::string::npos);
-        CHECK(refusal({option}).find("reserved") != std::string::npos);
-    }
+TEST_CASE("Options: an argument that may be repeated is, among options", "[cli]") {
+    Options command("test", "");
+    std::vector<std::string> files;
+    bool flag = false;
+    command.add({.name = "FILE", .value = "", .help = "", .required = true, .repeatable = true},
+                file_names("FILE", files));
+    command.add_flag("--flag", flag, "");
+    const char* const words[] = {"test", "a", "b", "--flag", "c"};
+    CHECK(command.parse(5, words));
+    CHECK(files == std::vector<std::string>{"a", "b", "c"});
+    CHECK(flag);
 }
 
 TEST_CASE("Options: unknown, repeated and incomplete ones are refused by name", "[cli]") {

@@ -99,29 +99,30 @@ TEST_CASE("Report: a target stands beside whether it was reached, and what ended
 }
 
 TEST_CASE("Facts: a picture's header says what was rendered, how well, and by which command", "[cli][report]") {
-    const RenderSettings settings{.antialias = true, .estimator = Estimator::path};
-    CHECK(app::picture_facts(result(), settings, "limn render x.obj") == Facts{{"scene", "a scene"},
-                                                                               {"width", "20"},
-                                                                               {"height", "14"},
-                                                                               {"seed", "18446744073709551615"},
-                                                                               {"spp", "7.5"},
-                                                                               {"max_depth", "11"},
-                                                                               {"antialias", "yes"},
-                                                                               {"estimator", "path"},
-                                                                               {"sampler", "sobol"},
-                                                                               {"seconds.compile", "1.5"},
-                                                                               {"seconds.render", "4"},
-                                                                               {"error.metric", "relMSE"},
-                                                                               {"error.estimate", "0.25"},
-                                                                               {"error.ci95_low", "0.125"},
-                                                                               {"error.ci95_high", "0.5"},
-                                                                               {"error.max_sample_share", "0.75"},
-                                                                               {"stopped_by", "time"},
-                                                                               {"nonfinite_samples", "17"},
-                                                                               {"unusable_rays", "23"},
-                                                                               {"complete", "yes"},
-                                                                               {"version", version()},
-                                                                               {"command_line", "limn render x.obj"}});
+    FilmInfo info;
+    info.antialias = true, info.estimator = Estimator::path;
+    CHECK(app::picture_facts(result(), info, "limn render x.obj") == Facts{{"scene", "a scene"},
+                                                                           {"width", "20"},
+                                                                           {"height", "14"},
+                                                                           {"seed", "18446744073709551615"},
+                                                                           {"spp", "7.5"},
+                                                                           {"max_depth", "11"},
+                                                                           {"antialias", "yes"},
+                                                                           {"estimator", "path"},
+                                                                           {"sampler", "sobol"},
+                                                                           {"seconds.compile", "1.5"},
+                                                                           {"seconds.render", "4"},
+                                                                           {"error.metric", "relMSE"},
+                                                                           {"error.estimate", "0.25"},
+                                                                           {"error.ci95_low", "0.125"},
+                                                                           {"error.ci95_high", "0.5"},
+                                                                           {"error.max_sample_share", "0.75"},
+                                                                           {"stopped_by", "time"},
+                                                                           {"nonfinite_samples", "17"},
+                                                                           {"unusable_rays", "23"},
+                                                                           {"complete", "yes"},
+                                                                           {"version", version()},
+                                                                           {"command_line", "limn render x.obj"}});
 }
 
 TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so", "[cli][report]") {
@@ -131,30 +132,30 @@ TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so
     r.error.target = 0.1;
     r.report.complete = false;
     r.report.stopped_by = StoppedBy::callback;
-    const RenderSettings settings{
-        .antialias = false, .estimator = Estimator::naive, .sampler = SamplerKind::independent};
-    CHECK(app::picture_facts(r, settings, "") == Facts{{"scene", "a scene"},
-                                                       {"width", "20"},
-                                                       {"height", "14"},
-                                                       {"seed", "18446744073709551615"},
-                                                       {"spp", "7.5"},
-                                                       {"max_depth", "unlimited"},
-                                                       {"antialias", "no"},
-                                                       {"estimator", "naive"},
-                                                       {"sampler", "independent"},
-                                                       {"seconds.compile", "1.5"},
-                                                       {"seconds.render", "4"},
-                                                       {"error.metric", "relMSE"},
-                                                       {"error.reason", "too few"},
-                                                       {"error.target", "0.1"},
-                                                       {"error.reached", "no"},
-                                                       {"error.max_sample_share", "0.75"},
-                                                       {"stopped_by", "interrupted"},
-                                                       {"nonfinite_samples", "17"},
-                                                       {"unusable_rays", "23"},
-                                                       {"complete", "no"},
-                                                       {"version", version()},
-                                                       {"command_line", ""}});
+    FilmInfo info;
+    info.antialias = false, info.estimator = Estimator::naive, info.sampler = SamplerKind::independent;
+    CHECK(app::picture_facts(r, info, "") == Facts{{"scene", "a scene"},
+                                                   {"width", "20"},
+                                                   {"height", "14"},
+                                                   {"seed", "18446744073709551615"},
+                                                   {"spp", "7.5"},
+                                                   {"max_depth", "unlimited"},
+                                                   {"antialias", "no"},
+                                                   {"estimator", "naive"},
+                                                   {"sampler", "independent"},
+                                                   {"seconds.compile", "1.5"},
+                                                   {"seconds.render", "4"},
+                                                   {"error.metric", "relMSE"},
+                                                   {"error.reason", "too few"},
+                                                   {"error.target", "0.1"},
+                                                   {"error.reached", "no"},
+                                                   {"error.max_sample_share", "0.75"},
+                                                   {"stopped_by", "interrupted"},
+                                                   {"nonfinite_samples", "17"},
+                                                   {"unusable_rays", "23"},
+                                                   {"complete", "no"},
+                                                   {"version", version()},
+                                                   {"command_line", ""}});
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_image or load_obj, half an hour if not told otherwise. What leads to new
+# run.sh TARGET [SECONDS]: fuzzes load_film, load_image, load_obj or read_rays, half an hour if not told otherwise. What leads to new
 # code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 data=$here/../io/data
-target=${1:?TARGET: load_image or load_obj}
+target=${1:?TARGET: load_film, load_image, load_obj or read_rays}
 seconds=${2:-1800}
 
 launcher=()
@@ -28,6 +28,15 @@ case $target in
             { cat "$obj" && printf '\0' && if [[ -e $mtl ]]; then cat "$mtl"; fi; } >"$seeds/$(basename "$obj")"
         done
         largest=2048
+        ;;
+    load_film)
+        cp "$here"/seeds/*.film "$seeds"
+        largest=25000  # a tile has 20504
+        ;;
+    read_rays)
+        printf '0 0 5 0 0 -1\n# a comment\n\n1e-3 +2. .5 0 1 0 0 inf\n' >"$seeds/rays.txt"
+        head -c 640 /dev/zero >"$seeds/zeros"
+        largest=1024
         ;;
 esac
 # 4 KB of PNG may hold 34 million pixels of one bit, so 400 MB of floats; what takes more is a claim that was believed.

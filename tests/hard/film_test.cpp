@@ -1,5 +1,5 @@
 // The film at a hundred million samples, and pictures that no number of threads changes.
-#include "render/film.h"
+#include "limn/render/film.h"
 
 #include "hard/hard.h"
 #include "limn/material/dielectric.h"
@@ -17,7 +17,7 @@ constexpr double kTenth = static_cast<double>(0.1F);
 // Adds samples 0 to count - 1 to a pixel; its mean against theirs, summed in whole multiples of 2^-30.
 template <class Sample>
 void check_mean_of(double count, const Sample& sample) {
-    tracing::Film film(1, 1);
+    Film film(1, 1);
     std::int64_t sum = 0;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
         const double value = std::nearbyint(sample(i) * 0x1p30) * 0x1p-30;

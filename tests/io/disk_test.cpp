@@ -1,5 +1,5 @@
 // What a picture owes to the disk. This program's own versions of some functions count their calls, and can do harm.
-#include "io/replace_file.h"
+#include "core/replace_file.h"
 
 #include <dlfcn.h>
 #include <fcntl.h>

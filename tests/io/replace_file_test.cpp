@@ -1,5 +1,5 @@
 // Files of any kind appear whole or not at all, whatever happens to the process or the disk.
-#include "io/replace_file.h"
+#include "core/replace_file.h"
 
 #include <sched.h>
 #include <signal.h>
@@ -17,7 +17,7 @@
 #include "catch.h"
 #include "formats.h"
 #include "limn/core/error.h"
-#include "limn/io/files.h"
+#include "limn/core/files.h"
 #include "limn/io/image_io.h"
 #include "support/folder.h"
 
@@ -102,6 +102,21 @@ TEST_CASE("Files: a text is saved as it is, and names are followed through folde
     CHECK(file_behind_links(folder.path("none/x")) == whole + "/none/x");
     CHECK_THROWS_AS(save_text("x", ""), FileError);
     CHECK_THROWS_AS(check_text_writable("/dev/null"), FileError);
+}
+
+TEST_CASE("Files: what killed processes left behind is removed, what others are writing is not", "[io]") {
+    const Folder folder;
+    folder.write(".limn-1-0.tmp", "left behind");
+    folder.write(".limn-999999999-12.tmp", "left behind");
+    folder.write(".limn-x", "not ours");
+    folder.write("a.tmp", "not ours");
+    FileReplacement other(folder.path("b"));
+    other.write(std::as_bytes(std::span("half", 4)));
+    save_text("new", folder.path("a"));
+    CHECK(folder.names().size() == 4);  // a, what is not ours, and what is being written
+    other.commit();
+    CHECK(folder.names() == Names{".limn-x", "a", "a.tmp", "b"});
+    CHECK(folder.read("b") == "half");
 }
 
 TEST_CASE("Files: on a full disk, and on one that is read-only, the old file stays", "[io]") {

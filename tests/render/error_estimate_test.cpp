@@ -9,7 +9,6 @@
 using namespace limn;
 using namespace limn::test;
 using tracing::estimate_error;
-using tracing::Film;
 
 namespace {
 
@@ -247,21 +246,60 @@ TEST_CASE("Error estimate: the pixels' own errors have the estimate as their mea
     }
 }
 
-TEST_CASE("Error estimate: checks come in multiples of two, close to each other near the target and never beyond it",
+TEST_CASE("Checks: they come in multiples of two, close to each other where the target may be near",
           "[render][estimate]") {
-    for (const int samples : {8, 64, 100, 1000, 123456}) {
-        for (const double ratio : {1.0, 1.01, 1.2, 2.0, 100.0, double{kInfinity}}) {
+    CHECK(tracing::next_check(0, kInfinity, 1) == 8);
+    CHECK(tracing::next_check(7, std::nan(""), 1) == 8);
+    for (const double ratio : {0.5, 1.0, 1.01, 1.2, 1.5, 2.0, 100.0, double{kInfinity}, std::nan("")}) {
+        CAPTURE(ratio);
+        int last_milestone = 8;
+        for (int samples = 8; samples < 200000;) {
+            if (tracing::is_milestone(samples)) last_milestone = samples;
             const int next = tracing::next_check(samples, ratio, 1);
             CHECK(next % 2 == 0);
             CHECK(next >= samples + 2);
             CHECK(next <= std::max(samples * 1.25, samples + 2.0));
             // However fast the error falls, up to the square of the samples, the step ends at most 6.3 % too late.
-            if (samples >= 64) CHECK(next <= samples * std::max(1.063, std::sqrt(ratio)));
+            if (samples == last_milestone && samples >= 64 && ratio >= 1)
+                CHECK(next <= samples * std::max(1.063, std::sqrt(ratio)));
+            samples = next;
         }
     }
-    CHECK(tracing::next_check(64, 4, 1) == 80);
-    CHECK(tracing::next_check(1000, 1.44, 1) == 1200);
     CHECK(tracing::next_check(std::numeric_limits<int>::max() - 7, 4, 1) > 0);
+    CHECK(tracing::next_check(std::numeric_limits<int>::max() - 7, 1, 1) > 0);
+}
+
+TEST_CASE("Checks: milestones are the same whatever the target, and what is checked depends on no other check",
+          "[render][estimate]") {
+    std::vector<int> milestones;
+    for (int samples = 8; samples < 100000; samples = tracing::next_check(samples, kInfinity, 1))
+        milestones.push_back(samples);
+    CHECK((milestones[0] == 8 && milestones[1] == 10));
+    for (std::size_t i = 0; i + 1 < milestones.size(); ++i) {
+        for (const double ratio : {0.5, 1.0, 3.0}) {
+            int samples = milestones[i];
+            while (samples < milestones[i + 1]) {
+                CHECK(tracing::is_milestone(samples) == (samples == milestones[i]));
+                samples = tracing::next_check(samples, ratio, 1);
+            }
+            CHECK(samples == milestones[i + 1]);
+        }
+        // From between two checks the next one is the same.
+        const int next = tracing::next_check(milestones[i], 1, 1);
+        for (int samples = milestones[i]; samples < next; ++samples) CHECK(tracing::next_check(samples, 1, 1) == next);
+    }
+}
+
+TEST_CASE("Rounds: further than checks, but never beyond the target", "[render][estimate]") {
+    for (const int samples : {8, 30, 1000})
+        for (const double ratio : {1.01, 1.3, 4.0, 12.0}) {
+            const int next = tracing::next_round(samples, ratio, 1);
+            CHECK(next % 2 == 0);
+            CHECK(next >= samples + 2);
+            CHECK(next <= std::max(samples + 2.0, samples * std::max(1.05, std::sqrt(ratio))));
+        }
+    CHECK(tracing::next_round(100, 1e9, 1) == 400);
+    CHECK(tracing::next_round(100, kInfinity, 1) == 200);
 }
 
 TEST_CASE("Error estimate: the largest share of a sample is that of the pixel behind 99.9 % of the others",

@@ -1,21 +1,5 @@
 /// \file
-/// Files of any kind.
+/// Deprecated: limn/core/files.h.
 #pragma once
 
-#include <string>
-#include <string_view>
-
-namespace limn {
-
-/// Makes `text` the contents of a file, which appears whole or not at all, as save_image (image_io.h) says.
-/// \throws FileError naming the file
-void save_text(std::string_view text, const std::string& path);
-
-/// Throws what save_text would throw for a reason that can be known beforehand: folder, permissions, no file.
-void check_text_writable(const std::string& path);
-
-/// The file that save_text and save_image would write for `path`: absolute, behind all links, also those that lead to a
-/// file that does not exist yet. \throws FileError if links lead in a circle
-std::string file_behind_links(const std::string& path);
-
-}  // namespace limn
+#include "limn/core/files.h"

@@ -36,9 +36,9 @@ struct SaveOptions {
 
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
 /// BT.709 stated. Float EXR keeps every bit, infinities and NaN too. The file appears whole or not at all: a temporary
-/// file beside it (`.limn-*.tmp`, left over only if the process is killed) is written, read back and compared, flushed
-/// to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system lets it; a link
-/// is followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
+/// file beside it (`.limn-*.tmp`; what a killed process leaves, the next one removes) is written, read back and
+/// compared, flushed to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system
+/// lets it; a link is followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
 ///
 /// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
 ///

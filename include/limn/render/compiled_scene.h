@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "limn/core/hash128.h"
 #include "limn/core/ray.h"
 #include "limn/core/surface.h"
 #include "limn/scene/scene.h"
@@ -75,6 +76,10 @@ public:
     /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
     const std::string& features() const;
     const std::string& name() const;  ///< Scene::name
+    /// Of all that its pictures depend on: the same wherever and however it was compiled. User-defined objects are in
+    /// it by their tags (core/tagged.h).
+    const Hash128& digest() const;
+    bool has_untagged() const;  ///< whether it has user-defined objects without a tag
 
     const flat::Scene& flat() const { return *scene_; }  ///< for limn's own rooms
 

@@ -9,6 +9,7 @@
 
 #include "limn/image/image.h"
 #include "limn/render/compiled_scene.h"
+#include "limn/render/film.h"
 #include "limn/render/settings.h"
 #include "limn/scene/camera.h"
 
@@ -78,6 +79,10 @@ struct RenderResult {
 /// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
 /// memory lacks; what the progress callback or an object of the caller's own class throws
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
+
+/// What a film is worth so far; `error` is the one that was asked for. Of the report those fields that only a render
+/// knows are empty. Runs on the threads of the caller's TBB arena.
+RenderResult render_result(const Film& film, std::optional<double> error = {});
 
 /// limn's version, "major.minor.patch".
 const char* version();

@@ -28,6 +28,13 @@ inline constexpr int kUnlimitedDepth = std::numeric_limits<int>::max();
 /// See RenderSettings::max_samples_per_pixel.
 inline constexpr int kMostSamples = 1 << 20;
 
+/// A part of a picture: of its tiles of 16x16 pixels, along a Z curve, one in `count`. The shards of a picture take
+/// about the same time.
+struct Shard {
+    int index = 1;  ///< 1 to count
+    int count = 1;  ///< at most the number of tiles
+};
+
 /// What `render` needs besides scene and camera.
 struct RenderSettings {
     int width = 400;             ///< in pixels, 1 to 1048576
@@ -51,6 +58,7 @@ struct RenderSettings {
     /// With `error` or `time_limit`, after 8 samples in each pixel, those whose surroundings are noisier get more, and
     /// none less than a quarter of the mean; the picture stays unbiased. True: all get as many.
     bool uniform = false;
+    Shard shard{};  ///< the part to render, of a picture whose error is then unknown; the rest stays black
     /// Called at the start, at the end, and at most every 50 ms in between, by any thread but never by two at once;
     /// return false to stop with what has been done.
     std::function<bool(const Progress&)> progress{};

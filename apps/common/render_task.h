@@ -12,17 +12,18 @@
 
 namespace limn::app {
 
-struct RenderJob {
+struct RenderTask {
     /// Reads files and describes the scene; whatever it throws counts as a fault of those files.
     std::function<Figure()> make;
     /// Files that `make` reads, which no output may replace; empty names do not count.
     std::vector<std::string> inputs;
 };
 
-/// Checks everything that can be known, makes the figure, renders it, saves every output, then the report. Nothing is
-/// created before there are pixels to save. SIGINT and SIGTERM end the render early; what there is is saved.
+/// Checks everything that can be known, makes the figure, renders it, with checkpoints where they are asked for, saves
+/// the film and every picture, then the report. Nothing is created before there are pixels to save. SIGINT and SIGTERM
+/// end the render early; what there is is saved.
 /// \returns the exit status
 /// \throws ArgumentError, FileError, Error for what is found wrong before rendering
-int run_render_job(const RenderJob& job, const RenderOptions& options, const Console& console);
+int run_render_task(const RenderTask& task, const RenderOptions& options, const Console& console);
 
 }  // namespace limn::app

@@ -1,16 +1,14 @@
-#include "io/read_file.h"
+#include "core/read_file.h"
 
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <new>
-#include <system_error>
 
+#include "core/replace_file.h"
 #include "limn/core/error.h"
 
 namespace limn {
-
-std::string system_message() { return std::generic_category().message(errno); }
 
 void require_readable(const std::string& path) {
     std::error_code error;

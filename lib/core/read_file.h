@@ -4,9 +4,6 @@
 
 namespace limn {
 
-// The message of the system's last error.
-std::string system_message();
-
 /// \throws FileError if `path` is missing, not a regular file, or may not be read
 void require_readable(const std::string& path);
 

@@ -1,0 +1,138 @@
+#include "picture_output.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "limn/core/error.h"
+#include "limn/io/image_io.h"
+#include "parse.h"
+#include "report.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+// Names of channels with commas between them, each once.
+std::vector<std::string> parse_channels(const std::string& text) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string name = text.substr(begin, end - begin);
+        if (name != "error" && name != "samples") refuse("--channels", text, "must be error, samples or error,samples");
+        if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
+        names.push_back(name);
+        begin = end + 1;
+    }
+    return names;
+}
+
+// A lamp brighter than half can hold must not cost the picture.
+Image clamped_to_half(Image image, const Console& console) {
+    constexpr float kLargestHalf = 65504;
+    std::size_t clamped = 0;
+    for (float& value : image.values()) {
+        if (value <= kLargestHalf) continue;
+        value = kLargestHalf;
+        ++clamped;
+    }
+    if (clamped > 0) console.error(fmt::format("--half: {} values above 65504 were saved as 65504", clamped));
+    return image;
+}
+
+// Below eight samples a pixel no error is known: then that channel is NaN.
+std::vector<ImageLayer> layers_of(const PixelMaps& maps, const PictureOptions& options) {
+    std::vector<ImageLayer> layers;
+    for (const std::string& name : options.channels) {
+        std::vector<float> values = name == "error" ? maps.error : maps.samples;
+        values.resize(maps.samples.size(), std::numeric_limits<float>::quiet_NaN());
+        layers.push_back({name, std::move(values)});
+    }
+    return layers;
+}
+
+bool save_images(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
+                 const Console& console) {
+    if (options.outputs.empty()) return true;
+    const std::vector<ImageLayer> layers = layers_of(result.maps, options);
+    const SaveOptions save{
+        .half = options.half, .facts = picture_facts(result, info, options.command_line), .layers = layers};
+    const Image image = options.half ? clamped_to_half(result.image, console) : result.image;
+    bool all = true;
+    for (const std::string& path : options.outputs) try {
+            save_image(image, path, save);
+        } catch (const Error& e) {
+            console.error(e.what());
+            all = false;
+        }
+    return all;
+}
+
+std::string summary(const RenderResult& result, const PictureOptions& options) {
+    const RenderReport& r = result.report;
+    const ErrorEstimate& e = result.error;
+    const std::string error =
+        e.reason.empty() ? fmt::format("relMSE {:.2g}, at most {:.2g}", e.estimate, e.ci95_high) : e.reason;
+    const std::string missed = e.target && !e.reached ? fmt::format("; {:.2g} was not reached", *e.target) : "";
+    std::vector<std::string> files = options.outputs;
+    if (!options.film.empty()) files.push_back(options.film);
+    return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}{}", r.complete ? "" : "interrupted; ",
+                       fmt::join(files, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds, error, missed);
+}
+
+}  // namespace
+
+void add_picture_options(Options& options, PictureOptions& o, const std::string& outputs) {
+    options.add({.name = "-o,--output",
+                 .value = "FILE",
+                 .help = "A picture to write, .exr or .png; may be repeated",
+                 .preset = outputs.empty() ? "none" : outputs,
+                 .repeatable = true},
+                picture_names("-o", o.outputs));
+    options.add({.name = "--film",
+                 .value = "FILE",
+                 .help = "Write the film, from which the render can be continued and with which others can be merged; "
+                         "without -o no picture is written then",
+                 .preset = "none"},
+                file_name("--film", o.film));
+    options.add(
+        {.name = "--channels",
+         .value = "error,samples",
+         .help = "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples "
+                 "it has",
+         .preset = "none"},
+        [&o](const std::string& s) { o.channels = parse_channels(s); });
+    options.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
+    options.add({.name = "--report",
+                 .value = "FILE.json",
+                 .help = "Write what was done and how well as JSON; - for standard output",
+                 .preset = "none"},
+                file_name("--report", o.report));
+    options.add_flag("--quiet", o.quiet, "Say nothing but errors");
+}
+
+void check_picture_options(const PictureOptions& o) {
+    const auto has_place = [](const std::string& path) { return image_holds_layers(path); };
+    if (!o.channels.empty() && std::none_of(o.outputs.begin(), o.outputs.end(), has_place))
+        throw ArgumentError("--channels: only an EXR has a place for them, and none is written");
+    for (const std::string& path : o.outputs) check_writable(path);
+    for (const std::string& path : {o.report, o.film})
+        if (!path.empty()) check_text_path(path);
+}
+
+bool save_pictures(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
+                   const Console& console) {
+    const auto begin = std::chrono::steady_clock::now();
+    const bool saved = save_images(result, info, options, console);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (saved) console.note(summary(result, options));
+    if (!options.report.empty()) write_text(options.report, report_json(result, seconds.count()));
+    return saved;
+}
+
+}  // namespace limn::app

@@ -1,0 +1,38 @@
+/// \file
+/// From a film to pictures and a report: what renders and merges share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limn/render/render.h"
+#include "options.h"
+#include "program.h"
+
+namespace limn::app {
+
+/// What the command line says of what is to be written.
+struct PictureOptions {
+    std::vector<std::string> outputs;   ///< pictures
+    std::vector<std::string> channels;  ///< that an EXR gets beside its colours
+    bool half = false;
+    bool quiet = false;
+    std::string report;        ///< path, "-" or empty
+    std::string film;          ///< path or empty
+    std::string command_line;  ///< for the picture's header
+};
+
+/// Adds the options, bound to `values`, which must outlive the parsing.
+/// \param outputs what is written without -o and --film, for --help; empty: nothing
+void add_picture_options(Options& options, PictureOptions& values, const std::string& outputs = "");
+
+/// Refuses what can be known to fail: channels that no output has a place for, files that cannot be written.
+/// \throws ArgumentError, FileError
+void check_picture_options(const PictureOptions& options);
+
+/// Saves each picture and the report, whatever becomes of the others: hours of rendering may be in them.
+/// \returns whether all were saved; what was not is said on the console
+bool save_pictures(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
+                   const Console& console);
+
+}  // namespace limn::app

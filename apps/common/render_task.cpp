@@ -1,0 +1,118 @@
+#include "render_task.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "interrupt.h"
+#include "limn/core/error.h"
+#include "limn/core/file_lock.h"
+#include "limn/core/files.h"
+#include "limn/render/compiled_scene.h"
+#include "limn/render/render_job.h"
+#include "picture_output.h"
+#include "progress_bar.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+// The films that this process writes.
+std::vector<std::string> written_films(const RenderOptions& o) {
+    std::vector<std::string> films;
+    for (const std::string& path : {o.checkpoint, o.film})
+        if (!path.empty()) films.push_back(path);
+    return films;
+}
+
+bool is_continued(const RenderOptions& o, const std::string& film) {
+    return !o.resume.empty() && file_behind_links(o.resume) == file_behind_links(film);
+}
+
+void check_outputs(const RenderTask& task, const RenderOptions& options) {
+    std::vector<std::string> inputs = task.inputs, outputs = options.all_outputs();
+    inputs.push_back(options.plan);
+    outputs.push_back(options.checkpoint);
+    const std::vector<std::string> films = written_films(options);
+    const auto continued = [&](const std::string& film) { return is_continued(options, film); };
+    if (std::ranges::none_of(films, continued)) inputs.push_back(options.resume);
+    check_distinct(outputs, inputs);
+    check_picture_options(options);
+    if (options.checkpoint.empty()) return;
+    check_text_path(options.checkpoint);
+    if (std::filesystem::exists(options.checkpoint) && !is_continued(options, options.checkpoint))
+        throw FileError(options.checkpoint,
+                        "is there already: name it with --resume too, to go on from it, or remove it");
+}
+
+// Goes on from the film that --resume names. Where the same one is to be written, it need not be there yet: so the same
+// command may be given again and again.
+void load_film(RenderJob& job, const RenderOptions& options, const Console& console) {
+    if (options.resume.empty()) return;
+    bool is_written = false;
+    for (const std::string& film : written_films(options)) is_written |= is_continued(options, film);
+    if (is_written && !std::filesystem::exists(options.resume))
+        console.note(options.resume + ": is not there yet; the render begins");
+    else
+        job.load(options.resume);
+}
+
+bool save_film(const RenderJob& job, const std::string& path, const Console& console) {
+    try {
+        job.save(path);
+        return true;
+    } catch (const Error& e) {
+        console.error(e.what());
+        return false;
+    }
+}
+
+int interrupted_status() { return 128 + caught_signal(); }
+
+}  // namespace
+
+int run_render_task(const RenderTask& task, const RenderOptions& options, const Console& console) {
+    check_camera_alone(options.camera);
+    check_outputs(task, options);
+    catch_interrupts();
+    std::vector<std::unique_ptr<FileLock>> locks;
+    for (const std::string& film : written_films(options)) locks.push_back(std::make_unique<FileLock>(film));
+
+    Figure figure = from_files(task.make);
+    figure.scene.name = figure.name;
+    apply(options, figure);
+    CameraRays(figure.camera, figure.settings.width, figure.settings.height);  // refuses an impossible camera
+    const CompiledScene scene = from_files([&] { return compile(figure.scene); });
+
+    ProgressBar bar(!options.quiet && stderr_is_terminal());
+    figure.settings.progress = [&bar](const Progress& progress) {
+        bar.update(progress);
+        return caught_signal() == 0;
+    };
+    RenderJob job(scene, figure.camera, figure.settings);
+    load_film(job, options, console);
+    if (!options.plan.empty()) job.load_plan(options.plan);
+    {
+        std::optional<Checkpoints> checkpoints;
+        if (!options.checkpoint.empty())
+            checkpoints.emplace(job, options.checkpoint, options.every.value_or(kEvery), [&](const Error& e) {
+                bar.clear();
+                console.error(std::string(e.what()) + "; the render goes on without this checkpoint");
+            });
+        job.run();
+    }
+    bar.clear();
+    if (job.film().all_samples() == 0) {
+        console.error("interrupted before the first sample: nothing was saved");
+        return interrupted_status();
+    }
+    bool saved = true;
+    for (const std::string& film : written_films(options)) saved &= save_film(job, film, console);
+    const RenderResult result = job.result();
+    saved &= save_pictures(result, job.film().info(), options, console);
+    if (!saved) return kFailed;
+    return result.report.complete ? kDone : interrupted_status();
+}
+
+}  // namespace limn::app

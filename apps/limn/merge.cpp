@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "limn/core/error.h"
+#include "limn/render/film.h"
+#include "limn/render/render_job.h"
+#include "parse.h"
+#include "picture_output.h"
+#include "program.h"
+#include "text_file.h"
+
+namespace limn::app {
+
+namespace {
+
+struct Arguments : PictureOptions {
+    std::vector<std::string> films;
+    std::optional<double> error;
+    std::string plan;
+};
+
+void check(const Arguments& a) {
+    if (a.error.has_value() == a.plan.empty()) throw ArgumentError("--error and --plan: each needs the other");
+    std::vector<std::string> outputs = a.outputs;
+    for (const std::string& path : {a.film, a.report, a.plan}) outputs.push_back(path);
+    check_distinct(outputs, a.films);
+    if (a.outputs.empty() && a.film.empty() && a.report.empty() && a.plan.empty())
+        throw ArgumentError("-o is missing: nothing would be written");
+    check_picture_options(a);
+    if (!a.plan.empty()) check_text_path(a.plan);
+}
+
+}  // namespace
+
+int merge_command(int argc, const char* const* argv) {
+    Options options("limn merge",
+                    "Makes one film, and its picture, of films that have its parts (see --shard of limn render). The "
+                    "result is that of one render, bit for bit.",
+                    fmt::format("The exit status is {} where --plan was written and is to be rendered.", kUnfinished));
+    Arguments a;
+    a.command_line = "limn " + command_line(argc, argv);
+    options.add({.name = "FILM",
+                 .value = "",
+                 .help = "Films that have all tiles of the picture, each in one of them, in any order",
+                 .required = true,
+                 .repeatable = true},
+                file_names("FILM", a.films));
+    options.add({.name = "--error",
+                 .value = "E",
+                 .help = "The relMSE that the picture is to have, by the upper end of its 95 % interval; with --plan",
+                 .preset = "none"},
+                [&a](const std::string& text) { a.error = parse_positive("--error", text); });
+    options.add({.name = "--plan",
+                 .value = "FILE",
+                 .help = "Where the picture has not that error, write how many samples each pixel is to have next, for "
+                         "limn render --plan",
+                 .preset = "none"},
+                file_name("--plan", a.plan));
+    add_picture_options(options, a);
+    if (!options.parse(argc, argv)) return kDone;
+    check(a);
+
+    const Console console{.program = "limn", .quiet = a.quiet};
+    const Film film = Film::merge(a.films);
+    if (!a.film.empty()) film.save(a.film);
+    const bool reached = !a.error || from_files([&] { return plan_next_round(film, *a.error, a.plan); });
+    const bool saved = save_pictures(render_result(film, a.error), film.info(), a, console);
+    return !saved ? kFailed : reached ? kDone : kUnfinished;
+}
+
+}  // namespace limn::app

@@ -1,0 +1,81 @@
+/// \file
+/// Renders that can be shown, paused, saved and continued.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "limn/core/error.h"
+#include "limn/render/film.h"
+#include "limn/render/render.h"
+
+namespace limn {
+
+/// A render of which `render` is the short form. However it is interrupted, saved, loaded and continued, on whatever
+/// machine and number of threads: the film, and the error at which it stops, are those of a render that never was.
+/// \code
+/// RenderJob job(scene, camera, settings);
+/// if (std::filesystem::exists("a.film")) job.load("a.film");
+/// job.run();
+/// job.save("a.film");
+/// \endcode
+/// The functions are for one thread at a time, but for those that say otherwise. They throw what `render` throws.
+class RenderJob {
+public:
+    /// The scene must outlive the job.
+    RenderJob(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
+    ~RenderJob();
+    RenderJob(const RenderJob&) = delete;
+    RenderJob& operator=(const RenderJob&) = delete;
+
+    /// Goes on from a film instead of the job's own. It may have more tiles than the job's shard.
+    /// \throws FileError as Film::load; also if it is of another scene or camera, or other settings but for threads,
+    /// samples, error and time limit; the job is then as before
+    void load(const std::string& path);
+    /// Renders what a plan wants instead of what the settings say. \throws FileError as `load`
+    void load_plan(const std::string& path);
+
+    /// Renders until something of the settings ends it; goes on where it was ended before, by a time limit that begins
+    /// anew, the callback or an exception.
+    StoppedBy run();
+    /// So many samples more in the mean over pixels, from 1 on, whatever the error is.
+    StoppedBy add_samples(int count);
+
+    /// Writes the film to a file, which appears whole or not at all. By any thread, at any time: while the job runs,
+    /// the film is that of some moment of it. \throws FileError
+    void save(const std::string& path) const;
+    /// The picture so far. By any thread, at any time.
+    Image image() const;
+
+    const Film& film() const;     ///< not while it runs
+    RenderResult result() const;  ///< not while it runs
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Saves a job's film regularly, in a thread of its own, as long as this object lives.
+class Checkpoints {
+public:
+    /// Every `seconds`, over 0. The job must outlive the object. `failed` is called by that thread with what was wrong
+    /// when a film could not be written; the render goes on.
+    Checkpoints(const RenderJob& job, const std::string& path, double seconds,
+                std::function<void(const Error&)> failed);
+    /// Ends at once, without saving.
+    ~Checkpoints();
+    Checkpoints(const Checkpoints&) = delete;
+    Checkpoints& operator=(const Checkpoints&) = delete;
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Whether a film's picture is within an error. Otherwise writes to `path` how many samples a pixel each shard is to
+/// have next, for RenderJob::load_plan. \throws FileError, ArgumentError if the film is not whole or has too few
+/// samples
+bool plan_next_round(const Film& film, double error, const std::string& path);
+
+}  // namespace limn

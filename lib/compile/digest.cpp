@@ -1,0 +1,99 @@
+#include "compile/digest.h"
+
+#include "core/checksum.h"
+
+namespace limn::compiler {
+
+namespace {
+
+// Field by field: what lies between the fields of a record is anything.
+class SceneChecksum {
+public:
+    Hash128 digest() const { return sum_.digest(); }
+
+    template <class... Fields>
+    void add(const Fields&... fields) {
+        (add_one(fields), ...);
+    }
+
+    // With their number, as for all tables.
+    template <class Record, class Function>
+    void table(const std::vector<Record>& records, const Function& add_record) {
+        sum_.add(std::uint64_t{records.size()});
+        for (const Record& record : records) add_record(record);
+    }
+    // Of numbers alone, without anything between them.
+    template <class Numbers>
+    void array(std::span<const Numbers> numbers) {
+        static_assert(sizeof(Numbers) % 4 == 0 && alignof(Numbers) == 4);
+        sum_.add(std::uint64_t{numbers.size()});
+        sum_.add(std::as_bytes(numbers));
+    }
+    void text(const std::string& text) { sum_.add(text); }
+
+private:
+    template <class Number>
+    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
+    void add_one(Number number) { sum_.add(number); }
+    void add_one(const Color& c) { add(c.r, c.g, c.b); }
+    void add_one(const Transform& m) {
+        for (const auto& row : m.rows)
+            for (const double entry : row) add(entry);
+    }
+    void add_one(const Box& b) { add(b.lower, b.upper); }
+    template <class Vector>
+    requires requires(Vector v) { v.x, v.y, v.z; }
+    void add_one(const Vector& v) { add(v.x, v.y, v.z); }
+
+    Checksum sum_;
+};
+
+void add_textures(const SceneRecords& r, SceneChecksum& sum) {
+    sum.table(r.textures, [&](const TextureRecord& t) {
+        sum.add(t.kind, t.filter, t.wrap, t.data, t.even, t.odd, t.scale, t.color);
+    });
+    sum.table(r.images, [&](const std::shared_ptr<const Image>& image) {
+        sum.add(image->width(), image->height());
+        sum.array(image->values());
+    });
+    sum.table(r.lattices, [&](const std::shared_ptr<const PerlinLattice>& lattice) {
+        for (const Vec3& gradient : lattice->gradients) sum.add(gradient);
+        for (const auto* permutation : {&lattice->perm_x, &lattice->perm_y, &lattice->perm_z})
+            for (const std::uint8_t entry : *permutation) sum.add(entry);
+    });
+    sum.table(r.materials, [&](const MaterialRecord& m) { sum.add(m.kind, m.fresnel, m.texture, m.parameter); });
+}
+
+void add_meshes(const SceneRecords& r, SceneChecksum& sum) {
+    sum.table(r.meshes, [&](const MeshRecord& mesh) {
+        const MeshView& a = mesh.arrays;
+        sum.array(a.vertices), sum.array(a.triangles), sum.array(a.normals), sum.array(a.uvs);
+        sum.array(a.material_slots);
+        sum.table(mesh.materials, [&](MaterialId material) { sum.add(material); });
+    });
+}
+
+}  // namespace
+
+Hash128 digest(const SceneRecords& r, const Background& background) {
+    SceneChecksum sum;
+    sum.add(background.bottom, background.top);
+    add_textures(r, sum);
+    add_meshes(r, sum);
+    sum.table(r.spheres, [&](const SphereRecord& s) { sum.add(s.center0, s.center1, s.radius, s.material); });
+    sum.table(r.triangles, [&](const TriangleRecord& t) { sum.add(t.a, t.b, t.c, t.material); });
+    sum.table(r.quads, [&](const QuadRecord& q) { sum.add(q.corner, q.edge_u, q.edge_v, q.material); });
+    sum.table(r.instances,
+              [&](const InstanceRecord& i) { sum.add(i.world_from_object0, i.world_from_object1, i.group, i.moving); });
+    sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });
+    sum.table(r.foreign, [&](const ForeignRecord& f) { sum.add(f.bounds); });
+    sum.table(r.groups, [&](const GroupRecord& group) {
+        sum.table(group.ranges, [&](const PrimitiveRange& range) {
+            sum.add(range.kind, range.first_row, range.first_number, range.count);
+        });
+    });
+    sum.table(r.tags, [&](const std::string& tag) { sum.text(tag); });
+    return sum.digest();
+}
+
+}  // namespace limn::compiler

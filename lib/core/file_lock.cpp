@@ -1,0 +1,32 @@
+#include "limn/core/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "core/replace_file.h"
+#include "limn/core/error.h"
+#include "limn/core/files.h"
+
+namespace limn {
+
+FileLock::FileLock(const std::string& path) : name_(file_behind_links(path) + ".lock") {
+    for (;;) {
+        descriptor_ = open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor_ < 0) throw FileError(path, "cannot be locked: " + system_message());
+        const bool locked = try_lock(descriptor_);
+        // The process that had it may have removed the file meanwhile.
+        if (locked && is_at(descriptor_, name_)) return;
+        close(descriptor_);
+        if (!locked) throw FileError(path, "is being written by another process");
+    }
+}
+
+FileLock::~FileLock() {
+    unlink(name_.c_str());
+    close(descriptor_);
+}
+
+}  // namespace limn

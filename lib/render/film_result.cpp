@@ -1,0 +1,32 @@
+// What a film is worth: its picture, the error of that, what it cost.
+#include "limn/render/render.h"
+#include "render/error_estimate.h"
+
+namespace limn {
+
+RenderResult render_result(const Film& film, std::optional<double> error) {
+    RenderResult r{film.image(), {}, {}, {}};
+    r.error = tracing::estimate_error(film, &r.maps);
+    r.error.target = error;
+    r.error.reached = error && r.error.ci95_high <= *error;
+    const FilmInfo& info = film.info();
+    const Film::Counts counts = film.counts();
+    r.report.scene = info.scene;
+    r.report.width = info.width;
+    r.report.height = info.height;
+    r.report.seed = info.seed;
+    r.report.max_depth = info.max_depth;
+    r.report.samples_per_pixel = film.mean_samples();
+    r.report.render_seconds = film.seconds();
+    r.report.rays = counts.rays;
+    r.report.nonfinite_samples = counts.nonfinite;
+    r.report.unusable_rays = counts.unusable_rays;
+    r.report.features = info.features;
+    r.report.memory_bytes = film.memory_bytes();
+    if (r.error.reached) r.report.stopped_by = StoppedBy::error;
+    return r;
+}
+
+const char* version() { return LIMN_VERSION; }
+
+}  // namespace limn

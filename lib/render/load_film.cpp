@@ -1,0 +1,125 @@
+// Films out of files, alone and brought together.
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+#include "limn/core/error.h"
+#include "limn/render/film.h"
+#include "render/film_fields.h"
+#include "render/film_file.h"
+
+namespace limn {
+
+using tracing::FilmReader;
+
+namespace {
+
+// In a message; empty for what is too long to read.
+template <class T>
+std::string text(const T& value) {
+    if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) return std::to_string(value);
+    return "";
+}
+
+// Adds a file's tiles to a film that they are a part of.
+void add_file(FilmReader& reader, Film& film) {
+    for (const std::uint32_t tile : reader.tiles())
+        film.set_tile(tile, std::span<const std::byte, Film::kTileBytes>(reader.tile()));
+}
+
+std::string samples_of(const SamplePlan& plan) { return std::to_string(plan.samples) + " samples a pixel"; }
+
+// The plan of all files is that of the first, but that every one brings the rates of its own tiles.
+void add_plan(const FilmReader& reader, SamplePlan plan, bool is_first, const std::string& first, Film& film) {
+    SamplePlan& all = film.plan();
+    if (!is_first &&
+        (plan.samples != all.samples || plan.scale != all.scale || plan.rates.empty() != all.rates.empty()))
+        reader.fail("has " + samples_of(plan) + ", " + first + " " + samples_of(all) + ", or other rates");
+    if (is_first) all.samples = plan.samples, all.scale = plan.scale, all.upper_error = plan.upper_error;
+    if (!plan.rates.empty()) film.set_rates(reader.tiles(), plan.rates);
+}
+
+std::string missing_shards(const std::vector<Shard>& shards) {
+    std::string names;
+    for (int i = 1; i <= shards.front().count; ++i) {
+        const auto is_it = [&](const Shard& s) { return s.count == shards.front().count && s.index == i; };
+        if (std::ranges::none_of(shards, is_it))
+            names += (names.empty() ? "" : ", ") + std::to_string(i) + "/" + std::to_string(shards.front().count);
+    }
+    return names;
+}
+
+// Whether the files belong together, as far as their headers tell; what all are of.
+FilmInfo check_headers(std::span<const std::string> paths) {
+    std::optional<FilmInfo> info;
+    std::vector<std::uint32_t> owner;  // of each tile, an index of paths
+    std::vector<Shard> shards;
+    constexpr std::uint32_t kNobody = 0xffffffff;
+    for (std::uint32_t i = 0; i < paths.size(); ++i) {
+        const FilmReader reader(paths[i]);
+        if (!info) {
+            info = reader.info();
+            owner.assign(Film::tile_count(*info), kNobody);
+        }
+        if (const std::string other = difference(reader.info(), *info); !other.empty())
+            reader.fail("is not of one render with " + paths[0] + ": " + other);
+        for (const std::uint32_t tile : reader.tiles()) {
+            if (owner[tile] != kNobody) reader.fail("has pixels that " + paths[owner[tile]] + " has too");
+            owner[tile] = i;
+        }
+        shards.push_back(reader.info().shard);
+    }
+    if (std::ranges::find(owner, kNobody) != owner.end()) {
+        const std::string shards_missing = missing_shards(shards);
+        throw FileError(
+            paths[0], (paths.size() == 1 ? "is" : "and the other files are") + std::string(" not the whole picture: ") +
+                          (shards_missing.empty() ? "some tiles are missing" : "missing are shards " + shards_missing));
+    }
+    info->shard = {};
+    return *info;
+}
+
+}  // namespace
+
+std::string difference(const FilmInfo& film, const FilmInfo& other) {
+    std::string found;
+    tracing::each_field(film, other, [&found](const std::string& name, const auto& a, const auto& b) {
+        if (!found.empty() || name.empty() || a == b) return;
+        found = "its " + name + " is " + (text(a).empty() ? "another" : text(a) + ", not " + text(b));
+    });
+    return found;
+}
+
+Film Film::load(const std::string& path) {
+    FilmReader reader(path);
+    Film film(reader.info(), reader.tiles());
+    add_file(reader, film);
+    film.plan_ = reader.finish();
+    film.seconds_ = reader.seconds();
+    return film;
+}
+
+Film Film::merge(std::span<const std::string> paths) {
+    if (paths.empty()) throw ArgumentError("Film::merge: there are no files");
+    Film film(check_headers(paths));
+    for (const std::string& path : paths) {
+        FilmReader reader(path);
+        if (!difference(reader.info(), film.info()).empty()) reader.fail("was changed meanwhile");
+        add_file(reader, film);
+        const SamplePlan plan = reader.finish();
+        add_plan(reader, plan, &path == &paths[0], paths[0], film);
+        film.seconds_ += reader.seconds();
+        if (!film.is_finished(reader.tiles()))
+            reader.fail("lacks samples: its render was interrupted, and can be resumed");
+    }
+    return film;
+}
+
+void Film::save(const std::string& path) const {
+    tracing::FilmWriter writer(path, *this);
+    for (const std::uint32_t tile : tiles_) writer.tile(tile_bytes(tile));
+    writer.finish(plan_, plan_.rates, seconds_);
+}
+
+}  // namespace limn

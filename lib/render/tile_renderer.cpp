@@ -1,0 +1,73 @@
+#include "render/tile_renderer.h"
+
+#include <algorithm>
+
+#include "render/sampler.h"
+
+namespace limn::tracing {
+
+namespace {
+
+constexpr std::size_t kBatch = 512;  // paths traced together: their state fits the second cache
+
+}  // namespace
+
+TileRenderer::TileRenderer(const flat::Scene& scene, const FilmInfo& info)
+    : scene_(scene),
+      info_(info),
+      camera_(info.camera, info.width, info.height),
+      has_lens_or_motion_(info.camera.aperture_angle > 0 || scene.features.moving_spheres ||
+                          scene.features.moving_instances || scene.features.foreign_shapes) {}
+
+void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
+                          std::atomic<std::uint64_t>& samples) const {
+    PathTracer tracer(scene_, info_.max_depth, info_.estimator);
+    std::vector<Path> paths;
+    Pixels pixels;
+    Film::Counts before;
+    const auto flush = [&] {
+        set_camera_rays(paths, pixels);
+        tracer.trace(paths);
+        Film::Counts counts{tracer.rays() - before.rays, tracer.unusable_rays() - before.unusable_rays, 0};
+        before += counts;
+        {
+            const std::scoped_lock lock(mutex);
+            for (std::size_t i = 0; i < paths.size(); ++i)
+                counts.nonfinite += film.add(pixels[i].first, pixels[i].second, paths[i].radiance) ? 0 : 1;
+            film.count(tile, counts);
+        }
+        samples += paths.size();
+        paths.clear(), pixels.clear();
+    };
+    const Film::Tile t = film.tile(tile);
+    for (int y = t.top; y < t.bottom; ++y)
+        for (int x = t.left; x < t.right; ++x)
+            for (auto i = film.samples(x, y), n = film.plan().wanted(x, y, film.place(x, y)); i < n; ++i) {
+                paths.push_back({Sampler(info_.seed, film.index(x, y), i, info_.sampler)});
+                pixels.emplace_back(x, y);
+                if (paths.size() == kBatch) flush();
+            }
+    if (!paths.empty()) flush();
+}
+
+void TileRenderer::set_camera_rays(std::span<Path> paths, const Pixels& pixels) const {
+    // In the pixel, on the lens, in time.
+    kernels::SobolLanes lanes;
+    kernels::Lane numbers[5] = {};
+    for (std::size_t first = 0; first < paths.size(); first += kernels::kShaded) {
+        const std::span some = paths.subspan(first, std::min(kernels::kShaded, paths.size() - first));
+        const auto sampler_at = [&](std::size_t i) -> Sampler& { return some[i].sampler; };
+        if (has_lens_or_motion_)
+            Sampler::draw_many<5>(some.size(), sampler_at, lanes, numbers);
+        else
+            Sampler::draw_many<2>(some.size(), sampler_at, lanes, numbers);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const auto [x, y] = pixels[first + i];
+            const double dx = info_.antialias ? numbers[0][i] : 0.5;
+            const double dy = info_.antialias ? numbers[1][i] : 0.5;
+            some[i].ray = camera_.ray(x + dx, y + dy, numbers[2][i], numbers[3][i], numbers[4][i]);
+        }
+    }
+}
+
+}  // namespace limn::tracing

@@ -1,0 +1,16 @@
+// Whatever the bytes of rays are, as text and as numbers, reading them gives rays or a FileError, and ends.
+#include <cstdint>
+
+#include "limn/core/error.h"
+#include "ray_reader.h"
+#include "scratch_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::string path = limn::fuzz::scratch_path("rays");
+    limn::fuzz::write_file(path, {reinterpret_cast<const char*>(data), size});
+    for (const bool binary : {false, true}) try {
+            limn::app::RayReader reader(path, binary);
+            while (!reader.next().empty()) {}
+        } catch (const limn::FileError&) {}
+    return 0;
+}
