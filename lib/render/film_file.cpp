@@ -39,7 +39,7 @@ public:
         } else if constexpr (kIsPlain<T>) {
             append(std::as_bytes(std::span(&value, 1)));
         } else {
-            each_part(value, [this](const auto& part) { put(part); });
+            each_part(value, [this](const auto& part) { this->put(part); });
         }
     }
     void append(std::span<const std::byte> more) {
@@ -75,7 +75,7 @@ public:
         } else if constexpr (kIsPlain<T>) {
             std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
         } else {
-            each_part(value, [this](auto& part) { get(part); });
+            each_part(value, [this](auto& part) { this->get(part); });
         }
     }
     std::span<const std::byte> take(std::uint64_t count) {
@@ -173,7 +173,9 @@ void FilmReader::read_header(FilmContent content) {
         fail("is damaged: its header");
     }
     const auto in_range = [](int side) { return side > 0 && side <= kMaxSide; };
-    if (!in_range(info_.width) || !in_range(info_.height) ||
+    const Shard& shard = info_.shard;
+    if (!in_range(info_.width) || !in_range(info_.height) || shard.index < 1 || shard.index > shard.count ||
+        static_cast<std::uint32_t>(shard.count) > Film::tile_count(info_) ||
         std::ranges::adjacent_find(tiles_, std::ranges::greater_equal{}) != tiles_.end() ||
         tiles_.back() >= Film::tile_count(info_))
         fail("is damaged: its header");

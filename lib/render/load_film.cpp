@@ -40,14 +40,19 @@ void add_plan(const FilmReader& reader, SamplePlan plan, bool is_first, const st
     if (!plan.rates.empty()) film.set_rates(reader.tiles(), plan.rates);
 }
 
+// Of those that the first one counts; the first ten.
 std::string missing_shards(const std::vector<Shard>& shards) {
+    const int count = shards.front().count;
+    std::vector<bool> is_there(static_cast<std::size_t>(count) + 1);
+    for (const Shard& s : shards)
+        if (s.count == count) is_there[static_cast<std::size_t>(s.index)] = true;
     std::string names;
-    for (int i = 1; i <= shards.front().count; ++i) {
-        const auto is_it = [&](const Shard& s) { return s.count == shards.front().count && s.index == i; };
-        if (std::ranges::none_of(shards, is_it))
-            names += (names.empty() ? "" : ", ") + std::to_string(i) + "/" + std::to_string(shards.front().count);
+    int missing = 0;
+    for (int i = 1; i <= count; ++i) {
+        if (is_there[static_cast<std::size_t>(i)] || ++missing > 10) continue;
+        names += (names.empty() ? "" : ", ") + std::to_string(i) + "/" + std::to_string(count);
     }
-    return names;
+    return names + (missing > 10 ? " and " + std::to_string(missing - 10) + " more" : "");
 }
 
 // Whether the files belong together, as far as their headers tell; what all are of.
