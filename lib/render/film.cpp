@@ -20,14 +20,23 @@ Error too_large(const FilmInfo& info) {
                  std::to_string(info.height));
 }
 
-// The bits of a number apart, a zero between each two.
-std::uint64_t spread_bits(std::uint32_t number) {
-    std::uint64_t bits = 0;
-    for (int i = 0; i < 32; ++i) bits |= static_cast<std::uint64_t>(number >> i & 1u) << (2 * i);
-    return bits;
+// Of the lattices {(x, y): x + g y = 0 modulo n} the one whose points are farthest from each other (Dammertz and
+// Keller, Image synthesis by rank-1 lattices, 2008); of the first so many g, which is enough for any n.
+std::int64_t lattice_generator(std::int64_t n) {
+    constexpr std::int64_t kMostTried = 1024;
+    std::int64_t best = 1, farthest = 0;
+    for (std::int64_t g = 1; g < std::min(n, kMostTried); ++g) {
+        std::int64_t nearest = n * n;
+        for (std::int64_t y = 1; y * y < nearest && y <= n; ++y) {
+            const std::int64_t x = n - g * y % n, across = std::min(x, n - x);
+            nearest = std::min(nearest, across * across + y * y);
+        }
+        if (std::gcd(g, n) == 1 && nearest > farthest) best = g, farthest = nearest;
+    }
+    return best;
 }
 
-// Along a Z curve tiles of equal place modulo any number lie evenly over the picture.
+// Tiles lie in the order of a lattice's cosets: a run of them, as long as one, is spread evenly over the picture.
 std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
     const Shard& shard = info.shard;
     const std::uint32_t across = tiles_along(info.width), all = Film::tile_count(info);
@@ -37,11 +46,11 @@ std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
     std::vector<std::uint32_t> order(all);
     std::iota(order.begin(), order.end(), 0u);
     if (shard.count == 1) return order;
-    const auto place = [across](std::uint32_t t) { return spread_bits(t % across) | spread_bits(t / across) << 1; };
-    std::ranges::sort(order, {}, place);
-    std::vector<std::uint32_t> some;
-    for (auto i = static_cast<std::size_t>(shard.index - 1); i < all; i += static_cast<std::size_t>(shard.count))
-        some.push_back(order[i]);
+    const std::int64_t generator = lattice_generator(shard.count);
+    const auto coset = [&](std::uint32_t t) { return (t % across + generator * (t / across)) % shard.count; };
+    std::ranges::stable_sort(order, {}, coset);
+    const auto begin_of = [&](int i) { return static_cast<std::ptrdiff_t>(std::int64_t{i} * all / shard.count); };
+    std::vector<std::uint32_t> some(order.begin() + begin_of(shard.index - 1), order.begin() + begin_of(shard.index));
     std::ranges::sort(some);
     return some;
 }

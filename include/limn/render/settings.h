@@ -28,8 +28,8 @@ inline constexpr int kUnlimitedDepth = std::numeric_limits<int>::max();
 /// See RenderSettings::max_samples_per_pixel.
 inline constexpr int kMostSamples = 1 << 20;
 
-/// A part of a picture: of its tiles of 16x16 pixels, along a Z curve, one in `count`. The shards of a picture take
-/// about the same time.
+/// A part of a picture: of its tiles of 16x16 pixels one in `count`, evenly spread. The shards of a picture take about
+/// the same time, as long as each has some dozens.
 struct Shard {
     int index = 1;  ///< 1 to count
     int count = 1;  ///< at most the number of tiles
