@@ -22,7 +22,7 @@ import reports  # noqa: E402
 from bits import pixels  # noqa: E402
 
 BIN = ROOT / "build/release/bin"
-FIGURE = ["--size", "160x160", "--spp", "512"]
+FIGURE = ["--size", "160x160", "--spp", "1536"]
 PARTS = 6
 EVERY = 0.5  # seconds between checkpoints
 NODES = {"n1": 17001, "n2": 17002}
@@ -105,9 +105,9 @@ def render_by_slurm(slurm, work):
     merge = subprocess.run([str(ROOT / "examples/cluster/slurm.sh"), str(PARTS), "cluster.exr", program, *FIGURE,
                             "--threads", "1"], cwd=work, capture_output=True, text=True, check=True,
                            env={**os.environ, "LIMN": str(BIN / "limn"), "EVERY": str(EVERY)}).stdout.strip()
-    wait_for(lambda: any(work.glob("cluster-*.film")), 60, "a checkpoint")
-    wait_for(lambda: output("squeue", "-h", "-w", "n1", "-t", "running", "-o", "%A"), 60, "a task on n1")
-    time.sleep(3 * EVERY)
+    running = lambda: output("squeue", "-h", "-w", "n1", "-t", "running", "-o", "%K")  # noqa: E731
+    wait_for(running, 60, "a task on n1")
+    wait_for((work / f"cluster-{running()}.film").exists, 60, "its checkpoint")
     lost = slurm.kill("n1")
     wait_for(lambda: (work / "cluster.exr").exists() or not output("squeue", "-h", "-j", merge), 600, "the merge")
     wait_for(lambda: not output("squeue", "-h", "-j", merge), 60, "its end")
