@@ -87,6 +87,13 @@ std::string summary(const RenderResult& result, const PictureOptions& options) {
 
 }  // namespace
 
+std::vector<std::string> PictureOptions::all_outputs() const {
+    std::vector<std::string> all = outputs;
+    if (!report.empty()) all.push_back(report);
+    if (!film.empty()) all.push_back(film);
+    return all;
+}
+
 void add_picture_options(Options& options, PictureOptions& o, const std::string& outputs) {
     options.add({.name = "-o,--output",
                  .value = "FILE",

@@ -20,6 +20,9 @@ struct PictureOptions {
     std::string report;        ///< path, "-" or empty
     std::string film;          ///< path or empty
     std::string command_line;  ///< for the picture's header
+
+    /// The pictures, the report and the film.
+    std::vector<std::string> all_outputs() const;
 };
 
 /// Adds the options, bound to `values`, which must outlive the parsing.

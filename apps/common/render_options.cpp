@@ -92,8 +92,7 @@ void add_films(Options& options, RenderOptions& o) {
         [&o](const std::string& s) { o.every = parse_positive("--every", s); });
     add("--resume", "FILE",
         "Go on from a film of this render; threads, outputs, --spp, --error and --time-limit may be others. If the "
-        "same "
-        "file is written, it need not be there yet",
+        "same file is written, it need not be there yet",
         "none", file_name("--resume", o.resume));
     add("--shard", "I/N", "Render one part of N, 1 to N, with --film; limn merge brings them together", "1/1",
         [&o](const std::string& s) { o.shard = parse_shard(s); });
@@ -215,13 +214,6 @@ void apply(const RenderOptions& o, Figure& figure) {
     replace(settings.sampler, o.sampler);
     if (o.no_antialias) settings.antialias = false;
     replace_camera(figure.camera, o.camera);
-}
-
-std::vector<std::string> RenderOptions::all_outputs() const {
-    std::vector<std::string> all = outputs;
-    if (!report.empty()) all.push_back(report);
-    if (!film.empty()) all.push_back(film);
-    return all;
 }
 
 void check_camera_alone(const CameraOptions& o) {

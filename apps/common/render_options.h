@@ -34,9 +34,6 @@ struct RenderOptions : PictureOptions {
     CameraOptions camera;
     bool uniform = false;
     bool no_antialias = false;
-
-    /// The pictures, the report and the film.
-    std::vector<std::string> all_outputs() const;
 };
 
 /// See RenderOptions::every.

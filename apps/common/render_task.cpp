@@ -1,5 +1,6 @@
 #include "render_task.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,13 +31,16 @@ bool is_continued(const RenderOptions& o, const std::string& film) {
     return !o.resume.empty() && file_behind_links(o.resume) == file_behind_links(film);
 }
 
+// Whether the film that is read is written, too.
+bool is_replaced(const RenderOptions& o) {
+    return std::ranges::any_of(written_films(o), [&](const std::string& film) { return is_continued(o, film); });
+}
+
 void check_outputs(const RenderTask& task, const RenderOptions& options) {
     std::vector<std::string> inputs = task.inputs, outputs = options.all_outputs();
     inputs.push_back(options.plan);
     outputs.push_back(options.checkpoint);
-    const std::vector<std::string> films = written_films(options);
-    const auto continued = [&](const std::string& film) { return is_continued(options, film); };
-    if (std::ranges::none_of(films, continued)) inputs.push_back(options.resume);
+    if (!is_replaced(options)) inputs.push_back(options.resume);
     check_distinct(outputs, inputs);
     check_picture_options(options);
     if (options.checkpoint.empty()) return;
@@ -50,9 +54,7 @@ void check_outputs(const RenderTask& task, const RenderOptions& options) {
 // command may be given again and again.
 void load_film(RenderJob& job, const RenderOptions& options, const Console& console) {
     if (options.resume.empty()) return;
-    bool is_written = false;
-    for (const std::string& film : written_films(options)) is_written |= is_continued(options, film);
-    if (is_written && !std::filesystem::exists(options.resume))
+    if (is_replaced(options) && !std::filesystem::exists(options.resume))
         console.note(options.resume + ": is not there yet; the render begins");
     else
         job.load(options.resume);

@@ -25,11 +25,10 @@ struct Arguments : PictureOptions {
 
 void check(const Arguments& a) {
     if (a.error.has_value() == a.plan.empty()) throw ArgumentError("--error and --plan: each needs the other");
-    std::vector<std::string> outputs = a.outputs;
-    for (const std::string& path : {a.film, a.report, a.plan}) outputs.push_back(path);
+    std::vector<std::string> outputs = a.all_outputs();
+    if (!a.plan.empty()) outputs.push_back(a.plan);
+    if (outputs.empty()) throw ArgumentError("-o is missing: nothing would be written");
     check_distinct(outputs, a.films);
-    if (a.outputs.empty() && a.film.empty() && a.report.empty() && a.plan.empty())
-        throw ArgumentError("-o is missing: nothing would be written");
     check_picture_options(a);
     if (!a.plan.empty()) check_text_path(a.plan);
 }
@@ -67,9 +66,11 @@ int merge_command(int argc, const char* const* argv) {
     const Console console{.program = "limn", .quiet = a.quiet};
     const Film film = Film::merge(a.films);
     if (!a.film.empty()) film.save(a.film);
-    const bool reached = !a.error || from_files([&] { return plan_next_round(film, *a.error, a.plan); });
-    const bool saved = save_pictures(render_result(film, a.error), film.info(), a, console);
-    return !saved ? kFailed : reached ? kDone : kUnfinished;
+    const RenderResult result = render_result(film, a.error);
+    const bool is_unfinished = a.error && !result.error.reached;
+    if (is_unfinished) from_files([&] { plan_next_round(film, result.error, a.plan); });
+    const bool saved = save_pictures(result, film.info(), a, console);
+    return !saved ? kFailed : is_unfinished ? kUnfinished : kDone;
 }
 
 }  // namespace limn::app

@@ -27,7 +27,7 @@ int next_check(int samples, double upper, double target);
 bool is_milestone(int samples);
 
 // After how many samples films of several machines are to be merged and asked again; `upper` is the upper end of their
-// interval after `samples`, which is over `target`.
+// interval after `samples`, which is over `target`, or NaN where that is unknown.
 int next_round(int samples, double upper, double target);
 
 }  // namespace limn::tracing

@@ -47,8 +47,10 @@ std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
     std::iota(order.begin(), order.end(), 0u);
     if (shard.count == 1) return order;
     const std::int64_t generator = lattice_generator(shard.count);
-    const auto coset = [&](std::uint32_t t) { return (t % across + generator * (t / across)) % shard.count; };
-    std::ranges::stable_sort(order, {}, coset);
+    const auto by_coset = [&](std::uint32_t t) {
+        return std::pair((t % across + generator * (t / across)) % shard.count, t);
+    };
+    std::ranges::sort(order, {}, by_coset);
     const auto begin_of = [&](int i) { return static_cast<std::ptrdiff_t>(std::int64_t{i} * all / shard.count); };
     std::vector<std::uint32_t> some(order.begin() + begin_of(shard.index - 1), order.begin() + begin_of(shard.index));
     std::ranges::sort(some);
@@ -144,9 +146,14 @@ double Film::largest_share(int x, int y) const {
 
 Image Film::image() const {
     Image image(width(), height());
-    for (int y = 0; y < height(); ++y)
-        for (int x = 0; x < width(); ++x) image.set(x, y, mean(x, y));
+    for (const std::uint32_t number : tiles_) draw(number, image);
     return image;
+}
+
+void Film::draw(std::uint32_t number, Image& image) const {
+    const Tile t = tile(number);
+    for (int y = t.top; y < t.bottom; ++y)
+        for (int x = t.left; x < t.right; ++x) image.set(x, y, mean(x, y));
 }
 
 double Film::mean_samples() const { return static_cast<double>(all_samples()) / static_cast<double>(own_pixels()); }
@@ -177,8 +184,9 @@ void Film::set_rates(std::span<const std::uint32_t> tiles, std::span<const float
     if (rates.size() != tiles.size() * kTilePixels) throw ArgumentError("film: rates of other tiles");
     plan_.rates.resize(places());
     for (std::size_t i = 0; i < tiles.size(); ++i)
-        if (const std::size_t slot = slots_[tiles[i]]; slot < tiles_.size())
-            std::ranges::copy(rates.subspan(i * kTilePixels, kTilePixels), &plan_.rates[slot * kTilePixels]);
+        if (has(tiles[i]))
+            std::ranges::copy(rates.subspan(i * kTilePixels, kTilePixels),
+                              &plan_.rates[slots_[tiles[i]] * kTilePixels]);
 }
 
 Film::Counts& Film::Counts::operator+=(const Counts& other) {

@@ -22,7 +22,6 @@ static_assert(std::endian::native == std::endian::little, "films are written as 
 
 constexpr std::string_view kBegin = "limnfilm", kEnd = "filmlimn";
 constexpr std::uint32_t kFormat = 1;
-constexpr int kMaxSide = 1 << 20;
 
 template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
@@ -52,10 +51,11 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// Reads what Bytes wrote. What cannot be is an Error.
+// Reads what Bytes wrote. `damaged` is called where that cannot be, and throws.
+template <class Damaged>
 class Parser {
 public:
-    explicit Parser(std::span<const std::byte> bytes) : rest_(bytes) {}
+    Parser(std::span<const std::byte> bytes, const Damaged& damaged) : rest_(bytes), damaged_(damaged) {}
 
     template <class T>
     T get() {
@@ -67,7 +67,7 @@ public:
     void get(T& value) {
         if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {
             const auto number = get<std::uint8_t>();
-            if (number > 1) throw Error("");  // enumerations have two values
+            if (number > 1) damaged_();  // enumerations have two values
             value = static_cast<T>(number);
         } else if constexpr (std::is_same_v<T, std::string>) {
             const std::span text = take(get<std::uint64_t>());
@@ -79,7 +79,7 @@ public:
         }
     }
     std::span<const std::byte> take(std::uint64_t count) {
-        if (count > rest_.size()) throw Error("");
+        if (count > rest_.size()) damaged_();
         const auto taken = rest_.first(static_cast<std::size_t>(count));
         rest_ = rest_.subspan(taken.size());
         return taken;
@@ -88,6 +88,7 @@ public:
 
 private:
     std::span<const std::byte> rest_;
+    const Damaged& damaged_;
 };
 
 // The bytes of the plan's chunk.
@@ -158,68 +159,65 @@ FilmReader::FilmReader(const std::string& path, FilmContent content) : path_(pat
 
 void FilmReader::read_header(FilmContent content) {
     const std::vector<std::byte> bytes = chunk("its header", 1, std::numeric_limits<std::uint64_t>::max());
-    try {
-        Parser header(bytes);
-        if (header.get<FilmContent>() != content)
-            throw FileError(path_, content == FilmContent::film ? "is a plan, not a film" : "is a film, not a plan");
-        each_field(info_, info_, [&](const char*, auto& field, const auto&) { header.get(field); });
-        const std::span rest = header.rest();
-        if (rest.empty() || rest.size() % sizeof(std::uint32_t) != 0) throw Error("");
-        tiles_.resize(rest.size() / sizeof(std::uint32_t));
-        std::memcpy(tiles_.data(), rest.data(), tiles_.size() * sizeof(std::uint32_t));
-    } catch (const FileError&) {
-        throw;
-    } catch (const Error&) {
-        fail("is damaged: its header");
-    }
+    const auto damaged = [this] { fail_damaged("its header"); };
+    Parser header(bytes, damaged);
+    if (header.get<FilmContent>() != content)
+        fail(content == FilmContent::film ? "is a plan, not a film" : "is a film, not a plan");
+    each_field(info_, info_, [&](const char*, auto& field, const auto&) { header.get(field); });
+    const std::span rest = header.rest();
+    if (rest.empty() || rest.size() % sizeof(std::uint32_t) != 0) damaged();
+    tiles_.resize(rest.size() / sizeof(std::uint32_t));
+    std::memcpy(tiles_.data(), rest.data(), rest.size());
     const auto in_range = [](int side) { return side > 0 && side <= kMaxSide; };
     const Shard& shard = info_.shard;
     if (!in_range(info_.width) || !in_range(info_.height) || shard.index < 1 || shard.index > shard.count ||
         static_cast<std::uint32_t>(shard.count) > Film::tile_count(info_) ||
         std::ranges::adjacent_find(tiles_, std::ranges::greater_equal{}) != tiles_.end() ||
         tiles_.back() >= Film::tile_count(info_))
-        fail("is damaged: its header");
+        damaged();
 }
 
-std::vector<std::byte> FilmReader::tile() { return chunk("a tile", Film::kTileBytes, Film::kTileBytes); }
+void FilmReader::read_tiles(Film& film) {
+    for (const std::uint32_t tile : tiles_) {
+        const std::vector<std::byte> bytes = chunk("a tile", Film::kTileBytes, Film::kTileBytes);
+        if (film.has(tile)) film.set_tile(tile, std::span<const std::byte, Film::kTileBytes>(bytes));
+    }
+}
 
 SamplePlan FilmReader::finish() {
     const std::vector<std::byte> bytes = chunk("its plan", kPlanBytes, kPlanBytes);
-    Parser scalars(bytes);
+    const auto damaged = [this] { fail_damaged("its plan"); };
+    Parser scalars(bytes, damaged);
     SamplePlan plan;
     bool has_rates = false;
-    try {
-        plan.samples = scalars.get<std::int32_t>();
-        scalars.get(plan.scale), scalars.get(plan.upper_error), scalars.get(seconds_), scalars.get(has_rates);
-    } catch (const Error&) {
-        fail("is damaged: its plan");
-    }
-    if (plan.samples < 0 || !(plan.scale >= 0)) fail("is damaged: its plan");
+    plan.samples = scalars.get<std::int32_t>();
+    scalars.get(plan.scale), scalars.get(plan.upper_error), scalars.get(seconds_), scalars.get(has_rates);
+    if (plan.samples < 0 || !(plan.scale >= 0)) damaged();
     if (has_rates) {
         const std::uint64_t size = tiles_.size() * Film::kTilePixels * sizeof(float);
         const std::vector<std::byte> rates = chunk("its rates", size, size);
         plan.rates.resize(tiles_.size() * Film::kTilePixels);
         std::memcpy(plan.rates.data(), rates.data(), rates.size());
-        if (!std::ranges::all_of(plan.rates, [](float rate) { return rate >= 0; })) fail("is damaged: its rates");
+        if (!std::ranges::all_of(plan.rates, [](float rate) { return rate >= 0; })) fail_damaged("its rates");
     }
     const std::uint64_t length = position_;
     std::uint64_t said = 0;
     char end[kEnd.size()] = {};
     read(std::as_writable_bytes(std::span(&said, 1)));
     read(std::as_writable_bytes(std::span(end)));
-    if (said != length || std::string_view(end, kEnd.size()) != kEnd || left() > 0) fail("is damaged: its end");
+    if (said != length || std::string_view(end, kEnd.size()) != kEnd || left() > 0) fail_damaged("its end");
     return plan;
 }
 
 std::vector<std::byte> FilmReader::chunk(const char* what, std::uint64_t least, std::uint64_t most) {
     std::uint64_t length = 0, sum = 0;
     read(std::as_writable_bytes(std::span(&length, 1)));
-    if (length < least || length > most) fail(std::string("is damaged: ") + what);
+    if (length < least || length > most) fail_damaged(what);
     if (length > left()) fail("is cut short");
     std::vector<std::byte> bytes(static_cast<std::size_t>(length));
     read(bytes);
     read(std::as_writable_bytes(std::span(&sum, 1)));
-    if (sum != checksum(bytes)) fail(std::string("is damaged: ") + what);
+    if (sum != checksum(bytes)) fail_damaged(what);
     return bytes;
 }
 

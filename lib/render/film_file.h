@@ -50,9 +50,9 @@ public:
     const FilmInfo& info() const { return info_; }
     const std::vector<std::uint32_t>& tiles() const { return tiles_; }
 
-    // The next of `tiles`, Film::kTileBytes long.
-    std::vector<std::byte> tile();
-    // After the last tile: the plan, with rates tile by tile, or none.
+    // All of `tiles`: those that the film has become its own.
+    void read_tiles(Film& film);
+    // After the tiles: the plan, with rates tile by tile, or none.
     SamplePlan finish();
     double seconds() const { return seconds_; }  // after that
 
@@ -62,6 +62,7 @@ public:
 private:
     void read_header(FilmContent content);
     std::vector<std::byte> chunk(const char* what, std::uint64_t least, std::uint64_t most);
+    [[noreturn]] void fail_damaged(const std::string& what) const { fail("is damaged: " + what); }
     void read(std::span<std::byte> to);
     std::uint64_t left() const { return size_ - position_; }
 

@@ -13,7 +13,6 @@ namespace limn::tracing {
 
 namespace {
 
-constexpr int kMaxSide = 1 << 20;
 constexpr int kMaxThreads = 1024;
 
 void check(const CompiledScene& scene, const RenderSettings& s) {

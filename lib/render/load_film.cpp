@@ -22,16 +22,10 @@ std::string text(const T& value) {
     return "";
 }
 
-// Adds a file's tiles to a film that they are a part of.
-void add_file(FilmReader& reader, Film& film) {
-    for (const std::uint32_t tile : reader.tiles())
-        film.set_tile(tile, std::span<const std::byte, Film::kTileBytes>(reader.tile()));
-}
-
 std::string samples_of(const SamplePlan& plan) { return std::to_string(plan.samples) + " samples a pixel"; }
 
 // The plan of all files is that of the first, but that every one brings the rates of its own tiles.
-void add_plan(const FilmReader& reader, SamplePlan plan, bool is_first, const std::string& first, Film& film) {
+void add_plan(const FilmReader& reader, const SamplePlan& plan, bool is_first, const std::string& first, Film& film) {
     SamplePlan& all = film.plan();
     if (!is_first &&
         (plan.samples != all.samples || plan.scale != all.scale || plan.rates.empty() != all.rates.empty()))
@@ -99,7 +93,7 @@ std::string difference(const FilmInfo& film, const FilmInfo& other) {
 Film Film::load(const std::string& path) {
     FilmReader reader(path);
     Film film(reader.info(), reader.tiles());
-    add_file(reader, film);
+    reader.read_tiles(film);
     film.plan_ = reader.finish();
     film.seconds_ = reader.seconds();
     return film;
@@ -111,7 +105,7 @@ Film Film::merge(std::span<const std::string> paths) {
     for (const std::string& path : paths) {
         FilmReader reader(path);
         if (!difference(reader.info(), film.info()).empty()) reader.fail("was changed meanwhile");
-        add_file(reader, film);
+        reader.read_tiles(film);
         const SamplePlan plan = reader.finish();
         add_plan(reader, plan, &path == &paths[0], paths[0], film);
         film.seconds_ += reader.seconds();

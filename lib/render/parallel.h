@@ -1,10 +1,12 @@
-// The one loop that limn runs in parallel.
+// How limn uses threads: the one loop that it runs in parallel, and in which arena.
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 
@@ -34,6 +36,20 @@ template <class Function>
 void for_each_row(int height, const Function& function) {
     tbb::task_group_context context(tbb::task_group_context::isolated);
     for_each_index(static_cast<std::size_t>(height), context, [&](std::size_t y) { function(static_cast<int>(y)); });
+}
+
+/// Calls function() with so many threads; 0: with those of the caller's arena.
+template <class Function>
+void with_threads(int threads, const Function& function) {
+    const FloatEnvironment environment;
+    if (threads == 0) return function();
+    // More threads than processors are allowed, for whoever asks for them.
+    const auto count = static_cast<std::size_t>(threads);
+    const tbb::global_control allow(
+        tbb::global_control::max_allowed_parallelism,
+        std::max(count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+    tbb::task_arena arena(threads);
+    arena.execute(function);
 }
 
 }  // namespace limn::tracing

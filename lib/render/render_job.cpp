@@ -1,16 +1,12 @@
 #include "limn/render/render_job.h"
 
-#include <oneapi/tbb/global_control.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <mutex>
 
-#include "core/float_environment.h"
 #include "limn/core/error.h"
 #include "render/error_estimate.h"
 #include "render/film_file.h"
@@ -25,20 +21,6 @@ namespace {
 
 constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
 using Clock = std::chrono::steady_clock;
-
-// Calls function() with so many threads; 0: with those of the caller's arena.
-template <class Function>
-void with_threads(int threads, const Function& function) {
-    const FloatEnvironment environment;
-    if (threads == 0) return function();
-    // More threads than processors are allowed, for whoever asks for them.
-    const auto count = static_cast<std::size_t>(threads);
-    const tbb::global_control allow(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    tbb::task_arena arena(threads);
-    arena.execute(function);
-}
 
 }  // namespace
 
@@ -55,12 +37,7 @@ public:
     void load(const std::string& path) {
         tracing::FilmReader reader = checked_reader(path, tracing::FilmContent::film);
         Film film(film_.info());
-        const std::span own = film.tiles();
-        for (const std::uint32_t tile : reader.tiles()) {
-            const std::vector<std::byte> bytes = reader.tile();
-            if (std::ranges::binary_search(own, tile))
-                film.set_tile(tile, std::span<const std::byte, Film::kTileBytes>(bytes));
-        }
+        reader.read_tiles(film);
         take_plan(reader, film);
         film.set_seconds(reader.seconds());
         film_ = std::move(film);
@@ -121,9 +98,7 @@ public:
         Image image(film_.width(), film_.height());
         for (const std::uint32_t number : film_.tiles()) {
             const std::scoped_lock lock(tile_mutex(number));
-            const Film::Tile t = film_.tile(number);
-            for (int y = t.top; y < t.bottom; ++y)
-                for (int x = t.left; x < t.right; ++x) image.set(x, y, film_.mean(x, y));
+            film_.draw(number, image);
         }
         return image;
     }
@@ -132,7 +107,7 @@ public:
 
     RenderResult result() const {
         RenderResult r;
-        with_threads(settings_.threads, [&] { r = render_result(film_, settings_.error); });
+        tracing::with_threads(settings_.threads, [&] { r = render_result(film_, settings_.error); });
         r.report.threads = settings_.threads > 0 ? settings_.threads : tbb::this_task_arena::max_concurrency();
         r.report.compile_seconds = scene_.stats().seconds;
         r.report.memory_bytes += scene_.stats().memory_bytes;
@@ -168,7 +143,7 @@ private:
         };
         {
             const End end{*this};
-            with_threads(settings_.threads, [this] { run_passes(); });
+            tracing::with_threads(settings_.threads, [this] { run_passes(); });
         }
         if (!interrupted_) {
             finished_ = true;

@@ -7,13 +7,12 @@
 #include "house.h"
 #include "process.h"
 #include "support/folder.h"
+#include "support/text.h"
 
 namespace limn::test {
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const Words kTiny{"--scale", "0.0005", "--rays", "300", "--rounds", "1", "--build-rounds", "1", "--threads", "1"};
 

@@ -16,13 +16,12 @@
 #include "limn/io/image_io.h"
 #include "process.h"
 #include "support/folder.h"
+#include "support/text.h"
 
 namespace limn::test {
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Words operator+(Words a, const Words& b) {
     a.insert(a.end(), b.begin(), b.end());

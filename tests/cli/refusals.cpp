@@ -10,11 +10,10 @@
 #include "limn/render/settings.h"
 #include "process.h"
 #include "support/folder.h"
+#include "support/text.h"
 
 namespace limn::test {
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
     const Outcome version = limn({"--version"});

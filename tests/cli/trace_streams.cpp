@@ -7,13 +7,12 @@
 #include "process.h"
 #include "ray_forms.h"
 #include "support/folder.h"
+#include "support/text.h"
 
 namespace limn::test {
 namespace {
 
 const std::string kRay = std::string(kTriangleRay) + "\n", kAnswer = std::string(kTriangleAnswer) + "\n";
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // A model that the rays of this file are traced in.
 struct Triangle {

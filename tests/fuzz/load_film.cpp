@@ -9,23 +9,15 @@
 #include "scratch_file.h"
 #include "support/film_bytes.h"
 
-namespace {
-
-template <class Read>
-void attempt(Read read) try {
-    read();
-} catch (const limn::Error&) {}
-
-}  // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::vector<std::string> paths = {limn::fuzz::scratch_path("film")};
     limn::fuzz::write_file(paths[0], limn::test::with_chunk_sums({reinterpret_cast<const char*>(data), size}));
-    attempt([&] {
+    limn::fuzz::attempt<limn::Error>([&] {
         const limn::Film film = limn::Film::load(paths[0]);
         static_cast<void>(film.is_finished() ? film.mean_samples() : film.fewest_samples());
     });
-    attempt([&] { limn::Film::merge(paths).image(); });
-    attempt([&] { limn::tracing::FilmReader(paths[0], limn::tracing::FilmContent::plan).finish(); });
+    limn::fuzz::attempt<limn::Error>([&] { limn::Film::merge(paths).image(); });
+    limn::fuzz::attempt<limn::Error>(
+        [&] { limn::tracing::FilmReader(paths[0], limn::tracing::FilmContent::plan).finish(); });
     return 0;
 }

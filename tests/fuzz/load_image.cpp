@@ -8,23 +8,14 @@
 #include "limn/io/image_io.h"
 #include "scratch_file.h"
 
-namespace {
-
-template <class Read>
-void attempt(Read read) try {
-    read();
-} catch (const limn::FileError&) {}
-
-}  // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::string path = limn::fuzz::scratch_path("picture");
     std::string bytes(reinterpret_cast<const char*>(data), size);
     if (bytes.starts_with("\x89PNG")) bytes = limn::test::with_checksums(bytes);
     limn::fuzz::write_file(path, bytes);
-    attempt([&] { limn::load_image(path); });
-    attempt([&] { limn::load_image_from_memory(std::as_bytes(std::span(bytes))); });
-    attempt([&] { limn::load_image_info(path); });
-    attempt([&] { limn::load_image_facts(path); });
+    limn::fuzz::attempt<limn::FileError>([&] { limn::load_image(path); });
+    limn::fuzz::attempt<limn::FileError>([&] { limn::load_image_from_memory(std::as_bytes(std::span(bytes))); });
+    limn::fuzz::attempt<limn::FileError>([&] { limn::load_image_info(path); });
+    limn::fuzz::attempt<limn::FileError>([&] { limn::load_image_facts(path); });
     return 0;
 }

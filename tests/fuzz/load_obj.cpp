@@ -12,8 +12,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t end = std::min(input.find('\0'), input.size());
     limn::fuzz::write_file(obj_path, std::string(input.substr(0, end)) + "\nmtllib a.mtl\n");
     limn::fuzz::write_file(mtl_path, input.substr(std::min(end + 1, input.size())));
-    try {
-        limn::load_obj(obj_path);
-    } catch (const limn::FileError&) {}
+    limn::fuzz::attempt<limn::FileError>([&] { limn::load_obj(obj_path); });
     return 0;
 }

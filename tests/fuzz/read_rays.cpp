@@ -8,9 +8,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::string path = limn::fuzz::scratch_path("rays");
     limn::fuzz::write_file(path, {reinterpret_cast<const char*>(data), size});
-    for (const bool binary : {false, true}) try {
+    for (const bool binary : {false, true})
+        limn::fuzz::attempt<limn::FileError>([&] {
             limn::app::RayReader reader(path, binary);
             while (!reader.next().empty()) {}
-        } catch (const limn::FileError&) {}
+        });
     return 0;
 }

@@ -1,4 +1,4 @@
-// A file that is written anew for each input.
+// A file that is written anew for each input, and reading that may be refused.
 #pragma once
 
 #include <unistd.h>
@@ -20,5 +20,11 @@ inline std::string scratch_path(const std::string& name) {
 inline void write_file(const std::string& path, std::string_view bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
+
+// read(), which may throw a Fault: one that the reader is to find.
+template <class Fault, class Read>
+void attempt(Read read) try {
+    read();
+} catch (const Fault&) {}
 
 }  // namespace limn::fuzz

@@ -130,7 +130,9 @@ public:
     double largest_share(int x, int y) const;
     ///@}
 
-    Image image() const;          ///< of the means
+    Image image() const;  ///< of the means
+    /// The part of `image` that is a tile's. \pre the image has the film's size, and the film the tile
+    void draw(std::uint32_t tile, Image& image) const;
     double mean_samples() const;  ///< a pixel that it has
     std::uint64_t all_samples() const;
     std::size_t own_pixels() const;        ///< that it has
@@ -175,8 +177,9 @@ public:
     };
     static Tile tile(const FilmInfo& info, std::uint32_t number);
     Tile tile(std::uint32_t number) const { return tile(info_, number); }
-    static std::uint32_t tile_count(const FilmInfo& info);                                 ///< of the whole picture
-    std::span<const std::uint32_t> tiles() const { return tiles_; }                        ///< that it has, ascending
+    static std::uint32_t tile_count(const FilmInfo& info);           ///< of the whole picture
+    std::span<const std::uint32_t> tiles() const { return tiles_; }  ///< that it has, ascending
+    bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }
     void count(std::uint32_t tile, const Counts& more) { counts_[slots_[tile]] += more; }  ///< \pre it has the tile
     Counts counts() const;                                                                 ///< of all its tiles
 

@@ -73,9 +73,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Whether a film's picture is within an error. Otherwise writes to `path` how many samples a pixel each shard is to
-/// have next, for RenderJob::load_plan. \throws FileError, ArgumentError if the film is not whole or has too few
-/// samples
-bool plan_next_round(const Film& film, double error, const std::string& path);
+/// Writes to `path` how many samples a pixel each shard is to have next, for RenderJob::load_plan, where the error of
+/// the film's picture, as `render_result` knows it, is over its target. \throws FileError; ArgumentError if there is no
+/// target, the film is not whole or has too few samples
+void plan_next_round(const Film& film, const ErrorEstimate& error, const std::string& path);
 
 }  // namespace limn

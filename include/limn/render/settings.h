@@ -25,6 +25,8 @@ enum class SamplerKind : std::uint8_t { sobol, independent };
 
 /// See RenderSettings::max_depth.
 inline constexpr int kUnlimitedDepth = std::numeric_limits<int>::max();
+/// See RenderSettings::width and height.
+inline constexpr int kMaxSide = 1 << 20;
 /// See RenderSettings::max_samples_per_pixel.
 inline constexpr int kMostSamples = 1 << 20;
 
