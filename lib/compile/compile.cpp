@@ -7,9 +7,9 @@
 #include "compile/digest.h"
 #include "compile/groups.h"
 #include "compile/lights.h"
-#include "core/plane_normal.h"
 #include "core/require.h"
 #include "limn/core/error.h"
+#include "predicates/plane_normal.h"
 
 namespace limn::compiler {
 

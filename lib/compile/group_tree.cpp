@@ -12,9 +12,9 @@
 #include "accel/float_box.h"
 #include "accel/slab.h"
 #include "compile/pack.h"
-#include "core/bounds.h"
-#include "core/mesh_triangle.h"
 #include "limn/core/error.h"
+#include "predicates/bounds.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn::compiler {
 

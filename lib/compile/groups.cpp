@@ -6,8 +6,8 @@
 #include "accel/slab.h"
 #include "compile/group_tree.h"
 #include "compile/reach.h"
-#include "core/bounds.h"
 #include "limn/core/error.h"
+#include "predicates/bounds.h"
 
 namespace limn::compiler {
 

@@ -5,8 +5,8 @@
 
 #include "compile/light_tree.h"
 #include "compile/reach.h"
-#include "core/hit_error.h"
-#include "core/mesh_triangle.h"
+#include "predicates/hit_error.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn::compiler {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/mesh_triangle.h"
-#include "core/settle.h"
+#include "predicates/exact.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn::compiler {
 

@@ -9,8 +9,8 @@
 #include <bit>
 #include <limits>
 
-#include "core/mesh_triangle.h"
 #include "limn/core/error.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn::compiler {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/hit_error.h"
 #include "flat/scene.h"
+#include "predicates/hit_error.h"
 
 namespace limn::flat {
 

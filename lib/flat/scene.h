@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "core/huge_pages.h"
-#include "core/mesh_triangle.h"
-#include "core/ray_frame.h"
 #include "flat/features.h"
 #include "flat/lights.h"
 #include "flat/list.h"
@@ -19,6 +17,8 @@
 #include "limn/core/hash128.h"
 #include "limn/core/math.h"
 #include "limn/records.h"
+#include "predicates/mesh_triangle.h"
+#include "predicates/ray_frame.h"
 
 namespace limn::flat {
 

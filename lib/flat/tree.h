@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/mesh_triangle.h"
 #include "limn/records.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn::flat {
 

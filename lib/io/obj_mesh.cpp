@@ -5,8 +5,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/mesh_triangle.h"
 #include "io/polygon.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn {
 

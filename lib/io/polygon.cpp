@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/mesh_triangle.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn {
 

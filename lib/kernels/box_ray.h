@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/filter.h"
-#include "core/ray_frame.h"
 #include "flat/scene.h"
+#include "predicates/filter.h"
+#include "predicates/ray_frame.h"
 
 namespace limn::kernels {
 

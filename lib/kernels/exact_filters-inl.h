@@ -6,11 +6,11 @@
 #define LIMN_KERNELS_EXACT_FILTERS_INL_H
 #endif
 
-#include "core/coordinate.h"
-#include "core/filter.h"
-#include "core/ray_frame.h"
-#include "core/sheared_ray.h"
 #include "kernels/lanes-inl.h"
+#include "predicates/coordinate.h"
+#include "predicates/filter.h"
+#include "predicates/ray_frame.h"
+#include "predicates/sheared_ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -42,8 +42,9 @@ struct PlanarAnswers {
     T t, u, v;
 };
 
-// filter_triangle and filter_quad (core/intersect_*.h) for rays that pass inside the edges: the same operations in the
-// same order, so that an answer has the same bits. Other rays, and those whose t is not accurate, are left to them.
+// filter_triangle and filter_quad (predicates/triangle.h, quad.h) for rays that pass inside the edges: the same
+// operations in the same order, so that an answer has the same bits. Other rays, and those whose t is not accurate, are
+// left to them.
 template <bool kQuad, class D>
 class PlanarFilter {
 public:
@@ -156,7 +157,7 @@ private:
 };
 
 HWY_INLINE Decision decision(std::uint32_t hits, std::uint32_t misses, std::size_t lane) {
-    return (hits >> lane & 1) != 0 ? Decision::hit : (misses >> lane & 1) != 0 ? Decision::miss : Decision::unsure;
+    return (hits >> lane & 1) != 0 ? Decision::hit : (misses >> lane & 1) != 0 ? Decision::miss : Decision::undecided;
 }
 
 // The axes as ShearedRay permutes them, without branches.

@@ -1,7 +1,7 @@
 #include "kernels/exact_tests.h"
 
-#include "core/intersect_quad.h"
-#include "core/intersect_triangle.h"
+#include "predicates/quad.h"
+#include "predicates/triangle.h"
 
 namespace limn::kernels {
 

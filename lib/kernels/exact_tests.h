@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/intersect_sphere.h"
-#include "core/sheared_ray.h"
+#include "predicates/sheared_ray.h"
+#include "predicates/sphere.h"
 
 namespace limn::kernels {
 

@@ -6,9 +6,9 @@
 #define LIMN_KERNELS_LIST_INL_H
 #endif
 
-#include "core/filter.h"
 #include "flat/list.h"
 #include "kernels/lanes-inl.h"
+#include "predicates/filter.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -67,7 +67,7 @@ HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triang
     return m;
 }
 
-// Whether a plane lies behind an origin: is_behind of core/sheared_ray.h, with the error of the primitive itself.
+// Whether a plane lies behind an origin: is_behind of predicates/sheared_ray.h, with the error of the primitive itself.
 class PlaneBehind {
 public:
     explicit HWY_INLINE PlaneBehind(const PrimitiveList::Entry& e)

@@ -12,7 +12,7 @@
 #include "kernels/list-inl.h"
 #include "kernels/list_exact.h"
 #include "kernels/queries.h"
-#include "kernels/sphere_side.h"
+#include "predicates/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {

@@ -27,7 +27,7 @@ HWY_INLINE bool settle_listed(const flat::Scene& scene, const PrimitiveList::Ent
     if (e.is_instanced) return false;
     const Search search{frame.ray.t_min, query.limit()};
     PlanarHit hit;
-    Decision decision = Decision::unsure;
+    Decision decision = Decision::undecided;
     if (e.kind == PrimitiveKind::quad) {
         const flat::Quad& q = scene.quads[e.row];
         decision = settle_one<true>(frame, search, q.corner, q.edge_u, q.edge_v, hit);
@@ -38,7 +38,7 @@ HWY_INLINE bool settle_listed(const flat::Scene& scene, const PrimitiveList::Ent
         decision = settle_one<false>(frame, search, t.a, t.b, t.c, hit);
     }
     if (decision == Decision::hit) query.report(hit, e.number, false);
-    return decision != Decision::unsure;
+    return decision != Decision::undecided;
 }
 
 // Sure hits of the primitives from `number` on: noted in `near` and `waiting`, and `bound` lowered to the nearest.

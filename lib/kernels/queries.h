@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/sheared_ray.h"
 #include "flat/scene.h"
 #include "kernels/traverse.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn::kernels {
 

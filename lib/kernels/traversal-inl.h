@@ -16,7 +16,7 @@
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 #include "kernels/sphere-inl.h"
-#include "kernels/sphere_side.h"
+#include "predicates/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -214,7 +214,7 @@ private:
     HWY_INLINE bool settle(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
         PlanarHit hit;
         std::uint64_t number = first_number_;
-        Decision decision = Decision::unsure;
+        Decision decision = Decision::undecided;
         if (has(PrimitiveKind::mesh) && header.kind == PrimitiveKind::mesh) {
             const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
             decision = settle_one<false>(frame_, search(), v.a, v.b, v.c, hit);
@@ -241,7 +241,7 @@ private:
             query_.report(hit, number, false);
             bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
         }
-        return decision != Decision::unsure;
+        return decision != Decision::undecided;
     }
 
     // Exactly.

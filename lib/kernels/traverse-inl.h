@@ -149,7 +149,7 @@ void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
     const auto answer = [&](std::uint32_t r, Decision decision, const PlanarHit& hit) {
         const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
         if (decision == Decision::hit) queries[r].report(hit, e.number, false);
-        if (decision == Decision::unsure) ask_listed(scene, e, rays[r], queries[r]);
+        if (decision == Decision::undecided) ask_listed(scene, e, rays[r], queries[r]);
     };
     const auto add = [&](const PrimitiveList::Entry& e, const RayFrame& frame, std::uint32_t r) {
         const Search search{frame.ray.t_min, queries[r].limit()};

@@ -1,5 +1,5 @@
 // Rays against the compiled scene, exactly: whatever the SIMD kernels find or leave open is decided by the definitions
-// that the described shapes use too, lib/core/intersect_*.h.
+// that the described shapes use too, lib/predicates.
 #pragma once
 
 #include <cstdint>

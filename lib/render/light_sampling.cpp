@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh_triangle.h"
 #include "core/sphere_uv.h"
 #include "limn/core/frame.h"
 #include "limn/core/warp.h"
+#include "predicates/mesh_triangle.h"
 #include "render/planar_light.h"
 
 namespace limn::tracing {

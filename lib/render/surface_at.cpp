@@ -1,10 +1,10 @@
 #include "render/surface_at.h"
 
-#include "core/hit_error.h"
-#include "core/mesh_triangle.h"
-#include "core/plane_normal.h"
-#include "core/sheared_ray.h"
 #include "core/sphere_uv.h"
+#include "predicates/hit_error.h"
+#include "predicates/mesh_triangle.h"
+#include "predicates/plane_normal.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn::tracing {
 

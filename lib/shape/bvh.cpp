@@ -3,8 +3,8 @@
 #include "accel/float_box.h"
 #include "accel/walk.h"
 #include "core/float_environment.h"
-#include "core/ray_frame.h"
 #include "limn/shape/hittable_list.h"
+#include "predicates/ray_frame.h"
 #include "shape/arguments.h"
 
 namespace limn {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/bounds.h"
 #include "core/float_environment.h"
-#include "core/ray_frame.h"
+#include "predicates/bounds.h"
+#include "predicates/ray_frame.h"
 #include "shape/arguments.h"
 
 namespace limn {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/float_environment.h"
-#include "core/hit_error.h"
-#include "core/intersect_triangle.h"
-#include "core/mesh_triangle.h"
+#include "predicates/hit_error.h"
+#include "predicates/mesh_triangle.h"
+#include "predicates/triangle.h"
 #include "shape/arguments.h"
 
 namespace limn {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/mesh_triangle.h"
+#include "predicates/mesh_triangle.h"
 
 namespace limn {
 

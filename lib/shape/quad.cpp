@@ -1,10 +1,10 @@
 #include "limn/shape/quad.h"
 
-#include "core/bounds.h"
 #include "core/float_environment.h"
-#include "core/intersect_quad.h"
-#include "core/plane_normal.h"
 #include "limn/shape/hittable_list.h"
+#include "predicates/bounds.h"
+#include "predicates/plane_normal.h"
+#include "predicates/quad.h"
 #include "shape/arguments.h"
 
 namespace limn {

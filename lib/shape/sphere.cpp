@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/bounds.h"
 #include "core/float_environment.h"
-#include "core/intersect_sphere.h"
 #include "core/sphere_uv.h"
+#include "predicates/bounds.h"
+#include "predicates/sphere.h"
 #include "shape/arguments.h"
 
 namespace limn {

@@ -1,9 +1,9 @@
 #include "limn/shape/triangle.h"
 
 #include "core/float_environment.h"
-#include "core/hit_error.h"
-#include "core/intersect_triangle.h"
-#include "core/plane_normal.h"
+#include "predicates/hit_error.h"
+#include "predicates/plane_normal.h"
+#include "predicates/triangle.h"
 #include "shape/arguments.h"
 
 namespace limn {

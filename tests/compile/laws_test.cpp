@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "catch.h"
-#include "core/filter.h"
 #include "limn/material/lambertian.h"
 #include "limn/render/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
+#include "predicates/filter.h"
 #include "property.h"
 #include "support/cases.h"
 

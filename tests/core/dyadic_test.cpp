@@ -1,4 +1,4 @@
-#include "core/dyadic.h"
+#include "predicates/dyadic.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>

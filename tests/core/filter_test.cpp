@@ -1,9 +1,9 @@
 // The filters against the exact stage: whatever a filter decides is so, and its numbers are as good as it says.
 #include "catch.h"
-#include "core/intersect_quad.h"
-#include "core/intersect_sphere.h"
-#include "core/intersect_triangle.h"
-#include "kernels/sphere_side.h"
+#include "predicates/quad.h"
+#include "predicates/sphere.h"
+#include "predicates/sphere_side.h"
+#include "predicates/triangle.h"
 #include "support/random_geometry.h"
 
 using namespace limn;
@@ -48,7 +48,7 @@ struct Count {
     int decided = 0, hits = 0, wrong = 0;
 
     void judge(const PlanarAnswer& answer, bool exact, const PlanarHit& hit) {
-        if (answer.decision == Decision::unsure) return;
+        if (answer.decision == Decision::undecided) return;
         ++decided;
         if (exact != (answer.decision == Decision::hit)) {
             ++wrong;
@@ -79,7 +79,7 @@ TEST_CASE("filter_triangle: what it decides is exactly so", "[core][filter]") {
             const Seen seen(ray_at(random, a + (u * (b - a) + v * (c - a))), instanced);
             const Search search{seen.inner.ray.t_min, kInfinity};
             PlanarHit hit{};
-            const bool exact = settle_triangle(a, b, c, seen.inner, search, hit);
+            const bool exact = exact_triangle(a, b, c, seen.inner, search, hit);
             count.judge(filter_triangle(a, b, c, ShearedRay(seen.inner), search), exact, hit);
         }
         count.check();
@@ -97,7 +97,7 @@ TEST_CASE("filter_quad: what it decides is exactly so", "[core][filter]") {
             const Seen seen(ray_at(random, q + (u * e + v * f)), instanced);
             const Search search{seen.inner.ray.t_min, kInfinity};
             PlanarHit hit{};
-            const bool exact = settle_quad(q, e, f, seen.inner, search, hit);
+            const bool exact = exact_quad(q, e, f, seen.inner, search, hit);
             count.judge(filter_quad(q, e, f, ShearedRay(seen.inner), search), exact, hit);
         }
         count.check();
@@ -119,9 +119,9 @@ TEST_CASE("is_beyond: planes that it says a search ends before are met exactly a
         const double along = dot(normal, d);
         PlanarHit hit{};
         if (!(std::abs(along) > 1e-12 * max_abs(normal) * max_abs(d))) continue;  // its sign is in doubt
-        if (!settle_quad(q, e, f, frame, {0, kInfinity}, hit)) continue;
+        if (!exact_quad(q, e, f, frame, {0, kInfinity}, hit)) continue;
         const double t_max = hit.t * (1 + random.sign() * std::exp2(-random.uniform(20, 56)));
-        const bool is_beyond_it = !settle_quad(q, e, f, frame, {0, t_max}, hit);
+        const bool is_beyond_it = !exact_quad(q, e, f, frame, {0, t_max}, hit);
         const bool says_so = is_beyond(ShearedRay(frame), e, f, q - origin, along < 0, t_max);
         beyond += is_beyond_it, told += says_so, wrong += says_so && !is_beyond_it;
     }
@@ -150,8 +150,8 @@ TEST_CASE("side_of: spheres that it says a ray leaves or ends before are not met
         if (!leaves || random.chance(0.5)) ray.t_max = 1 - random.log_uniform(1e-16, 1e-6);
         if (!is_usable(ray)) continue;
         const RayFrame frame(ray);
-        const SphereHits exact = settle_sphere(c, r, frame, nullptr, nullptr, {0, ray.t_max});
-        const SphereHits ever = settle_sphere(c, r, frame, nullptr, nullptr, {-kInfinity, kInfinity});
+        const SphereHits exact = exact_sphere(c, r, frame, nullptr, nullptr, {0, ray.t_max});
+        const SphereHits ever = exact_sphere(c, r, frame, nullptr, nullptr, {-kInfinity, kInfinity});
         double t = 0;
         switch (kernels::side_of(c, r, ray)) {
             case kernels::Side::missed:
@@ -188,8 +188,8 @@ TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie withi
             if (ray.direction == Vec3{}) continue;
             const Seen seen(ray, instanced);
             const SphereRoots roots = filter_sphere(c, r, SphereRay(seen.inner));
-            const SphereHits exact = settle_sphere(c, r, seen.inner, nullptr, nullptr, {-kInfinity, kInfinity});
-            if (roots.decision == Decision::unsure) continue;
+            const SphereHits exact = exact_sphere(c, r, seen.inner, nullptr, nullptr, {-kInfinity, kInfinity});
+            if (roots.decision == Decision::undecided) continue;
             ++count.decided;
             if (exact.near_found != (roots.decision == Decision::hit)) {
                 ++count.wrong;
@@ -209,17 +209,17 @@ TEST_CASE("Settled: the exact stage knows the answers of textbook cases", "[core
     const RayFrame down(Ray{.origin = {0.25, 0.25, 3}, .direction = {0, 0, -2}});
     const Search search{0, kInfinity};
     PlanarHit hit{};
-    REQUIRE(settle_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, down, search, hit));
+    REQUIRE(exact_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, down, search, hit));
     CHECK((hit.t == 1.5 && hit.u == 0.25 && hit.v == 0.25));
-    REQUIRE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0.5, 0}, down, search, hit));
+    REQUIRE(exact_quad({0, 0, 1}, {1, 0, 0}, {0, 0.5, 0}, down, search, hit));
     CHECK((hit.t == 1 && hit.u == 0.25 && hit.v == 0.5));
-    CHECK_FALSE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0.2, 0}, down, search, hit));
-    CHECK_FALSE(settle_quad({0, 0, 1}, {1, 0, 0}, {0, 0, 1}, down, search, hit));  // along the ray
-    const SphereHits hits = settle_sphere({0.25, 0.25, 0}, 1, down, nullptr, nullptr, search);
+    CHECK_FALSE(exact_quad({0, 0, 1}, {1, 0, 0}, {0, 0.2, 0}, down, search, hit));
+    CHECK_FALSE(exact_quad({0, 0, 1}, {1, 0, 0}, {0, 0, 1}, down, search, hit));  // along the ray
+    const SphereHits hits = exact_sphere({0.25, 0.25, 0}, 1, down, nullptr, nullptr, search);
     CHECK((hits.near_found && hits.far_found && hits.near == 1 && hits.far == 2));
-    const SphereHits touch = settle_sphere({0.25, 1.25, 0}, 1, down, nullptr, nullptr, search);
+    const SphereHits touch = exact_sphere({0.25, 1.25, 0}, 1, down, nullptr, nullptr, search);
     CHECK((touch.near_found && touch.far_found && touch.near == 1.5 && touch.far == 1.5));
-    CHECK_FALSE(settle_sphere({0.25, 1.25, 0}, std::nextafter(1, 0), down, nullptr, nullptr, search).near_found);
-    const SphereHits behind = settle_sphere({0.25, 0.25, 3}, 1, down, nullptr, nullptr, search);
+    CHECK_FALSE(exact_sphere({0.25, 1.25, 0}, std::nextafter(1, 0), down, nullptr, nullptr, search).near_found);
+    const SphereHits behind = exact_sphere({0.25, 0.25, 3}, 1, down, nullptr, nullptr, search);
     CHECK((!behind.near_found && behind.far_found && behind.far == 0.5));
 }

@@ -1,11 +1,11 @@
 // Instances: the exact image of the shape under the stored matrices, however deep, skewed, mirrored or far.
 // hardcases.md rows 36 to 39.
 #include "catch.h"
-#include "core/ray_frame.h"
 #include "hard/placed.h"
 #include "limn/core/error.h"
 #include "limn/material/dielectric.h"
 #include "limn/render/render.h"
+#include "predicates/ray_frame.h"
 
 using namespace limn;
 using namespace limn::test;

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "catch.h"
-#include "core/mesh_triangle.h"
 #include "formats.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/obj.h"
+#include "predicates/mesh_triangle.h"
 #include "support/folder.h"
 
 using namespace limn;

@@ -5,13 +5,13 @@
 #include <random>
 
 #include "catch.h"
-#include "core/mesh_triangle.h"
 #include "formats.h"
 #include "io/obj_mesh.h"
 #include "io/obj_parse.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
+#include "predicates/mesh_triangle.h"
 
 using namespace limn;
 using namespace limn::test;

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "catch.h"
-#include "core/mesh_triangle.h"
 #include "limn/core/math.h"
+#include "predicates/mesh_triangle.h"
 
 using namespace limn;
 

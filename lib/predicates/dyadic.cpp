@@ -1,4 +1,4 @@
-#include "core/dyadic.h"
+#include "predicates/dyadic.h"
 
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/ray_frame.h"
+#include "predicates/ray_frame.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/filter.h"
-#include "core/ray_frame.h"
 #include "limn/core/vec.h"
+#include "predicates/filter.h"
+#include "predicates/ray_frame.h"
 
 namespace limn {
 
@@ -43,8 +43,8 @@ struct ShearedRay {
         direction_error = f.direction_error == 0 ? 0 : 4 * f.direction_error / std::abs(direction_z);
         if (!(direction_error < 0.5)) direction_error = kInfinity;
         relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
-        absolute = 2 * f.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // |S| <= 1 + s
-        const double reach = 2 * extent + largest_magnitude(origin.x, origin.y, origin.z);                      // of edges too
+        absolute = 2 * f.origin_error * (1 + direction_error) * (1 + 0x1p-30);              // |S| <= 1 + s
+        const double reach = 2 * extent + largest_magnitude(origin.x, origin.y, origin.z);  // of edges too
         coarse = determinant_error(reach, 2 * reach);
     }
 

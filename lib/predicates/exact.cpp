@@ -1,9 +1,9 @@
-#include "core/settle.h"
+#include "predicates/exact.h"
 
 #include <cmath>
 
-#include "core/dyadic.h"
-#include "core/sheared_ray.h"
+#include "predicates/dyadic.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn {
 
@@ -15,8 +15,8 @@ Dyadic3 from_origin(const Point3& p, const ExactRay& ray) { return ray.unit * to
 
 // The edge values are D.(B x C), D.(C x A), D.(A x B), all seen from the origin; their sum is D.n, and t n.D = n.A,
 // where n.A = A.(B x C).
-bool settle_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
-                     PlanarHit& hit) {
+bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
+                    PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);
     const Dyadic3 from_a = from_origin(a, ray), from_b = from_origin(b, ray), from_c = from_origin(c, ray);
     const Dyadic3 b_cross_c = cross(from_b, from_c);
@@ -32,8 +32,8 @@ bool settle_triangle(const Point3& a, const Point3& b, const Point3& c, const Ra
 }
 
 // Q + u U + v V = t D. The scalar product with V x D leaves u, that with U x D leaves v, that with U x V leaves t.
-bool settle_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
-                 const Search& search, PlanarHit& hit) {
+bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
+                const Search& search, PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);
     const Dyadic3 q = from_origin(corner, ray);
     const Dyadic3 u = ray.unit * to_dyadic(edge_u), v = ray.unit * to_dyadic(edge_v);
@@ -51,8 +51,8 @@ bool settle_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, c
 
 // A t^2 + 2 B t + C = 0. The root that does not cancel is q / -A with q = B + sign(B) sqrt(B^2 - A C), the other C /
 // -q.
-SphereHits settle_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
-                         const Approximate* far, const Search& search) {
+SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
+                        const Approximate* far, const Search& search) {
     const ExactRay ray = exact_ray(frame);
     const Dyadic3 p = ray.origin - ray.unit * to_dyadic(center);
     const Dyadic r = ray.unit * Dyadic(radius);

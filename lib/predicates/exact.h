@@ -2,18 +2,18 @@
 // leave open. About a microsecond each.
 #pragma once
 
-#include "core/filter.h"
-#include "core/ray_frame.h"
+#include "predicates/filter.h"
+#include "predicates/ray_frame.h"
 
 namespace limn {
 
 struct PlanarHit;
 
 // Whether the shape is hit within the search; t, u and v rounded (ratio).
-bool settle_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
-                     PlanarHit& hit);
-bool settle_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
-                 const Search& search, PlanarHit& hit);
+bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
+                    PlanarHit& hit);
+bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
+                const Search& search, PlanarHit& hit);
 
 // The roots of a sphere within a search, near <= far.
 struct SphereHits {
@@ -22,8 +22,8 @@ struct SphereHits {
 };
 
 // `near`, `far`: what the filter found, to be used where it is accurate; null where it found nothing.
-SphereHits settle_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
-                         const Approximate* far, const Search& search);
+SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
+                        const Approximate* far, const Search& search);
 
 // Whether u and v are exactly parallel, or one is zero.
 bool are_parallel(const Vec3& u, const Vec3& v);

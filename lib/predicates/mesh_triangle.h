@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "core/plane_normal.h"
-#include "core/sheared_ray.h"
 #include "limn/core/box.h"
 #include "limn/core/mesh_view.h"
+#include "predicates/plane_normal.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn {
 

@@ -1,7 +1,7 @@
 // What the intersections share: a decision is first tried in double, with a proven bound on the error; what the bound
-// leaves open is settled exactly (settle.h). So no decision depends on how well a filter does. The t that is reported
-// does, by rounding: it is the filter's where that decides and is accurate, else the exact stage's, wherever the shape
-// is met.
+// leaves open the exact fallback decides (exact.h). So no decision depends on how well a filter does. The t that is
+// reported does, by rounding: it is the filter's where that decides and is accurate, else the exact stage's, wherever
+// the shape is met.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace limn {
 
-enum class Decision { miss, hit, unsure };
+enum class Decision { miss, hit, undecided };
 
 // A t as computed in double, and a bound on its error.
 struct Approximate {
@@ -40,7 +40,7 @@ struct Search {
 // `settled`: whether something else asks for the exact stage, whose t is the one to report then.
 inline Decision in_search(const Approximate& t, const Search& s, bool settled = false) {
     if (t.value - t.error > s.t_max || t.value + t.error < s.t_min) return Decision::miss;
-    if (settled || !is_accurate(t)) return Decision::unsure;
+    if (settled || !is_accurate(t)) return Decision::undecided;
     return s.contains(t.value) ? Decision::hit : Decision::miss;
 }
 

@@ -1,8 +1,8 @@
 // Unit normals of flat shapes, for thin and tiny ones too.
 #pragma once
 
-#include "core/settle.h"
 #include "limn/core/vec.h"
+#include "predicates/exact.h"
 
 namespace limn {
 

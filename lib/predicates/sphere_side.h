@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/filter.h"
 #include "limn/core/math.h"
 #include "limn/core/ray.h"
 #include "limn/core/vec.h"
+#include "predicates/filter.h"
 
 namespace limn::kernels {
 

@@ -2,9 +2,9 @@
 // decisions are to be those of the ray that the user gave.
 #pragma once
 
-#include "core/dyadic.h"
 #include "limn/core/ray.h"
 #include "limn/core/transform.h"
+#include "predicates/dyadic.h"
 
 namespace limn {
 

@@ -1,8 +1,8 @@
 // Ray against triangle, one definition for the described and the compiled world.
 #pragma once
 
-#include "core/settle.h"
-#include "core/sheared_ray.h"
+#include "predicates/exact.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn {
 
@@ -29,14 +29,14 @@ inline PlanarAnswer filter_triangle(const Point3& a, const Point3& b, const Poin
     const double across = larger(largest_magnitude(pa.x, pb.x, pc.x), largest_magnitude(pa.y, pb.y, pc.y));
     const double e = ray.determinant_error(reach, across);
     if (least < -e && most > e) return {Decision::miss};
-    if (!(least > e || most < -e)) return {Decision::unsure};
+    if (!(least > e || most < -e)) return {Decision::undecided};
 
     const double det = wa + wb + wc;
     const double depth = larger(pa.z, larger(pb.z, pc.z)) - smaller(pa.z, smaller(pb.z, pc.z));
     const double z = (wa * pa.z + wb * pb.z + wc * pc.z) / det;
     const PlanarAnswer answer =
         planar_answer(ray, ray.coordinate_error(reach), 5 * e / std::abs(det), depth, z, wb / det, wc / det, search);
-    if (answer.decision == Decision::unsure && search.t_min >= 0) {
+    if (answer.decision == Decision::undecided && search.t_min >= 0) {
         const bool turned = (det < 0) == (ray.direction_z < 0);  // the normal, against the ray
         if (is_beyond(ray, b - a, c - a, qa, turned, search.t_max)) return {Decision::miss};
         const Vec3 ab = qb - qa, ac = qc - qa;
@@ -51,8 +51,8 @@ inline bool intersect_triangle(const Point3& a, const Point3& b, const Point3& c
                                const Search& search, PlanarHit& hit) {
     const PlanarAnswer answer = filter_triangle(a, b, c, ray, search);
     hit = answer.hit;
-    if (answer.decision != Decision::unsure) return answer.decision == Decision::hit;
-    return settle_triangle(a, b, c, *ray.frame, search, hit);
+    if (answer.decision != Decision::undecided) return answer.decision == Decision::hit;
+    return exact_triangle(a, b, c, *ray.frame, search, hit);
 }
 
 }  // namespace limn

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/hit_error.h"
 #include "limn/core/box.h"
 #include "limn/core/transform.h"
+#include "predicates/hit_error.h"
 
 namespace limn {
 

@@ -1,8 +1,8 @@
 // Ray against parallelogram, one definition for the described and the compiled world.
 #pragma once
 
-#include "core/settle.h"
-#include "core/sheared_ray.h"
+#include "predicates/exact.h"
+#include "predicates/sheared_ray.h"
 
 namespace limn {
 
@@ -30,13 +30,13 @@ inline PlanarAnswer filter_quad(const Point3& corner, const Vec3& edge_u, const 
     const double across = larger(largest_magnitude(q.x, eu.x, ev.x), largest_magnitude(q.y, eu.y, ev.y));
     const double e = ray.determinant_error(reach, across);
     if (is_missed(e)) return {Decision::miss};
-    if (!(least > e && det - most > 3 * e)) return {Decision::unsure};
+    if (!(least > e && det - most > 3 * e)) return {Decision::undecided};
 
     const double u = wu / det, v = wv / det;
     const double z = q.z + (u * eu.z + v * ev.z);
     const PlanarAnswer answer =
         planar_answer(ray, ray.coordinate_error(reach), 4 * e / det, std::abs(eu.z) + std::abs(ev.z), z, u, v, search);
-    if (answer.decision == Decision::unsure && search.t_min >= 0) {
+    if (answer.decision == Decision::undecided && search.t_min >= 0) {
         const bool against = turned != (ray.direction_z < 0);
         const double edge = larger(max_abs(edge_u), max_abs(edge_v));
         if (is_behind(ray, dot(cross(edge_u, edge_v), to_corner), against, edge, 0, max_abs(to_corner)) ||
@@ -51,8 +51,8 @@ inline bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3&
                            const Search& search, PlanarHit& hit) {
     const PlanarAnswer answer = filter_quad(corner, edge_u, edge_v, ray, search);
     hit = answer.hit;
-    if (answer.decision != Decision::unsure) return answer.decision == Decision::hit;
-    return settle_quad(corner, edge_u, edge_v, *ray.frame, search, hit);
+    if (answer.decision != Decision::undecided) return answer.decision == Decision::hit;
+    return exact_quad(corner, edge_u, edge_v, *ray.frame, search, hit);
 }
 
 }  // namespace limn

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/settle.h"
 #include "limn/core/vec.h"
+#include "predicates/exact.h"
 
 namespace limn {
 
@@ -48,7 +48,7 @@ struct SphereRoots {
 inline SphereRoots filter_sphere(const Point3& center, double radius, const SphereRay& ray) {
     const Vec3 p = ray.origin - center;
     const double reach = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
-    if (!(ray.is_in_range() && reach < 0x1p230 && radius < 0x1p230 && radius > 0x1p-230)) return {Decision::unsure};
+    if (!(ray.is_in_range() && reach < 0x1p230 && radius < 0x1p230 && radius > 0x1p-230)) return {Decision::undecided};
 
     const double foot_t = -dot(p, ray.direction) / ray.squared;
     const Vec3 foot = p + foot_t * ray.direction;
@@ -57,13 +57,13 @@ inline SphereRoots filter_sphere(const Point3& center, double radius, const Sphe
     const double foot_error = ray.relative * reach + ray.absolute;
     const double error = foot_error * (4 * radius + foot_error) + 32 * kRoundoff * (r2 + foot2);
     if (discriminant < -error) return {};
-    if (!(discriminant > error)) return {Decision::unsure};
+    if (!(discriminant > error)) return {Decision::undecided};
 
     const double half_chord = std::sqrt(discriminant / ray.squared);
     const double outer = foot_t + std::copysign(half_chord, foot_t);
     const double outer_error = foot_error * ray.inverse_length + half_chord * (error / discriminant + ray.relative) +
                                4 * kRoundoff * std::abs(outer);
-    if (outer_error > 0.25 * std::abs(outer)) return {Decision::unsure};
+    if (outer_error > 0.25 * std::abs(outer)) return {Decision::undecided};
     const double power = dot(p, p) - r2;
     const double power_error = 8 * kRoundoff * (reach * reach + r2) + ray.absolute * (2 * reach + ray.absolute);
     const double inner = power / (ray.squared * outer);
@@ -78,12 +78,13 @@ inline SphereHits intersect_sphere(const Point3& center, double radius, const Sp
                                    bool both) {
     const SphereRoots roots = filter_sphere(center, radius, ray);
     if (roots.decision == Decision::miss) return {};
-    if (roots.decision == Decision::unsure) return settle_sphere(center, radius, *ray.frame, nullptr, nullptr, search);
+    if (roots.decision == Decision::undecided)
+        return exact_sphere(center, radius, *ray.frame, nullptr, nullptr, search);
     const Decision near = in_search(roots.near, search);
     if (near == Decision::hit && !both) return {true, false, roots.near.value, 0};
     const Decision far = in_search(roots.far, search);
-    if (near == Decision::unsure || far == Decision::unsure)
-        return settle_sphere(center, radius, *ray.frame, &roots.near, &roots.far, search);
+    if (near == Decision::undecided || far == Decision::undecided)
+        return exact_sphere(center, radius, *ray.frame, &roots.near, &roots.far, search);
     return {near == Decision::hit, far == Decision::hit, roots.near.value, roots.far.value};
 }
 
