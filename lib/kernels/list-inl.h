@@ -67,34 +67,6 @@ HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triang
     return m;
 }
 
-// Whether a plane lies behind an origin: is_behind of predicates/sheared_ray.h, with the error of the primitive itself.
-class PlaneBehind {
-public:
-    explicit HWY_INLINE PlaneBehind(const PrimitiveList::Entry& e)
-        : corner_(e.corner), normal_(cross(e.edge_u, e.edge_v)) {
-        const double edge = larger(max_abs(e.edge_u), max_abs(e.edge_v));
-        const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
-        error_ = edge * (16 * edge_error + edge * 36 * kRoundoff) * (1 + 0x1p-20);
-        least_error_ = 6 * edge * edge * e.error * (1 + 0x1p-20) + 0x1p-900;
-    }
-
-    // `against`: where the direction goes against the normal.
-    template <class D, class T = hn::Vec<D>>
-    HWY_INLINE hn::Mask<D> is_behind(D d, T ox, T oy, T oz, hn::Mask<D> against) const {
-        const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
-        const auto qx = hn::Sub(set(corner_.x), ox), qy = hn::Sub(set(corner_.y), oy), qz = hn::Sub(set(corner_.z), oz);
-        const auto product =
-            hn::MulAdd(set(normal_.x), qx, hn::MulAdd(set(normal_.y), qy, hn::Mul(set(normal_.z), qz)));
-        const auto error = hn::MulAdd(max_abs(qx, qy, qz), set(error_), set(least_error_));
-        return hn::Gt(hn::IfThenElse(against, product, hn::Neg(product)), error);
-    }
-
-private:
-    Point3 corner_;
-    Vec3 normal_;
-    double error_, least_error_;
-};
-
 // Where spheres are met.
 template <class D, class T = hn::Vec<D>>
 struct ListedSphere {

@@ -8,9 +8,8 @@
 #endif
 
 #include "kernels/box_ray.h"
-#include "kernels/exact_filters-inl.h"
 #include "kernels/list-inl.h"
-#include "kernels/list_exact.h"
+#include "kernels/list_exact-inl.h"
 #include "kernels/queries.h"
 #include "predicates/sphere_side.h"
 
@@ -130,7 +129,7 @@ private:
         return hn::Set(d, static_cast<float>(from[0]));
 #else
         const hn::Half<RayLanes> dh;
-        const hn::Rebind<double, hn::Half<RayLanes> > dd;
+        const hn::Rebind<double, hn::Half<RayLanes>> dd;
         return hn::Combine(d, hn::DemoteTo(dh, hn::Load(dd, from + kPacket / 2)), hn::DemoteTo(dh, hn::Load(dd, from)));
 #endif
     }
@@ -156,7 +155,7 @@ private:
                 unsure & leaving_ & bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d))));
             if (leaving != 0) unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
             const std::uint32_t inside = unsure & bits(d, met.certain);
-            if (inside != 0 && !list_.entries[i].is_instanced) unsure &= ~answer(i, inside);
+            if (inside != 0 && !list_.entries[i].is_instanced) unsure &= ~decide(i, inside);
             for (; unsure != 0; unsure &= unsure - 1) ask(static_cast<std::size_t>(std::countr_zero(unsure)), i);
             certain &= active_;
         }
@@ -190,7 +189,7 @@ private:
                 else if (side != Side::missed)
                     ask(r, number);
             }
-            const auto within = mask_of(inside);
+            const auto within = rays_mask(inside);
             root.near = hn::IfThenElse(within, met.near_last, root.near);
             root.far = hn::IfThenElse(within, met.far_last, root.far);
             certain = (certain | inside) & active_;
@@ -200,7 +199,7 @@ private:
 
     // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along
     // some axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a
-    // filter that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact stage
+    // filter that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact fallback
     // (is_accurate). The point as computed is off by 2 u of its terms at most.
     HWY_INLINE std::uint32_t ends_before_rest(std::uint32_t lanes) const {
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
@@ -236,14 +235,14 @@ private:
                 ask(r, winners_[r]);
             }
             const hn::RebindToUnsigned<RayLanes> du;
-            const auto taken = mask_of(certain);
+            const auto taken = rays_mask(certain);
             hn::Store(hn::Min(hn::Load(d, bound_), hn::IfThenElse(taken, new_bound, hn::Load(d, bound_))), d, bound_);
             hn::Store(hn::IfThenElse(taken, near, hn::Load(d, near_)), d, near_);
             hn::Store(hn::IfThenElse(hn::RebindMask(du, taken), hn::Set(du, i), hn::Load(du, winners_)), du, winners_);
         }
     }
 
-    static RM mask_of(std::uint32_t lanes) {
+    static RM rays_mask(std::uint32_t lanes) {
         const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes), static_cast<std::uint8_t>(lanes >> 8)};
         return hn::LoadMaskBits(RayLanes(), bytes);
     }
@@ -264,67 +263,47 @@ private:
 
     // Those of the lanes whose origin the plane lies behind.
     HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
-        const PlaneBehind plane(e);
+        using N = limn::HWY_NAMESPACE::Doubles;
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
-            const Doubles d;
-            const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(against >> h)};
-            return bits(d, plane.is_behind(d, hn::Load(d, origin_[0] + h), hn::Load(d, origin_[1] + h),
-                                           hn::Load(d, origin_[2] + h), hn::LoadMaskBits(d, bytes)));
+            const auto at = [&](const double* row) HWY_ATTR { return load<N>(row + h); };
+            return bits(
+                is_behind(e, Vector<N>{at(origin_[0]), at(origin_[1]), at(origin_[2])}, mask_of<N>(against >> h)));
         });
     }
 
-    // Those of the lanes that the exact filter answers; a hit is reported.
-    HWY_NOINLINE std::uint32_t answer(std::uint32_t i, std::uint32_t lanes) {
+    // Those of the lanes that the filter decides; a hit is reported.
+    HWY_NOINLINE std::uint32_t decide(std::uint32_t i, std::uint32_t lanes) {
         const PrimitiveList::Entry& e = list_.entries[i];
-        return by_halves(lanes, [&](std::size_t h, std::uint32_t here) HWY_ATTR {
-            const Doubles d;
-            PlanarAnswers<Doubles> a;
-            if (e.kind == PrimitiveKind::quad) {
-                const flat::Quad& q = scene_.quads[e.row];
-                a = PlanarFilter<true, Doubles>::answer(d, question(h, q.corner, q.edge_u, q.edge_v));
-            } else {
-                const TriangleVertices t = triangle_listed(scene_, e);
-                a = PlanarFilter<false, Doubles>::answer(d, question(h, t.a, t.b, t.c));
-            }
-            HWY_ALIGN double t[8], u[8], v[8];
-            hn::Store(a.t, d, t), hn::Store(a.u, d, u), hn::Store(a.v, d, v);
-            const std::uint32_t hits = bits(d, a.hit);
-            for (std::uint32_t rest = hits & here; rest != 0; rest &= rest - 1) {
-                const auto k = static_cast<std::size_t>(std::countr_zero(rest));
-                queries_[h + k].report({t[k], u[k], v[k]}, e.number, false);
-                note_limit(h + k);
-            }
-            return hits | bits(d, a.miss);
+        std::uint32_t decided = 0;
+        with_listed(scene_, e, [&]<template <class> class Predicate>(const Predicate<double>& shape) HWY_ATTR {
+            const auto numbers = std::bit_cast<std::array<double, Predicate<double>::kNumbers>>(shape);
+            const auto in_lanes = Predicate<limn::HWY_NAMESPACE::Doubles>::from(
+                [&](std::size_t k) HWY_ATTR { return limn::HWY_NAMESPACE::Doubles(numbers[k]); });
+            decided = by_halves(
+                lanes, [&](std::size_t h, std::uint32_t here) HWY_ATTR { return decide(in_lanes, e.number, h, here); });
+            return false;
         });
+        return decided;
     }
 
-    // Of one primitive and the rays from lane h on.
-    template <class A, class B>
-    HWY_INLINE PlanarQuestion<Doubles> question(std::size_t h, const A& a, const B& b, const B& c) const {
-        const Doubles d;
-        const auto load = [&](const double* row) HWY_ATTR { return hn::Load(d, row + h); };
-        const auto dx = load(direction_[0]), dy = load(direction_[1]), dz = load(direction_[2]);
-        // The longest axis, as ShearedRay chooses it.
-        const auto x = hn::Abs(dx), y = hn::Abs(dy);
-        const auto x_over_y = hn::Gt(x, y);
-        const auto z_longest = hn::Not(hn::Gt(hn::IfThenElse(x_over_y, x, y), hn::Abs(dz)));
-        using DV = hn::Vec<Doubles>;
-        const auto permute = [&](DV v0, DV v1, DV v2, DV* out) HWY_ATTR {
-            out[0] = hn::IfThenElse(z_longest, v0, hn::IfThenElse(x_over_y, v1, v2));
-            out[1] = hn::IfThenElse(z_longest, v1, hn::IfThenElse(x_over_y, v2, v0));
-            out[2] = hn::IfThenElse(z_longest, v2, hn::IfThenElse(x_over_y, v0, v1));
-        };
-        const auto permute_one = [&](double v0, double v1, double v2, DV* out)
-                                     HWY_ATTR { permute(hn::Set(d, v0), hn::Set(d, v1), hn::Set(d, v2), out); };
-        PlanarQuestion<Doubles> q;
-        permute(load(origin_[0]), load(origin_[1]), load(origin_[2]), q.origin);
-        permute(dx, dy, dz, q.direction);
-        permute_one(a.x, a.y, a.z, q.vertex);
-        permute_one(b.x, b.y, b.z, q.vertex + 3);
-        permute_one(c.x, c.y, c.z, q.vertex + 6);
-        q.origin_error = q.direction_error = hn::Zero(d);
-        q.t_min = load(t_min_), q.t_max = load(t_max_);
-        return q;
+    template <class Shape>
+    HWY_INLINE std::uint32_t decide(const Shape& shape, std::uint64_t number, std::size_t h, std::uint32_t lanes) {
+        using N = limn::HWY_NAMESPACE::Doubles;
+        const auto at = [&](const double* row) HWY_ATTR { return load<N>(row + h); };
+        const RayOf<N> ray{{at(origin_[0]), at(origin_[1]), at(origin_[2])},
+                           {at(direction_[0]), at(direction_[1]), at(direction_[2])},
+                           N(0.0),
+                           N(0.0)};
+        const FilterResult<N> r = shape.filter(typename Shape::Ray(ray), {at(t_min_), at(t_max_)});
+        HWY_ALIGN double t[8], u[8], v[8];
+        store(r.t, t), store(r.u, u), store(r.v, v);
+        const std::uint32_t hits = bits(r.hit);
+        for (std::uint32_t rest = hits & lanes; rest != 0; rest &= rest - 1) {
+            const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+            queries_[h + k].report({t[k], u[k], v[k]}, number, false);
+            note_limit(h + k);
+        }
+        return hits | bits(r.miss);
     }
 
     // After a report.

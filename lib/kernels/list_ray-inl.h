@@ -7,39 +7,10 @@
 #define LIMN_KERNELS_LIST_RAY_INL_H
 #endif
 
-#include "kernels/exact_filters-inl.h"
 #include "kernels/list_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
-
-// PlaneBehind for one ray.
-HWY_INLINE bool is_behind(const PrimitiveList::Entry& e, const Point3& origin, bool against) {
-    const hn::CappedTag<double, 1> d;
-    return bits(d, PlaneBehind(e).is_behind(d, hn::Set(d, origin.x), hn::Set(d, origin.y), hn::Set(d, origin.z),
-                                            hn::FirstN(d, against ? 1 : 0))) != 0;
-}
-
-// Whether a question to a primitive that is met inside its edges could be answered at once; a hit is reported.
-template <class Query>
-HWY_INLINE bool settle_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
-                              Query& query) {
-    if (e.is_instanced) return false;
-    const Search search{frame.ray.t_min, query.limit()};
-    PlanarHit hit;
-    Decision decision = Decision::undecided;
-    if (e.kind == PrimitiveKind::quad) {
-        const flat::Quad& q = scene.quads[e.row];
-        decision = settle_one<true>(frame, search, q.corner, q.edge_u, q.edge_v, hit);
-    } else if (e.kind == PrimitiveKind::sphere) {
-        decision = settle_one(frame, search, e.corner, e.radius, hit);
-    } else {
-        const TriangleVertices t = triangle_listed(scene, e);
-        decision = settle_one<false>(frame, search, t.a, t.b, t.c, hit);
-    }
-    if (decision == Decision::hit) query.report(hit, e.number, false);
-    return decision != Decision::undecided;
-}
 
 // Sure hits of the primitives from `number` on: noted in `near` and `waiting`, and `bound` lowered to the nearest.
 HWY_INLINE void keep_listed(RM certain, RV t_near, RV t_far, std::size_t number, float* near, std::uint64_t& waiting,
@@ -55,7 +26,7 @@ HWY_INLINE void keep_listed(RM certain, RV t_near, RV t_far, std::size_t number,
 // As ListPacket, but for the way the lanes go. One function, whose values stay in registers: a class with these members
 // takes a sixth longer.
 template <class Query>
-HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query) {
+HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, Query& query) {
     const RayLanes d;
     const PrimitiveList& list = scene.list;
     const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
@@ -111,7 +82,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         std::uint32_t unsure = bits(d, open) & ~certain_bits;
         if (unsure != 0) {
             hn::Store(met.near, d, near + i);
-            const std::uint32_t known = bits(d, met.known), inside = bits(d, met.certain);
+            const std::uint32_t known = bits(d, met.known);
             const std::uint32_t leaving =
                 ray.t_min >= 0 ? bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d)))) : 0u;
             const std::uint32_t against = bits(d, hn::Lt(met.along, hn::Zero(d)));
@@ -119,8 +90,9 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
                 const auto k = static_cast<std::uint32_t>(std::countr_zero(unsure));
                 if ((known >> k & 1) != 0 && near[i + k] > bound) continue;
                 const PrimitiveList::Entry& e = list.entries[i + k];
-                if ((leaving >> k & 1) != 0 && is_behind(e, ray.origin, (against >> k & 1) != 0)) continue;
-                if ((inside >> k & 1) == 0 || !settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
+                if ((leaving >> k & 1) != 0 && is_behind(e, broadcast<double>(ray.origin), (against >> k & 1) != 0))
+                    continue;
+                ask_listed(scene, e, ray, query);
                 if (query.ended()) return;
                 const float limit = above(limited(query.limit()));
                 if (limit < bound) bound = limit;
@@ -157,7 +129,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         const auto k = static_cast<std::size_t>(std::countr_zero(waiting));
         if (near[k] > bound) continue;
         const PrimitiveList::Entry& e = list.entries[k];
-        if (!settle_listed(scene, e, frame, query)) ask_listed(scene, e, ray, query);
+        ask_listed(scene, e, ray, query);
     }
 }
 

@@ -6,10 +6,6 @@
 #define LIMN_KERNELS_PACKET_INL_H
 #endif
 
-#include <array>
-#include <optional>
-
-#include "kernels/exact_tests.h"
 #include "kernels/leaf_rays.h"
 #include "kernels/list_packet-inl.h"
 #include "kernels/node-inl.h"
@@ -103,17 +99,16 @@ public:
     void run() {
         if (group_.root == flat::kNothing) return;
         const PacketBoxes boxes(rays_, count_);
-        Stack stack;
         flat::Child next = group_.root;
         float farthest = farthest_bound();
         for (;;) {
-            while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack);
+            while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack_);
             if (next != flat::kNothing && leaf(next)) farthest = farthest_bound();
             do {
-                if (stack.size == 0) return ask_pending();
-                --stack.size;
-            } while (stack.near[stack.size] > farthest);
-            next = stack.child[stack.size];
+                if (stack_.size == 0) return ask_pending();
+                --stack_.size;
+            } while (stack_.near[stack_.size] > farthest);
+            next = stack_.child[stack_.size];
         }
     }
 
@@ -214,11 +209,10 @@ private:
     void ask(std::size_t r, const flat::BlockView& block, std::uint32_t i) {
         const flat::Block header = block.header();
         const TriangleVertices v = flat::packed_triangle(block, header.count, i);
-        if (!exact_[r]) exact_[r].emplace(frames_[r], group_.extent);
         Query& query = queries_[r];
         PlanarHit hit;
         const Search search{frames_[r].ray.t_min, query.limit()};
-        if (!exact_[r]->triangle(v.a, v.b, v.c, search, hit)) return;
+        if (!intersect(triangle_of<double>(v.a, v.b, v.c), frames_[r], search, hit)) return;
         const bool ended = query.report(hit, scene_.ranges[header.range].first_number + block.id(i), false);
         const float bound = ended ? kNever : rays_[r].upper(query.limit());
         if (bound < bound_[r]) bound_[r] = bound;
@@ -237,7 +231,7 @@ private:
     float certain_after_[kPacket], certain_before_[kPacket];
     std::uint32_t pending_mask_ = 0;
     Pending pending_[kPacket];
-    std::array<std::optional<ExactTests>, kPacket> exact_;
+    Stack stack_;
 };
 
 }  // namespace limn::kernels::HWY_NAMESPACE

@@ -6,7 +6,7 @@
 
 #include "flat/scene.h"
 #include "kernels/traverse.h"
-#include "predicates/sheared_ray.h"
+#include "predicates/filter.h"
 
 namespace limn::kernels {
 

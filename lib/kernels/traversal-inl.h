@@ -10,11 +10,10 @@
 
 #include "core/sphere_uv.h"
 #include "kernels/box_ray-inl.h"
-#include "kernels/exact_filters-inl.h"
-#include "kernels/exact_tests.h"
 #include "kernels/node-inl.h"
 #include "kernels/planar-inl.h"
 #include "kernels/queries.h"
+#include "kernels/shapes-inl.h"
 #include "kernels/sphere-inl.h"
 #include "predicates/sphere_side.h"
 
@@ -38,7 +37,6 @@ public:
           box_ray_(ray),
           first_number_(first_number),
           query_(query),
-          exact_(frame, group.extent),
           node_test_(ray),
           bound_(box_ray_.upper(query.limit())),
           possible_after_(below(box_ray_.t_min)),
@@ -48,12 +46,12 @@ public:
         if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
     }
 
-    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at
-    // first empty and the root, are the caller's.
-    HWY_INLINE bool advance(Stack& stack, flat::Child& next) {
+    // A part of run(), which ends where memory is about to be waited for. False at the end. `next`, at first the root,
+    // is the caller's.
+    HWY_INLINE bool advance(flat::Child& next) {
         for (;;) {
             if (!(next & flat::kLeaf)) {
-                next = node_test_.visit(scene_, next, bound_, stack);
+                next = node_test_.visit(scene_, next, bound_, stack_);
                 if (next != flat::kNothing) {
                     prefetch(scene_, next);
                     return true;
@@ -62,29 +60,28 @@ public:
                 return false;
             }
             do {
-                if (stack.size == 0) {
+                if (stack_.size == 0) {
                     ask_pending();
                     return false;
                 }
-                --stack.size;
-            } while (stack.near[stack.size] > bound_);
-            next = stack.child[stack.size];
+                --stack_.size;
+            } while (stack_.near[stack_.size] > bound_);
+            next = stack_.child[stack_.size];
         }
     }
 
     // True if the query ended the search.
     bool run() {
         if (group_.root == flat::kNothing) return false;
-        Stack stack;
         flat::Child next = group_.root;
         for (;;) {
-            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack);
+            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
             if (next != flat::kNothing && leaf(next)) return true;
             do {
-                if (stack.size == 0) return ask_pending();
-                --stack.size;
-            } while (stack.near[stack.size] > bound_);
-            next = stack.child[stack.size];
+                if (stack_.size == 0) return ask_pending();
+                --stack_.size;
+            } while (stack_.near[stack_.size] > bound_);
+            next = stack_.child[stack_.size];
         }
     }
 
@@ -202,46 +199,10 @@ private:
     bool ask_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
             const Pending& hit = pending_[i];
-            if (!(hit.near <= above(bound_))) continue;
-            const flat::Block header = hit.block.header();
-            if (!settle(hit.block, header, hit.lane) && ask(hit.block, header, hit.lane)) return true;
+            if (hit.near <= above(bound_) && ask(hit.block, hit.block.header(), hit.lane)) return true;
         }
         pending_count_ = 0;
         return false;
-    }
-
-    // Whether a sure hit could be answered at once.
-    HWY_INLINE bool settle(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
-        PlanarHit hit;
-        std::uint64_t number = first_number_;
-        Decision decision = Decision::undecided;
-        if (has(PrimitiveKind::mesh) && header.kind == PrimitiveKind::mesh) {
-            const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
-            decision = settle_one<false>(frame_, search(), v.a, v.b, v.c, hit);
-            number += scene_.ranges[header.range].first_number + block.id(lane);
-        } else if (has(PrimitiveKind::sphere) && header.kind == PrimitiveKind::sphere) {
-            const flat::Reference& reference = scene_.references[block.id(lane)];
-            const PrimitiveRange& range = scene_.ranges[reference.range];
-            const flat::Sphere& s = scene_.spheres[range.first_row + reference.element];
-            number += range.first_number + reference.element;
-            decision = settle_one(frame_, search(), s.center, std::abs(s.radius), hit);
-        } else if (has_planar() && (header.kind == PrimitiveKind::triangle || header.kind == PrimitiveKind::quad)) {
-            const flat::Reference& reference = scene_.references[block.id(lane)];
-            const PrimitiveRange& range = scene_.ranges[reference.range];
-            number += range.first_number + reference.element;
-            if (header.kind == PrimitiveKind::quad) {
-                const flat::Quad& q = scene_.quads[range.first_row + reference.element];
-                decision = settle_one<true>(frame_, search(), q.corner, q.edge_u, q.edge_v, hit);
-            } else {
-                const flat::Triangle& t = scene_.triangles[range.first_row + reference.element];
-                decision = settle_one<false>(frame_, search(), t.a, t.b, t.c, hit);
-            }
-        }
-        if (decision == Decision::hit) {
-            query_.report(hit, number, false);
-            bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
-        }
-        return decision != Decision::undecided;
     }
 
     // Exactly.
@@ -251,15 +212,14 @@ private:
         if constexpr (has(PrimitiveKind::mesh)) {
             if (header.kind == PrimitiveKind::mesh) {
                 const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
-                end = triangle(v.a, v.b, v.c, first_number_ + scene_.ranges[header.range].first_number + id);
-                bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
-                return end;
+                end = ask(triangle_of<double>(v.a, v.b, v.c),
+                          first_number_ + scene_.ranges[header.range].first_number + id);
             }
         }
         if constexpr (kKinds != flat::bit(PrimitiveKind::mesh)) {
-            end = ask(scene_.references[id]);
-            bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+            if (header.kind != PrimitiveKind::mesh) end = ask(scene_.references[id]);
         }
+        bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
         return end;
     }
 
@@ -267,53 +227,24 @@ private:
         const PrimitiveRange& range = scene_.ranges[reference.range];
         const std::uint64_t number = first_number_ + range.first_number + reference.element;
         const std::uint32_t row = range.first_row + reference.element;
-        switch (range.kind) {
-            case PrimitiveKind::sphere:
-                if constexpr (has(PrimitiveKind::sphere)) {
-                    const flat::Sphere& s = scene_.spheres[row];
-                    return sphere(s.center, s.radius, number);
-                }
-                break;
-            case PrimitiveKind::moving_sphere:
-                if constexpr (has(PrimitiveKind::moving_sphere)) {
-                    const flat::MovingSphere& s = scene_.moving_spheres[row];
-                    return sphere(interpolate(s.center0, s.center1, frame_.ray.time), s.radius, number);
-                }
-                break;
-            case PrimitiveKind::triangle:
-                if constexpr (has(PrimitiveKind::triangle)) {
-                    const flat::Triangle& t = scene_.triangles[row];
-                    return triangle(t.a, t.b, t.c, number);
-                }
-                break;
-            case PrimitiveKind::quad:
-                if constexpr (has(PrimitiveKind::quad)) {
-                    const flat::Quad& q = scene_.quads[row];
-                    PlanarHit hit;
-                    return exact_.quad(q.corner, q.edge_u, q.edge_v, search(), hit) &&
-                           query_.report(hit, number, inward(cross(q.edge_u, q.edge_v)));
-                }
-                break;
-            case PrimitiveKind::instance:
-                if constexpr (has(PrimitiveKind::instance)) {
-                    const flat::Instance& instance = scene_.instances[range.first_row];
-                    if (ask_pending()) return true;  // so that the limit says all there is to say
-                    return inside(instance, frame_, [&](const RayFrame& frame) {
-                        return is_usable(frame.ray) &&
-                               run_inside(flat::group_at(scene_, instance.group), frame, number);
-                    });
-                }
-                break;
-            case PrimitiveKind::foreign:
-                if constexpr (has(PrimitiveKind::foreign)) {
-                    if (ask_pending()) return true;
-                    return foreign(scene_.foreign[row], number);
-                }
-                break;
-            case PrimitiveKind::mesh:           // see above
-            case PrimitiveKind::medium: break;  // never in a tree
+        if constexpr (has(PrimitiveKind::instance)) {
+            if (range.kind == PrimitiveKind::instance) {
+                const flat::Instance& instance = scene_.instances[range.first_row];
+                if (ask_pending()) return true;  // so that the limit says all there is to say
+                return inside(instance, frame_, [&](const RayFrame& frame) {
+                    return is_usable(frame.ray) && run_inside(flat::group_at(scene_, instance.group), frame, number);
+                });
+            }
         }
-        return false;
+        if constexpr (has(PrimitiveKind::foreign)) {
+            if (range.kind == PrimitiveKind::foreign) {
+                if (ask_pending()) return true;
+                return foreign(scene_.foreign[row], number);
+            }
+        }
+        constexpr unsigned kOthers = kKinds & ~flat::bit(PrimitiveKind::mesh);  // see above
+        return with_shape<kOthers>(scene_, range.kind, row, 0, frame_.ray.time,
+                                   [&](const auto& shape) { return ask(shape, number); });
     }
 
     bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
@@ -322,28 +253,31 @@ private:
         return Traversal(scene_, group, ray, frame, number, query_).run();
     }
 
-    bool inward(const Vec3& outward) const { return Query::kEveryHit && dot(outward, frame_.ray.direction) < 0; }
-
     Search search() const { return {frame_.ray.t_min, query_.limit()}; }
 
-    bool sphere(const Point3& center, double radius, std::uint64_t number) {
-        if constexpr (Query::kEveryHit) {
-            const SphereHits hits = exact_.sphere(center, std::abs(radius), search(), true);
-            return (hits.near_found && query_.report({hits.near, 0, 0}, number, radius > 0)) ||
-                   (hits.far_found && query_.report({hits.far, 0, 0}, number, radius < 0));
-        } else {
-            const Ray& ray = frame_.ray;
-            if (frame_.outer == nullptr && ray.t_min >= 0 && side_of(center, std::abs(radius), ray) == Side::missed)
-                return false;
-            PlanarHit hit{};
-            return exact_.sphere(center, std::abs(radius), search(), hit.t) && query_.report(hit, number, false);
-        }
+    template <class Shape>
+    HWY_NOINLINE bool ask(const Shape& shape, std::uint64_t number) {
+        PlanarHit hit;
+        if (!intersect(shape, frame_, search(), hit)) return false;
+        bool inward = false;
+        if constexpr (Query::kEveryHit) inward = dot(shape.outward(), broadcast<double>(frame_.ray.direction)) < 0;
+        return query_.report(hit, number, inward);
     }
 
-    bool triangle(const Point3& a, const Point3& b, const Point3& c, std::uint64_t number) {
-        PlanarHit hit;
-        return exact_.triangle(a, b, c, search(), hit) &&
-               query_.report(hit, number, Query::kEveryHit && inward(cross(b - a, c - a)));
+    HWY_NOINLINE bool ask(const SpherePredicate<double>& sphere, std::uint64_t number) {
+        if constexpr (Query::kEveryHit) {
+            const SphereHits hits = sphere.hits(frame_, search());
+            return (hits.near_found && query_.report({hits.near, 0, 0}, number, sphere.radius > 0)) ||
+                   (hits.far_found && query_.report({hits.far, 0, 0}, number, sphere.radius < 0));
+        } else {
+            const Ray& ray = frame_.ray;
+            const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
+            if (frame_.outer == nullptr && ray.t_min >= 0 &&
+                side_of(center, std::abs(sphere.radius), ray) == Side::missed)
+                return false;
+            PlanarHit hit;
+            return intersect(sphere, frame_, search(), hit) && query_.report(hit, number, false);
+        }
     }
 
     bool foreign(const flat::Foreign& shape, std::uint64_t number) {
@@ -354,8 +288,8 @@ private:
         while (shape.hit(*shape.object, rest, hit)) {
             if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
             const bool passes = Query::kThroughBoundaries && hit.index_matched;
-            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward(Vec3(hit.normal)), hit.index_matched))
-                return true;
+            const bool inward = Query::kEveryHit && dot(Vec3(hit.normal), frame_.ray.direction) < 0;
+            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward, hit.index_matched)) return true;
             if (!passes && !Query::kEveryHit) return false;
             rest.t_min = hit.t;
         }
@@ -370,13 +304,13 @@ private:
     std::optional<RoundRay> round_;
     const std::uint64_t first_number_;
     Query& query_;
-    ExactTests exact_;
     const NodeTest node_test_;
     float bound_;  // in BoxRay's t: no hit of interest is beyond
     // By t_min and t_max: hits before the first do not count, those that lie between the others do.
     const float possible_after_, certain_after_, certain_before_;
     std::size_t pending_count_ = 0;
     Pending pending_[kMaxPending];
+    Stack stack_;
 };
 
 }  // namespace limn::kernels::HWY_NAMESPACE

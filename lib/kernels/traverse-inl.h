@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <tuple>
 
 #include "kernels/list_packet-inl.h"
 #include "kernels/list_ray-inl.h"
 #include "kernels/packet-inl.h"
 #include "kernels/searches-inl.h"
 #include "kernels/traversal-inl.h"
-#include "kernels/winners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -59,7 +59,7 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
             Query& query) {
     if constexpr (!Query::kEveryHit) {
         if (id == GroupId::root && !scene.list.empty()) {
-            search_list(scene, ray, frame, query);
+            search_list(scene, ray, query);
             if (scene.list.is_all || query.ended()) return;
         }
     }
@@ -100,7 +100,6 @@ public:
         slot.frame.emplace(ray);
         set_up(ray, *slot.frame, root_, slot.box);
         slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query);
-        slot.stack.size = 0;
         slot.next = root_.root;
     }
 
@@ -116,14 +115,13 @@ private:
         BoxRay box;
         alignas(64) std::byte storage[sizeof(One)];
         One* traversal;
-        Stack stack;
         flat::Child next;
     };
 
     HWY_INLINE void turn() {
         for (std::size_t i = 0; i < active_;) {
             Slot& slot = slots_[order_[i]];
-            if (slot.traversal->advance(slot.stack, slot.next))
+            if (slot.traversal->advance(slot.next))
                 ++i;
             else
                 std::swap(order_[i], order_[--active_]);
@@ -141,47 +139,39 @@ private:
     std::array<Slot, kSlots> slots_;
 };
 
-// The exact answers for the winners of a list.
-void settle_listed(const flat::Scene& scene, const Ray* rays, std::size_t count, const std::uint32_t* winners,
+// The exact answers for the candidates of a list.
+void answer_listed(const flat::Scene& scene, const Ray* rays, std::size_t count, const std::uint32_t* candidates,
                    Closest* queries) {
-    ManyWinners quads, triangles;
-    ManySphereWinners spheres;
-    const auto answer = [&](std::uint32_t r, Decision decision, const PlanarHit& hit) {
-        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
-        if (decision == Decision::hit) queries[r].report(hit, e.number, false);
-        if (decision == Decision::undecided) ask_listed(scene, e, rays[r], queries[r]);
-    };
-    const auto add = [&](const PrimitiveList::Entry& e, const RayFrame& frame, std::uint32_t r) {
-        const Search search{frame.ray.t_min, queries[r].limit()};
-        if (e.kind == PrimitiveKind::quad) {
-            const flat::Quad& q = scene.quads[e.row];
-            quads.add(frame, search, q.corner, q.edge_u, q.edge_v, r);
-            if (quads.is_full()) quads.settle<true>(answer);
-        } else if (e.kind == PrimitiveKind::sphere) {
-            spheres.add(frame, search, e.corner, e.radius, r);
-            if (spheres.is_full()) spheres.settle(answer);
-        } else {
-            const TriangleVertices t = triangle_listed(scene, e);
-            triangles.add(frame, search, t.a, t.b, t.c, r);
-            if (triangles.is_full()) triangles.settle<false>(answer);
-        }
+    std::tuple<ExactQueue<QuadPredicate>, ExactQueue<TrianglePredicate>, ExactQueue<SpherePredicate>> queues;
+    const auto flush = [&](auto& queue) HWY_ATTR {
+        queue.flush(
+            [&](std::uint32_t r, const PlanarHit& hit) {
+                queries[r].report(hit, scene.list.entries[candidates[r]].number, false);
+            },
+            [&](std::uint32_t r) { ask_listed(scene, scene.list.entries[candidates[r]], rays[r], queries[r]); });
     };
     for (std::uint32_t r = 0; r < count; ++r) {
-        if (winners[r] == ListPacket<Closest>::kNone) continue;
-        const PrimitiveList::Entry& e = scene.list.entries[winners[r]];
+        if (candidates[r] == ListPacket<Closest>::kNone) continue;
+        const PrimitiveList::Entry& e = scene.list.entries[candidates[r]];
+        const auto add = [&](const RayFrame& frame) HWY_ATTR {
+            with_listed(scene, e, [&]<template <class> class Predicate>(const Predicate<double>& shape) HWY_ATTR {
+                auto& queue = std::get<ExactQueue<Predicate>>(queues);
+                queue.add(shape, frame, {frame.ray.t_min, queries[r].limit()}, r);
+                if (queue.is_full()) flush(queue);
+                return false;
+            });
+        };
         const RayFrame frame(rays[r]);
         if (!e.is_instanced)
-            add(e, frame, r);
+            add(frame);
         else
-            inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) {
-                if (is_usable(inner.ray)) add(e, inner, r);
+            inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) HWY_ATTR {
+                if (is_usable(inner.ray)) add(inner);
             });
     }
-    quads.settle<true>(answer);
-    triangles.settle<false>(answer);
-    spheres.settle(answer);
+    std::apply([&](auto&... queue) HWY_ATTR { (flush(queue), ...); }, queues);
 }
-void settle_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
+void answer_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
 
 // `rest`: by packets, those that may still meet what is not listed.
 template <class Query>
@@ -191,7 +181,7 @@ void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
         rest[first / kPacket] =
             ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
                 .run();
-    settle_listed(scene, rays, count, winners, queries);
+    answer_listed(scene, rays, count, winners, queries);
 }
 
 // False if the rays cannot be traced as a packet.

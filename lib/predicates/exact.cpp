@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "predicates/dyadic.h"
-#include "predicates/sheared_ray.h"
 
 namespace limn {
 
@@ -51,8 +50,8 @@ bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, co
 
 // A t^2 + 2 B t + C = 0. The root that does not cancel is q / -A with q = B + sign(B) sqrt(B^2 - A C), the other C /
 // -q.
-SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
-                        const Approximate* far, const Search& search) {
+SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const double* near,
+                        const double* far, const Search& search) {
     const ExactRay ray = exact_ray(frame);
     const Dyadic3 p = ray.origin - ray.unit * to_dyadic(center);
     const Dyadic r = ray.unit * Dyadic(radius);
@@ -65,8 +64,8 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     const double outer = ratio(-q, a);
     const double inner = discriminant.sign() == 0 ? outer : ratio(-c, q);
     SphereHits hits;
-    hits.near = near != nullptr && is_accurate(*near) ? near->value : b.sign() < 0 ? inner : outer;
-    hits.far = far != nullptr && is_accurate(*far) ? far->value : b.sign() < 0 ? outer : inner;
+    hits.near = near != nullptr ? *near : b.sign() < 0 ? inner : outer;
+    hits.far = far != nullptr ? *far : b.sign() < 0 ? outer : inner;
     hits.near_found = search.contains(hits.near);
     hits.far_found = search.contains(hits.far);
     return hits;

@@ -7,8 +7,6 @@
 
 namespace limn {
 
-struct PlanarHit;
-
 // Whether the shape is hit within the search; t, u and v rounded (ratio).
 bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                     PlanarHit& hit);
@@ -21,9 +19,9 @@ struct SphereHits {
     double near = 0, far = 0;
 };
 
-// `near`, `far`: what the filter found, to be used where it is accurate; null where it found nothing.
-SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const Approximate* near,
-                        const Approximate* far, const Search& search);
+// `near`, `far`: what the filter found, where that is accurate; else null.
+SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const double* near,
+                        const double* far, const Search& search);
 
 // Whether u and v are exactly parallel, or one is zero.
 bool are_parallel(const Vec3& u, const Vec3& v);

@@ -5,8 +5,8 @@
 
 #include "limn/core/box.h"
 #include "limn/core/mesh_view.h"
+#include "predicates/filter.h"
 #include "predicates/plane_normal.h"
-#include "predicates/sheared_ray.h"
 
 namespace limn {
 

@@ -4,7 +4,6 @@
 #include "predicates/hit_error.h"
 #include "predicates/mesh_triangle.h"
 #include "predicates/plane_normal.h"
-#include "predicates/sheared_ray.h"
 
 namespace limn::tracing {
 

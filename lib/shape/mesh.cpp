@@ -6,7 +6,7 @@
 #include "core/float_environment.h"
 #include "predicates/hit_error.h"
 #include "predicates/mesh_triangle.h"
-#include "predicates/triangle.h"
+#include "predicates/intersect.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -81,17 +81,8 @@ std::optional<Hit> Mesh::hit(const Ray& ray) const {
     const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const MeshView mesh = view_of(*data_);
-    const RayFrame frame = frame_of(ray);
-    const ShearedRay sheared(frame);
-    PlanarHit nearest{ray.t_max, 0, 0}, hit;
-    std::size_t element = data_->triangles.size();
-    for (std::size_t i = 0; i < data_->triangles.size(); ++i) {
-        const TriangleVertices v = triangle_vertices(mesh, i);
-        if (!intersect_triangle(v.a, v.b, v.c, sheared, {ray.t_min, nearest.t}, hit)) continue;
-        if (hit.t == nearest.t && element != data_->triangles.size()) continue;
-        nearest = hit;
-        element = i;
-    }
+    PlanarHit nearest;
+    const std::size_t element = intersect_mesh(mesh, frame_of(ray), {ray.t_min, ray.t_max}, nearest);
     if (element == data_->triangles.size()) return std::nullopt;
     const TriangleVertices v = triangle_vertices(mesh, element);
     const Normal3 normal = triangle_normal(v.a, v.b, v.c);

@@ -4,7 +4,7 @@
 #include "limn/shape/hittable_list.h"
 #include "predicates/bounds.h"
 #include "predicates/plane_normal.h"
-#include "predicates/quad.h"
+#include "predicates/intersect.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -23,9 +23,8 @@ Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
 std::optional<Hit> Quad::hit(const Ray& ray) const {
     const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
-    const RayFrame frame = frame_of(ray);
     PlanarHit hit;
-    if (!intersect_quad(corner_, edge_u_, edge_v_, ShearedRay(frame), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
+    if (!intersect_quad(corner_, edge_u_, edge_v_, frame_of(ray), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,
                .normal = quad_normal(edge_u_, edge_v_),
                .u = hit.u,

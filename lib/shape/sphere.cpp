@@ -5,7 +5,7 @@
 #include "core/float_environment.h"
 #include "core/sphere_uv.h"
 #include "predicates/bounds.h"
-#include "predicates/sphere.h"
+#include "predicates/intersect.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -30,12 +30,11 @@ std::optional<Hit> Sphere::hit(const Ray& ray) const {
     const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
     const Point3 c = center(ray.time);
-    const RayFrame frame = frame_of(ray);
-    double t = 0;
-    if (!intersect_sphere(c, std::abs(radius_), SphereRay(frame), {ray.t_min, ray.t_max}, t)) return std::nullopt;
-    const Vec3 outward = sphere_normal(c, ray, t);
+    PlanarHit found;
+    if (!intersect_sphere(c, std::abs(radius_), frame_of(ray), {ray.t_min, ray.t_max}, found)) return std::nullopt;
+    const Vec3 outward = sphere_normal(c, ray, found.t);
     const Uv uv = sphere_uv(radius_ < 0 ? -outward : outward);
-    return Hit{.t = t,
+    return Hit{.t = found.t,
                .normal = Normal3(radius_ < 0 ? -outward : outward),
                .u = uv.u,
                .v = uv.v,

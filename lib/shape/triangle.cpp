@@ -3,7 +3,7 @@
 #include "core/float_environment.h"
 #include "predicates/hit_error.h"
 #include "predicates/plane_normal.h"
-#include "predicates/triangle.h"
+#include "predicates/intersect.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -24,9 +24,8 @@ Box Triangle::bounds() const {
 std::optional<Hit> Triangle::hit(const Ray& ray) const {
     const FloatEnvironment environment;
     if (!is_usable(ray)) return std::nullopt;
-    const RayFrame frame = frame_of(ray);
     PlanarHit hit;
-    if (!intersect_triangle(a_, b_, c_, ShearedRay(frame), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
+    if (!intersect_triangle(a_, b_, c_, frame_of(ray), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,
                .normal = triangle_normal(a_, b_, c_),
                .u = hit.u,

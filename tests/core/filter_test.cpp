@@ -1,12 +1,13 @@
 // The filters against the exact stage: whatever a filter decides is so, and its numbers are as good as it says.
 #include "catch.h"
-#include "predicates/quad.h"
-#include "predicates/sphere.h"
+#include "predicates/quad-inl.h"
+#include "predicates/sphere-inl.h"
 #include "predicates/sphere_side.h"
-#include "predicates/triangle.h"
+#include "predicates/triangle-inl.h"
 #include "support/random_geometry.h"
 
 using namespace limn;
+using namespace limn::HWY_NAMESPACE;
 using test::Random;
 
 namespace {
@@ -47,16 +48,15 @@ struct Seen {
 struct Count {
     int decided = 0, hits = 0, wrong = 0;
 
-    void judge(const PlanarAnswer& answer, bool exact, const PlanarHit& hit) {
-        if (answer.decision == Decision::undecided) return;
+    void judge(const FilterResult<double>& answer, bool exact, const PlanarHit& hit) {
+        if (!answer.hit && !answer.miss) return;
         ++decided;
-        if (exact != (answer.decision == Decision::hit)) {
+        if (exact != answer.hit || answer.hit == answer.miss) {
             ++wrong;
         } else if (exact) {
             ++hits;
-            wrong += std::abs(answer.hit.t - hit.t) > kAccurate * std::abs(hit.t) ||
-                     std::abs(answer.hit.u - hit.u) > kAccurateWeight ||
-                     std::abs(answer.hit.v - hit.v) > kAccurateWeight;
+            wrong += std::abs(answer.t - hit.t) > kAccurate * std::abs(hit.t) ||
+                     std::abs(answer.u - hit.u) > kAccurateWeight || std::abs(answer.v - hit.v) > kAccurateWeight;
         }
     }
     void check() const {
@@ -66,6 +66,11 @@ struct Count {
         CHECK(decided < kRays);  // there are rays that it must leave open
     }
 };
+
+template <class Shape>
+FilterResult<double> filtered(const Shape& shape, const RayFrame& frame, const Search& search) {
+    return shape.filter(typename Shape::Ray(ray_of(frame)), {search.t_min, search.t_max});
+}
 
 }  // namespace
 
@@ -80,7 +85,7 @@ TEST_CASE("filter_triangle: what it decides is exactly so", "[core][filter]") {
             const Search search{seen.inner.ray.t_min, kInfinity};
             PlanarHit hit{};
             const bool exact = exact_triangle(a, b, c, seen.inner, search, hit);
-            count.judge(filter_triangle(a, b, c, ShearedRay(seen.inner), search), exact, hit);
+            count.judge(filtered(triangle_of<double>(a, b, c), seen.inner, search), exact, hit);
         }
         count.check();
     }
@@ -98,7 +103,7 @@ TEST_CASE("filter_quad: what it decides is exactly so", "[core][filter]") {
             const Search search{seen.inner.ray.t_min, kInfinity};
             PlanarHit hit{};
             const bool exact = exact_quad(q, e, f, seen.inner, search, hit);
-            count.judge(filter_quad(q, e, f, ShearedRay(seen.inner), search), exact, hit);
+            count.judge(filtered(quad_of<double>(q, e, f), seen.inner, search), exact, hit);
         }
         count.check();
     }
@@ -122,7 +127,9 @@ TEST_CASE("is_beyond: planes that it says a search ends before are met exactly a
         if (!exact_quad(q, e, f, frame, {0, kInfinity}, hit)) continue;
         const double t_max = hit.t * (1 + random.sign() * std::exp2(-random.uniform(20, 56)));
         const bool is_beyond_it = !exact_quad(q, e, f, frame, {0, t_max}, hit);
-        const bool says_so = is_beyond(ShearedRay(frame), e, f, q - origin, along < 0, t_max);
+        const ShearedRay<double> ray(ray_of(frame));
+        const auto seen = [&](const Vec3& v) { return ray.permuted(broadcast<double>(v)); };
+        const bool says_so = is_beyond(ray, seen(e), seen(f), seen(q - origin), t_max, along < 0);
         beyond += is_beyond_it, told += says_so, wrong += says_so && !is_beyond_it;
     }
     CHECK(wrong == 0);
@@ -152,12 +159,12 @@ TEST_CASE("side_of: spheres that it says a ray leaves or ends before are not met
         const RayFrame frame(ray);
         const SphereHits exact = exact_sphere(c, r, frame, nullptr, nullptr, {0, ray.t_max});
         const SphereHits ever = exact_sphere(c, r, frame, nullptr, nullptr, {-kInfinity, kInfinity});
-        double t = 0;
+        PlanarHit hit{};
         switch (kernels::side_of(c, r, ray)) {
             case kernels::Side::missed:
                 ++missed;
                 wrong += exact.near_found || exact.far_found;
-                wrong += intersect_sphere(c, r, SphereRay(frame), {0, ray.t_max}, t);
+                wrong += intersect(sphere_of<double>(c, r), frame, {0, ray.t_max}, hit);
                 break;
             case kernels::Side::inside:
                 ++inside;
@@ -187,25 +194,26 @@ TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie withi
             if (random.chance(0.3)) ray.origin = c + r * out;
             if (ray.direction == Vec3{}) continue;
             const Seen seen(ray, instanced);
-            const SphereRoots roots = filter_sphere(c, r, SphereRay(seen.inner));
+            const SphereRoots<double> roots = sphere_of<double>(c, r).roots(ray_of(seen.inner));
             const SphereHits exact = exact_sphere(c, r, seen.inner, nullptr, nullptr, {-kInfinity, kInfinity});
-            if (roots.decision == Decision::undecided) continue;
+            if (!roots.known && !roots.missed) continue;
             ++count.decided;
-            if (exact.near_found != (roots.decision == Decision::hit)) {
+            if (exact.near_found != roots.known || roots.known == roots.missed) {
                 ++count.wrong;
             } else if (exact.near_found) {
                 ++count.hits;
-                const auto is_off = [](const Approximate& t, double truth) {
-                    return !(std::abs(t.value - truth) <= t.error + kRoundoff * std::abs(truth));
+                const auto is_off = [](double t, double error, double truth) {
+                    return !(std::abs(t - truth) <= error + kRoundoff * std::abs(truth));
                 };
-                count.wrong += is_off(roots.near, exact.near) || is_off(roots.far, exact.far);
+                count.wrong +=
+                    is_off(roots.near, roots.near_error, exact.near) || is_off(roots.far, roots.far_error, exact.far);
             }
         }
         count.check();
     }
 }
 
-TEST_CASE("Settled: the exact stage knows the answers of textbook cases", "[core][filter]") {
+TEST_CASE("The exact fallback knows the answers of textbook cases", "[core][filter]") {
     const RayFrame down(Ray{.origin = {0.25, 0.25, 3}, .direction = {0, 0, -2}});
     const Search search{0, kInfinity};
     PlanarHit hit{};

@@ -1,0 +1,162 @@
+// Numbers in lanes: formulas are written once, over the kind of number N, which is double, or some doubles or floats side
+// by side. Their masks are bool, or one bit a lane. Per-target include guard, as Highway has it.
+#if defined(LIMN_LANES_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_LANES_LANES_INL_H
+#undef LIMN_LANES_LANES_INL_H
+#else
+#define LIMN_LANES_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+struct WideMask {
+    hn::Mask<D> m;
+
+    friend HWY_INLINE WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.m, b.m)}; }
+    friend HWY_INLINE WideMask operator|(WideMask a, WideMask b) { return {hn::Or(a.m, b.m)}; }
+    friend HWY_INLINE WideMask operator^(WideMask a, WideMask b) { return {hn::Xor(a.m, b.m)}; }
+    friend HWY_INLINE WideMask operator!(WideMask a) { return {hn::Not(a.m)}; }
+};
+
+template <class D>
+struct Wide {
+    using Tag = D;
+    using Scalar = hn::TFromD<D>;
+
+    hn::Vec<D> v;
+
+    Wide() = default;
+    HWY_INLINE Wide(hn::Vec<D> lanes) : v(lanes) {}
+    HWY_INLINE Wide(Scalar x) : v(hn::Set(D(), x)) {}
+
+    friend HWY_INLINE Wide operator+(Wide a, Wide b) { return hn::Add(a.v, b.v); }
+    friend HWY_INLINE Wide operator-(Wide a, Wide b) { return hn::Sub(a.v, b.v); }
+    friend HWY_INLINE Wide operator*(Wide a, Wide b) { return hn::Mul(a.v, b.v); }
+    friend HWY_INLINE Wide operator/(Wide a, Wide b) { return hn::Div(a.v, b.v); }
+    friend HWY_INLINE Wide operator-(Wide a) { return hn::Neg(a.v); }
+    friend HWY_INLINE WideMask<D> operator<(Wide a, Wide b) { return {hn::Lt(a.v, b.v)}; }
+    friend HWY_INLINE WideMask<D> operator<=(Wide a, Wide b) { return {hn::Le(a.v, b.v)}; }
+    friend HWY_INLINE WideMask<D> operator>(Wide a, Wide b) { return {hn::Gt(a.v, b.v)}; }
+    friend HWY_INLINE WideMask<D> operator>=(Wide a, Wide b) { return {hn::Ge(a.v, b.v)}; }
+    friend HWY_INLINE WideMask<D> operator==(Wide a, Wide b) { return {hn::Eq(a.v, b.v)}; }
+    friend HWY_INLINE WideMask<D> operator!=(Wide a, Wide b) { return {hn::Ne(a.v, b.v)}; }
+
+    friend HWY_INLINE Wide abs(Wide a) { return hn::Abs(a.v); }
+    friend HWY_INLINE Wide sqrt(Wide a) { return hn::Sqrt(a.v); }
+    friend HWY_INLINE Wide min(Wide a, Wide b) { return hn::Min(a.v, b.v); }
+    friend HWY_INLINE Wide max(Wide a, Wide b) { return hn::Max(a.v, b.v); }
+    friend HWY_INLINE Wide copy_sign(Wide size, Wide sign) { return hn::CopySign(size.v, sign.v); }
+    friend HWY_INLINE Wide floor(Wide a) { return hn::Floor(a.v); }
+    friend HWY_INLINE Wide round(Wide a) { return hn::Round(a.v); }
+    // a b + c and c - a b, rounded once where the processor can: not where bits matter.
+    friend HWY_INLINE Wide mul_add(Wide a, Wide b, Wide c) { return hn::MulAdd(a.v, b.v, c.v); }
+    friend HWY_INLINE Wide neg_mul_add(Wide a, Wide b, Wide c) { return hn::NegMulAdd(a.v, b.v, c.v); }
+};
+
+// The kinds of number.
+using Doubles = Wide<hn::CappedTag<double, 8>>;
+template <class N>
+using Mask = decltype(std::declval<N>() < std::declval<N>());
+template <class N>
+inline constexpr std::size_t kLanes = hn::MaxLanes(typename N::Tag());
+template <>
+inline constexpr std::size_t kLanes<double> = 1;
+
+template <class D>
+HWY_INLINE Wide<D> select(WideMask<D> mask, Wide<D> yes, Wide<D> no) {
+    return hn::IfThenElse(mask.m, yes.v, no.v);
+}
+template <class D>
+HWY_INLINE WideMask<D> select(WideMask<D> mask, WideMask<D> yes, WideMask<D> no) {
+    return (mask & yes) | (!mask & no);
+}
+template <class D>
+HWY_INLINE bool any(WideMask<D> mask) {
+    return !hn::AllFalse(D(), mask.m);
+}
+// The lowest bit is the first lane's.
+template <class D>
+HWY_INLINE std::uint32_t bits(WideMask<D> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(D(), mask.m, bytes);
+    return bytes[0] | (hn::MaxLanes(D()) > 8 ? std::uint32_t{bytes[1]} << 8 : 0u);
+}
+template <class N>
+HWY_INLINE Mask<N> mask_of(std::uint32_t bits) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+    return {hn::LoadMaskBits(typename N::Tag(), bytes)};
+}
+template <class N>
+HWY_INLINE Mask<N> first_lanes(std::size_t count) {
+    return {hn::FirstN(typename N::Tag(), count)};
+}
+template <class N>
+HWY_INLINE N load(const typename N::Scalar* from) {
+    return hn::LoadU(typename N::Tag(), from);
+}
+template <class D>
+HWY_INLINE void store(Wide<D> x, hn::TFromD<D>* to) {
+    hn::StoreU(x.v, D(), to);
+}
+template <class D>
+HWY_INLINE hn::TFromD<D> min_of_lanes(Wide<D> x) {
+    return hn::GetLane(hn::MinOfLanes(D(), x.v));
+}
+template <class D>
+HWY_INLINE hn::TFromD<D> max_of_lanes(Wide<D> x) {
+    return hn::GetLane(hn::MaxOfLanes(D(), x.v));
+}
+// Rounded to float and back.
+template <class D>
+HWY_INLINE Wide<D> rounded_to_float(Wide<D> x) {
+    return hn::PromoteTo(D(), hn::DemoteTo(hn::Rebind<float, D>(), x.v));
+}
+
+// The same verbs for one number.
+HWY_INLINE double select(bool mask, double yes, double no) { return mask ? yes : no; }
+HWY_INLINE bool select(bool mask, bool yes, bool no) { return mask ? yes : no; }
+HWY_INLINE bool any(bool mask) { return mask; }
+HWY_INLINE double abs(double a) { return std::abs(a); }
+HWY_INLINE double sqrt(double a) { return std::sqrt(a); }
+HWY_INLINE double min(double a, double b) { return a < b ? a : b; }
+HWY_INLINE double max(double a, double b) { return a > b ? a : b; }
+HWY_INLINE double copy_sign(double size, double sign) { return std::copysign(size, sign); }
+HWY_INLINE double rounded_to_float(double x) { return static_cast<double>(static_cast<float>(x)); }
+
+// Points, directions and normals alike.
+template <class N>
+struct Vector {
+    N x, y, z;
+
+    friend HWY_INLINE Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend HWY_INLINE Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend HWY_INLINE Vector operator*(const N& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend HWY_INLINE Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
+    friend HWY_INLINE N dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    friend HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    friend HWY_INLINE N max_abs(const Vector& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+    friend HWY_INLINE N sum_abs(const Vector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+};
+
+// Of a point, direction or normal: the same in all lanes.
+template <class N, class Three>
+HWY_INLINE Vector<N> broadcast(const Three& v) {
+    return {N(v.x), N(v.y), N(v.z)};
+}
+
+}  // namespace limn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,80 @@
+// A ray, or one in each lane, and what the filters say of it. Per-target include guard, as Highway has it.
+#if defined(LIMN_PREDICATES_RAY_OF_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_PREDICATES_RAY_OF_INL_H
+#undef LIMN_PREDICATES_RAY_OF_INL_H
+#else
+#define LIMN_PREDICATES_RAY_OF_INL_H
+#endif
+
+#include "lanes/lanes-inl.h"
+#include "predicates/filter.h"
+#include "predicates/ray_frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::HWY_NAMESPACE {
+
+template <class N>
+struct RayOf {
+    Vector<N> origin, direction;
+    N origin_error, direction_error;  // RayFrame's
+};
+
+HWY_INLINE RayOf<double> ray_of(const RayFrame& frame) {
+    return {broadcast<double>(frame.ray.origin), broadcast<double>(frame.ray.direction), frame.origin_error,
+            frame.direction_error};
+}
+
+// Where hits may lie: see Search.
+template <class N>
+struct Interval {
+    N t_min, t_max;
+};
+
+// number(i), number(i + 1) and number(i + 2).
+template <class N, class Number>
+HWY_INLINE Vector<N> three(const Number& number, std::size_t i) {
+    return {number(i), number(i + 1), number(i + 2)};
+}
+
+// What a filter finds.
+template <class N>
+struct FilterResult {
+    Mask<N> hit, miss;  // neither: undecided
+    N t, u, v;          // of hits
+};
+
+// What is known of a t that is off by at most some error. It is beyond the search for sure; or it is accurate, so that
+// it is the one to report. Not where the exact one may be a float32 that it just misses: such round numbers are what
+// people put into t_min and t_max. What is neither the exact fallback decides.
+template <class N>
+struct Judgement {
+    Mask<N> beyond, accurate, within;
+};
+template <class N>
+HWY_INLINE Judgement<N> judge(N t, N error, const Interval<N>& within) {
+    const N round = rounded_to_float(t);
+    const auto misses_round = (t != round) & (abs(t - round) <= error);
+    return {.beyond = Mask<N>((t - error > within.t_max) | (t + error < within.t_min)),
+            .accurate = Mask<N>((error <= kAccurate * abs(t)) & !misses_round),
+            .within = Mask<N>((t > within.t_min) & (t <= within.t_max) & (t < kInfinity))};
+}
+
+// Exact: whether a shape is hit within the search. t, u, v as kAccurate says. `ray`: the frame's, as such shapes see
+// it.
+template <class Predicate>
+HWY_INLINE bool intersect(const Predicate& shape, const typename Predicate::Ray& ray, const RayFrame& frame,
+                          const Search& search, PlanarHit& hit) {
+    const FilterResult<double> r = shape.filter(ray, {search.t_min, search.t_max});
+    if (!(r.hit | r.miss)) return shape.exact(frame, search, hit);
+    hit = {r.t, r.u, r.v};
+    return r.hit;
+}
+template <class Predicate>
+HWY_INLINE bool intersect(const Predicate& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
+    return intersect(shape, typename Predicate::Ray(ray_of(frame)), frame, search, hit);
+}
+
+}  // namespace limn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,136 @@
+// Ray against sphere. Per-target include guard, as Highway has it.
+#if defined(LIMN_PREDICATES_SPHERE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_PREDICATES_SPHERE_INL_H
+#undef LIMN_PREDICATES_SPHERE_INL_H
+#else
+#define LIMN_PREDICATES_SPHERE_INL_H
+#endif
+
+#include "predicates/exact.h"
+#include "predicates/ray_of-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::HWY_NAMESPACE {
+
+// Both roots with bounds on their errors, where known.
+template <class N>
+struct SphereRoots {
+    Mask<N> missed, known;  // neither: undecided
+    N near, near_error, far, far_error;
+};
+
+template <class N>
+struct SpherePredicate {
+    using Ray = RayOf<N>;
+    static constexpr std::size_t kNumbers = 4;
+    Vector<N> center;
+    N radius;  // negative: the inside is out
+
+    // number(i): the i-th of kNumbers.
+    template <class Number>
+    HWY_INLINE static SpherePredicate from(const Number& number) {
+        return {three<N>(number, 0), number(3)};
+    }
+
+    // The discriminant comes from the foot point F, the ray's point closest to the centre, so that it does not cancel
+    // for small distant spheres; the root that would cancel comes from the product of the roots. Haines, Guenther,
+    // Akenine-Moeller, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, ch. 7.
+    //
+    // With p = o - c, L >= |p|, u = 2^-53: p is off by u L + e, e from the origin; p.d / d.d times d by 8 u L; the sum
+    // by u L: F in all by E = 10 u L + e, and a direction off by an angle s adds 8 s L generously. So r^2 - F.F is off
+    // by at most E (2 |F| + E) + 6 u (r^2 + F.F), and r^2 - F.F of the right sign if it exceeds E (4 r + E) + 32 u (r^2
+    // + F.F): |F| <= 2 r is clear; beyond, a wrong sign needs E >= |F| - r, and then E (4 r + E) > F.F - r^2.
+    //
+    // The half chord h has half the relative error of the discriminant, at most D / disc, and 4 u; t at the foot point
+    // is off by E / |d|. p.p - r^2 is off by 8 u (L^2 + r^2) + 2 e (2 L + e).
+    HWY_INLINE SphereRoots<N> roots(const Ray& ray) const {
+        const Vector<N>& d = ray.direction;
+        const N r = abs(radius), squared = dot(d, d), inverse_length = 1 / max_abs(d);  // at least 1 / |d|
+        const N relative = (10 * kRoundoff + 8 * ray.direction_error * inverse_length) * (1 + 0x1p-30);
+        const N absolute = 2 * ray.origin_error * (1 + 0x1p-30);
+        const Vector<N> p = ray.origin - center;
+        const N reach = sum_abs(p);
+        const auto is_in_range =
+            (squared > 0x1p-460) & (squared < 0x1p460) & (reach < 0x1p230) & (r < 0x1p230) & (r > 0x1p-230);
+
+        const N foot_t = -dot(p, d) / squared;
+        const Vector<N> foot = p + foot_t * d;
+        const N r2 = r * r, foot2 = dot(foot, foot), discriminant = r2 - foot2;
+        const N foot_error = relative * reach + absolute;
+        const N error = foot_error * (4 * r + foot_error) + 32 * kRoundoff * (r2 + foot2);
+        const Mask<N> missed = is_in_range & (discriminant < -error), met = is_in_range & (discriminant > error);
+        if (!any(met)) return {missed, met, N(0.0), N(0.0), N(0.0), N(0.0)};
+
+        const N half_chord = sqrt(discriminant / squared);
+        const N outer = foot_t + copy_sign(half_chord, foot_t), size = abs(outer);
+        const N outer_error =
+            foot_error * inverse_length + half_chord * (error / discriminant + relative) + 4 * kRoundoff * size;
+        const N power = dot(p, p) - r2;
+        const N power_error = 8 * kRoundoff * (reach * reach + r2) + absolute * (2 * reach + absolute);
+        const N inner = power / (squared * outer);
+        const N inner_error =
+            power_error / (squared * size) * 2 + abs(inner) * (2 * (outer_error / size) + 2 * relative);
+        const auto outer_first = outer < inner;
+        return {.missed = missed,
+                .known = Mask<N>(met & (outer_error <= 0.25 * size)),
+                .near = select(outer_first, outer, inner),
+                .near_error = select(outer_first, outer_error, inner_error),
+                .far = select(outer_first, inner, outer),
+                .far_error = select(outer_first, inner_error, outer_error)};
+    }
+
+    // The first root within the search.
+    HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
+        const SphereRoots<N> r = roots(ray);
+        const Judgement<N> first = judge(r.near, r.near_error, within);
+        const Judgement<N> last = judge(r.far, r.far_error, within);
+        const auto first_hit = first.accurate & first.within & !first.beyond;
+        const auto first_miss = first.beyond | (first.accurate & !first.within);
+        const auto last_hit = last.accurate & last.within & !last.beyond;
+        const auto last_miss = last.beyond | (last.accurate & !last.within);
+        return {.hit = Mask<N>(r.known & (first_hit | (first_miss & last_hit))),
+                .miss = Mask<N>(r.missed | (r.known & first_miss & last_miss)),
+                .t = select(first_hit, r.near, r.far),
+                .u = N(0.0),
+                .v = N(0.0)};
+    }
+
+    bool exact(const RayFrame& frame, const Search& search, PlanarHit& hit) const {
+        const SphereHits hits = exact_hits(frame, search);
+        hit = {hits.near_found ? hits.near : hits.far, 0, 0};
+        return hits.near_found || hits.far_found;
+    }
+
+    // Every root within the search.
+    SphereHits hits(const RayFrame& frame, const Search& search) const {
+        const Interval<N> within{search.t_min, search.t_max};
+        const SphereRoots<N> r = roots(ray_of(frame));
+        if (r.missed) return {};
+        const Judgement<N> near = judge(r.near, r.near_error, within);
+        const Judgement<N> far = judge(r.far, r.far_error, within);
+        if (!r.known || !((near.beyond | near.accurate) & (far.beyond | far.accurate)))
+            return exact_hits(frame, search);
+        return {near.within && !near.beyond, far.within && !far.beyond, r.near, r.far};
+    }
+
+private:
+    SphereHits exact_hits(const RayFrame& frame, const Search& search) const {
+        const SphereRoots<N> r = roots(ray_of(frame));
+        const auto accurate = [&](const N& t, N error) {
+            return r.known && judge(t, error, {search.t_min, search.t_max}).accurate ? &t : nullptr;
+        };
+        return exact_sphere({center.x, center.y, center.z}, std::abs(radius), frame, accurate(r.near, r.near_error),
+                            accurate(r.far, r.far_error), search);
+    }
+};
+
+// The same in all lanes.
+template <class N>
+HWY_INLINE SpherePredicate<N> sphere_of(const Point3& center, double radius) {
+    return {broadcast<N>(center), N(radius)};
+}
+
+}  // namespace limn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
