@@ -36,30 +36,6 @@ HWY_INLINE V load_floats(const std::uint32_t* words) {
     return hn::BitCast(Lanes(), hn::LoadU(hn::RebindToUnsigned<Lanes>(), words));
 }
 
-template <class T>
-HWY_INLINE T max_abs(T a, T b, T c) {
-    return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c)));
-}
-
-// t, beyond what rounding to float and what is reported may be off by.
-HWY_INLINE float above(float t) { return t * (t > 0 ? 1 + 0x1p-22f : 1 - 0x1p-22f); }
-HWY_INLINE float below(float t) { return t * (t > 0 ? 1 - 0x1p-22f : 1 + 0x1p-22f); }
-
-// Primitives of a block that the ray may hit, or hits for sure, by bit, and bounds on the t of each.
-struct Candidates {
-    std::uint32_t open = 0, certain = 0;
-    HWY_ALIGN float near[flat::kMaxBlock], far[flat::kMaxBlock];
-
-    HWY_INLINE void add(M is_open, M is_certain, V t_near, V t_far, std::size_t at) {
-        const Lanes d;
-        const std::uint32_t these = bits(is_open);
-        open |= these << at;
-        certain |= (bits(is_certain) & these) << at;
-        hn::StoreU(t_near, d, near + at);
-        hn::StoreU(t_far, d, far + at);
-    }
-};
-
 }  // namespace limn::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

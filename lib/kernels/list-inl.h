@@ -7,7 +7,7 @@
 #endif
 
 #include "flat/list.h"
-#include "kernels/lanes-inl.h"
+#include "kernels/leaf-inl.h"
 #include "predicates/filter.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,68 +67,20 @@ HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triang
     return m;
 }
 
-// Where spheres are met.
-template <class D, class T = hn::Vec<D>>
-struct ListedSphere {
-    hn::Mask<D> missed, certain;                   // the line, for sure
-    T near_first, far_first, near_last, far_last;  // bounds on both roots; all the same two where not certain
-};
-
-// As test_spheres. The centre seen from the origin is off by u R, R as above, and u of itself.
-template <class D, class Row>
-HWY_INLINE ListedSphere<D> meet_sphere(D d, const Row& row, const LaneRay<D>& ray) {
+// The ray as listed spheres see it: see float_roots. A centre seen from the origin is off by u R, R as above, and u of
+// itself.
+template <class D>
+HWY_INLINE SphereFloatRay<Wide<D>> sphere_ray(const LaneRay<D>& ray) {
+    using N = Wide<D>;
     constexpr float kUlp = 0x1p-24f;
-    const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
-    const auto px = hn::Sub(row(0), ray.ox), py = hn::Sub(row(1), ray.oy), pz = hn::Sub(row(2), ray.oz);
-    const auto radius = row(PrimitiveList::kRadius);
-    const auto foot_t =
-        hn::Mul(hn::MulAdd(px, ray.dx, hn::MulAdd(py, ray.dy, hn::Mul(pz, ray.dz))), ray.inverse_squared);
-    const auto fx = hn::NegMulAdd(foot_t, ray.dx, px), fy = hn::NegMulAdd(foot_t, ray.dy, py),
-               fz = hn::NegMulAdd(foot_t, ray.dz, pz);
-    const auto foot2 = hn::MulAdd(fx, fx, hn::MulAdd(fy, fy, hn::Mul(fz, fz))), r2 = hn::Mul(radius, radius);
-    const auto reach = hn::Add(hn::Abs(px), hn::Add(hn::Abs(py), hn::Abs(pz)));
-    const auto foot_error = hn::MulAdd(set(48 * kUlp), reach, hn::Mul(set(4.01f * kUlp), ray.reach));
-    const auto error =
-        hn::MulAdd(foot_error, hn::MulAdd(set(4), radius, foot_error), hn::Mul(set(64 * kUlp), hn::Add(r2, foot2)));
-    const auto discriminant = hn::Sub(r2, foot2);
-    ListedSphere<D> m;
-    m.missed = hn::Gt(hn::Neg(discriminant), error);
-    m.certain = hn::Gt(discriminant, error);
-    const auto inverse_length = hn::Mul(ray.inverse_size, set(1 + 0x1p-20f));
-    const auto half = hn::Mul(hn::MulAdd(set(1.001f), radius, hn::Mul(set(4), foot_error)), inverse_length);
-    const auto half_chord = hn::Sqrt(hn::Mul(discriminant, ray.inverse_squared));
-    const auto relative = hn::Add(hn::Div(error, discriminant), set(48 * kUlp));
-    const auto root_error = hn::MulAdd(foot_error, hn::Mul(set(2), inverse_length),
-                                       hn::MulAdd(hn::Mul(set(2), half_chord), relative,
-                                                  hn::Mul(set(16 * kUlp), hn::Add(hn::Abs(foot_t), half_chord))));
-    const auto near = hn::Sub(foot_t, half), far = hn::Add(foot_t, half);
-    const auto first = hn::Sub(foot_t, half_chord), last = hn::Add(foot_t, half_chord);
-    m.near_first = hn::IfThenElse(m.certain, hn::Sub(first, root_error), near);
-    m.far_first = hn::IfThenElse(m.certain, hn::Add(first, root_error), far);
-    m.near_last = hn::IfThenElse(m.certain, hn::Sub(last, root_error), near);
-    m.far_last = hn::IfThenElse(m.certain, hn::Add(last, root_error), far);
-    return m;
-}
-
-// What an interval of t makes of both roots: the one that is the first within it, if that is certain.
-template <class D, class T = hn::Vec<D>>
-struct FirstRoot {
-    hn::Mask<D> missed, certain;
-    T near, far;
-};
-template <class D, class T = hn::Vec<D>>
-HWY_INLINE FirstRoot<D> first_root(D d, const ListedSphere<D>& m, T possible_after, T certain_after, T certain_before,
-                                   T bound) {
-    static_cast<void>(d);
-    FirstRoot<D> r;
-    const auto is_first = hn::And(m.certain, hn::Gt(m.near_first, certain_after));
-    const auto is_behind = hn::And(m.certain, hn::Lt(m.far_first, possible_after));
-    r.near = hn::IfThenElse(is_behind, m.near_last, m.near_first);
-    r.far = hn::IfThenElse(is_first, m.far_first, m.far_last);
-    const auto is_last = hn::And(is_behind, hn::Gt(m.near_last, certain_after));
-    r.certain = hn::And(hn::Or(is_first, is_last), hn::Lt(r.far, certain_before));
-    r.missed = hn::Or(m.missed, hn::Or(hn::Gt(r.near, bound), hn::Lt(r.far, possible_after)));
-    return r;
+    return {.high = {ray.ox, ray.oy, ray.oz},
+            .low = {N(0.0f), N(0.0f), N(0.0f)},
+            .direction = {ray.dx, ray.dy, ray.dz},
+            .inverse_squared = ray.inverse_squared,
+            .inverse_length = N(ray.inverse_size) * (1 + 0x1p-20f),
+            .relative = 48 * kUlp,
+            .absolute = 4.01f * kUlp * N(ray.reach),
+            .t_scale = 1.0f};
 }
 
 }  // namespace limn::kernels::HWY_NAMESPACE

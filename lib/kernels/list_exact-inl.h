@@ -29,29 +29,28 @@ HWY_INLINE Mask<N> is_behind(const flat::PrimitiveList::Entry& e, const Vector<N
                      N(e.error), against);
 }
 
-// Asks one primitive and reports a hit to the query.
+// Asks one primitive and reports a hit to the query. `frame`: of the world.
 template <class Query>
-HWY_NOINLINE void ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, const Ray& ray,
+HWY_NOINLINE void ask_listed(const flat::Scene& scene, const flat::PrimitiveList::Entry& e, const RayFrame& frame,
                              Query& query) {
-    const auto ask = [&](const RayFrame& frame) {
-        return with_listed(scene, e, [&](const auto& shape) {
+    const auto ask = [&](const RayFrame& seen) HWY_ATTR {
+        return with_listed(scene, e, [&](const auto& shape) HWY_ATTR {
             PlanarHit hit;
-            return intersect(shape, frame, {frame.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
+            return intersect(shape, seen, {seen.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
         });
     };
-    const RayFrame frame(ray);
-    if (e.is_instanced)
-        inside(scene.instances[e.instance], frame,
-               [&](const RayFrame& inner) { return is_usable(inner.ray) && ask(inner); });
-    else
+    if (HWY_LIKELY(!e.is_instanced))
         ask(frame);
+    else
+        inside(scene.instances[e.instance], frame,
+               [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && ask(inner); });
 }
 
 // Each in turn, until the query has its answer: for rays that float cannot hold. Whether it has.
 template <class Query>
-bool ask_all_listed(const flat::Scene& scene, const Ray& ray, Query& query) {
+bool ask_all_listed(const flat::Scene& scene, const RayFrame& frame, Query& query) {
     for (const flat::PrimitiveList::Entry& e : scene.list.entries) {
-        ask_listed(scene, e, ray, query);
+        ask_listed(scene, e, frame, query);
         if (query.ended()) return true;
     }
     return false;

@@ -19,6 +19,7 @@ namespace limn::kernels::HWY_NAMESPACE {
 using RayLanes = hn::CappedTag<float, 16>;
 using RV = hn::Vec<RayLanes>;
 using RM = hn::Mask<RayLanes>;
+using RayFloats = Wide<RayLanes>;
 inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
 
 // Query: Closest or Any<false>, one for each ray. As in Traversal, sure hits wait, the nearest alone is to be asked
@@ -67,7 +68,7 @@ public:
             sphere(i, ray);
         }
         for (std::size_t r = 0; r < count_; ++r)
-            if ((odd_ >> r & 1) != 0 && ask_all_listed(scene_, rays_[r], queries_[r])) odd_ &= ~(1u << r);
+            if ((odd_ >> r & 1) != 0 && ask_all_listed(scene_, RayFrame(rays_[r]), queries_[r])) odd_ &= ~(1u << r);
         if (list_.is_all) return 0;
         std::uint32_t rest = active_ & meets_rest(ray);
         const bool is_planar = (scene_.kinds & ~flat::kPlanarKinds) == 0;  // what stands in trees, and in no instance
@@ -100,7 +101,7 @@ private:
         const auto dx = demoted(direction_[0]), dy = demoted(direction_[1]), dz = demoted(direction_[2]);
         hn::Store(ox, d, o_[0]), hn::Store(oy, d, o_[1]), hn::Store(oz, d, o_[2]);
         hn::Store(dx, d, d_[0]), hn::Store(dy, d, d_[1]), hn::Store(dz, d, d_[2]);
-        const auto start = max_abs(ox, oy, oz), size = max_abs(dx, dy, dz);
+        const auto start = max_abs(Vector<RayFloats>{ox, oy, oz}).v, size = max_abs(Vector<RayFloats>{dx, dy, dz}).v;
         const auto reach = hn::Add(start, hn::Set(d, extent));
         hn::Store(reach, d, reach_);
         hn::Store(size, d, size_);
@@ -129,7 +130,7 @@ private:
         return hn::Set(d, static_cast<float>(from[0]));
 #else
         const hn::Half<RayLanes> dh;
-        const hn::Rebind<double, hn::Half<RayLanes>> dd;
+        const hn::Rebind<double, hn::Half<RayLanes> > dd;
         return hn::Combine(d, hn::DemoteTo(dh, hn::Load(dd, from + kPacket / 2)), hn::DemoteTo(dh, hn::Load(dd, from)));
 #endif
     }
@@ -163,22 +164,20 @@ private:
     }
 
     HWY_INLINE void sphere(std::uint32_t i, const LaneRay<RayLanes>& ray) {
-        const RayLanes d;
         const float* rows = list_.round.data() + i;
         const std::size_t stride = list_.sphere_stride;
-        const auto met = meet_sphere(
-            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, ray);
-        const auto certain_before = hn::Load(d, certain_before_), bound = hn::Load(d, bound_);
+        const auto row = [&](std::size_t r) HWY_ATTR { return RayFloats(rows[r * stride]); };
+        const auto met = float_roots(three<RayFloats>(row, 0), row(PrimitiveList::kRadius), sphere_ray(ray));
+        const auto certain_before = load<RayFloats>(certain_before_), certain_after = load<RayFloats>(certain_after_);
         auto root =
-            first_root(d, met, hn::Load(d, possible_after_), hn::Load(d, certain_after_), certain_before, bound);
-        const std::uint32_t open = bits(d, hn::Not(root.missed)) & active_;
+            first_root<RayFloats>(met, certain_after, {load<RayFloats>(possible_after_), load<RayFloats>(bound_)});
+        const std::uint32_t open = bits(root.open) & active_;
         if (open == 0) return;
-        std::uint32_t certain = bits(d, root.certain) & open;
+        std::uint32_t certain = bits(root.certain & (root.far < certain_before)) & open;
         if (certain != open) {
             const std::uint32_t number = list_.planars() + i;
             const std::uint32_t ahead =
-                bits(d, hn::And(met.certain, hn::And(hn::Gt(met.near_last, hn::Load(d, certain_after_)),
-                                                     hn::Lt(met.far_last, certain_before))));
+                bits(met.certain & (met.near_last > certain_after) & (met.far_last < certain_before));
             std::uint32_t inside = 0;
             for (std::uint32_t unsure = open & ~certain; unsure != 0; unsure &= unsure - 1) {
                 const auto r = static_cast<std::size_t>(std::countr_zero(unsure));
@@ -189,12 +188,12 @@ private:
                 else if (side != Side::missed)
                     ask(r, number);
             }
-            const auto within = rays_mask(inside);
-            root.near = hn::IfThenElse(within, met.near_last, root.near);
-            root.far = hn::IfThenElse(within, met.far_last, root.far);
+            const auto within = mask_of<RayFloats>(inside);
+            root.near = select(within, met.near_last, root.near);
+            root.far = select(within, met.far_last, root.far);
             certain = (certain | inside) & active_;
         }
-        take(list_.planars() + i, certain, root.near, root.far);
+        take(list_.planars() + i, certain, root.near.v, root.far.v);
     }
 
     // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along
@@ -276,11 +275,9 @@ private:
         const PrimitiveList::Entry& e = list_.entries[i];
         std::uint32_t decided = 0;
         with_listed(scene_, e, [&]<template <class> class Predicate>(const Predicate<double>& shape) HWY_ATTR {
-            const auto numbers = std::bit_cast<std::array<double, Predicate<double>::kNumbers>>(shape);
-            const auto in_lanes = Predicate<limn::HWY_NAMESPACE::Doubles>::from(
-                [&](std::size_t k) HWY_ATTR { return limn::HWY_NAMESPACE::Doubles(numbers[k]); });
-            decided = by_halves(
-                lanes, [&](std::size_t h, std::uint32_t here) HWY_ATTR { return decide(in_lanes, e.number, h, here); });
+            const auto broadcast = in_lanes<limn::HWY_NAMESPACE::Doubles>(shape);
+            decided = by_halves(lanes, [&](std::size_t h, std::uint32_t here)
+                                           HWY_ATTR { return decide(broadcast, e.number, h, here); });
             return false;
         });
         return decided;
@@ -316,7 +313,7 @@ private:
     }
 
     HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
-        ask_listed(scene_, list_.entries[i], rays_[r], queries_[r]);
+        ask_listed(scene_, list_.entries[i], RayFrame(rays_[r]), queries_[r]);
         note_limit(r);
     }
 

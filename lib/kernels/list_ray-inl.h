@@ -26,7 +26,7 @@ HWY_INLINE void keep_listed(RM certain, RV t_near, RV t_far, std::size_t number,
 // As ListPacket, but for the way the lanes go. One function, whose values stay in registers: a class with these members
 // takes a sixth longer.
 template <class Query>
-HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, Query& query) {
+HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query) {
     const RayLanes d;
     const PrimitiveList& list = scene.list;
     const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
@@ -41,7 +41,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, Query& que
     const float size = largest(dx, dy, dz), reach = largest(ox, oy, oz) + extent;
     const bool ordinary = size > 0x1p-10f && size < 0x1p10f && reach < 8 * extent;
     if (HWY_UNLIKELY(!ordinary)) {
-        ask_all_listed(scene, ray, query);
+        ask_all_listed(scene, frame, query);
         return;
     }
     const LaneRay<RayLanes> lanes{hn::Set(d, ox),       hn::Set(d, oy),
@@ -92,34 +92,36 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, Query& que
                 const PrimitiveList::Entry& e = list.entries[i + k];
                 if ((leaving >> k & 1) != 0 && is_behind(e, broadcast<double>(ray.origin), (against >> k & 1) != 0))
                     continue;
-                ask_listed(scene, e, ray, query);
+                ask_listed(scene, e, frame, query);
                 if (query.ended()) return;
                 const float limit = above(limited(query.limit()));
                 if (limit < bound) bound = limit;
             }
         }
     }
+    const auto ray_of_spheres = sphere_ray(lanes);
     for (std::size_t i = 0; i < list.spheres; i += hn::Lanes(d)) {
         const float* rows = list.round.data() + i;
         const std::size_t stride = list.sphere_stride, number = list.planars() + i;
-        const auto met = meet_sphere(
-            d, [&](std::size_t r) HWY_ATTR { return hn::LoadU(d, rows + r * stride); }, lanes);
-        const auto root = first_root(d, met, possible_after, certain_after, certain_before, hn::Set(d, bound));
-        const auto open = hn::AndNot(root.missed, hn::FirstN(d, list.spheres - i));
-        if (hn::AllFalse(d, open)) continue;
-        const std::uint32_t certain_bits = bits(d, hn::And(open, root.certain));
+        const auto row = [&](std::size_t r) HWY_ATTR { return load<RayFloats>(rows + r * stride); };
+        const auto roots = float_roots(three<RayFloats>(row, 0), row(PrimitiveList::kRadius), ray_of_spheres);
+        const auto root = first_root<RayFloats>(roots, certain_after, {possible_after, bound});
+        const auto open = root.open & first_lanes<RayFloats>(list.spheres - i);
+        if (!any(open)) continue;
+        const auto certain = open & root.certain & (root.far < RayFloats(certain_before));
+        const std::uint32_t certain_bits = bits(certain);
         if constexpr (Query::kFirstHit) {
             if (certain_bits != 0) {
                 query.report({}, 0, false);
                 return;
             }
         } else if (certain_bits != 0) {
-            keep_listed(hn::And(open, root.certain), root.near, root.far, number, near, waiting, bound);
+            keep_listed(certain.m, root.near.v, root.far.v, number, near, waiting, bound);
         }
-        for (std::uint32_t unsure = bits(d, open) & ~certain_bits; unsure != 0; unsure &= unsure - 1) {
+        for (std::uint32_t unsure = bits(open) & ~certain_bits; unsure != 0; unsure &= unsure - 1) {
             const PrimitiveList::Entry& e = list.entries[number + static_cast<std::uint32_t>(std::countr_zero(unsure))];
             if (ray.t_min >= 0 && side_of(e.corner, e.radius, ray) == Side::missed) continue;
-            ask_listed(scene, e, ray, query);
+            ask_listed(scene, e, frame, query);
             if (query.ended()) return;
             const float limit = above(limited(query.limit()));
             if (limit < bound) bound = limit;
@@ -129,7 +131,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, Query& que
         const auto k = static_cast<std::size_t>(std::countr_zero(waiting));
         if (near[k] > bound) continue;
         const PrimitiveList::Entry& e = list.entries[k];
-        ask_listed(scene, e, ray, query);
+        ask_listed(scene, e, frame, query);
     }
 }
 

@@ -14,7 +14,7 @@
 #include "accel/wide_bvh.h"
 #include "flat/scene.h"
 #include "kernels/box_ray.h"
-#include "kernels/lanes-inl.h"
+#include "kernels/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
@@ -161,7 +161,7 @@ struct NodeTest {
         for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
             const auto plane = [&](std::size_t p) HWY_ATTR { return load_floats(rows + p * count + i); };
             const auto near = enter(plane), far = leave(plane, hn::Set(d, t_max));
-            found.add(hn::And(hn::Le(near, far), hn::FirstN(d, count - i)), hn::FirstN(d, 0), near, far, i);
+            found.add({{hn::And(hn::Le(near, far), hn::FirstN(d, count - i))}, {hn::FirstN(d, 0)}, near, far}, i);
         }
         return found;
     }

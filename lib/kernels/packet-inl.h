@@ -6,10 +6,8 @@
 #define LIMN_KERNELS_PACKET_INL_H
 #endif
 
-#include "kernels/leaf_rays.h"
 #include "kernels/list_packet-inl.h"
 #include "kernels/node-inl.h"
-#include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,13 +76,9 @@ public:
         for (std::size_t i = 0; i < kPacket; ++i) {
             const BoxRay& ray = rays[i < count ? i : 0];
             const PlanarRay planar(ray, 0);
-            if (i == 0) axes_[0] = planar.x, axes_[1] = planar.y, axes_[2] = planar.z;
-            for (std::size_t a = 0; a < 3; ++a) high_[a][i] = planar.high[a], low_[a][i] = planar.low[a];
-            shear_x_[i] = planar.shear_x, shear_y_[i] = planar.shear_y;
-            relative_ = planar.relative;
-            absolute_[i] = planar.absolute;
-            t_from_z_[i] = planar.t_from_z;
-            coarse_slope_[i] = planar.coarse_slope, coarse_[i] = planar.coarse;
+            if (i == 0) std::copy_n(planar.axes, 3, axes_), leaves_ = true;
+            for (std::size_t k = 0; k < kNumbers; ++k) numbers_[k][i] = number_of<float>(planar.numbers, k);
+            leaves_ = leaves_ && planar.leaves;
             if (i >= count) {  // met by nothing
                 bound_[i] = kNever, possible_after_[i] = 0;
                 continue;
@@ -113,6 +107,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t kNumbers = PlanarFloatRay<float>::kNumbers;
     static constexpr float kNever = -std::numeric_limits<float>::max();
 
     struct Pending {
@@ -138,37 +133,22 @@ private:
         }
     }
 
-    // test_planar with a triangle for all lanes and a ray in each.
+    // A triangle for all lanes, a ray in each.
     HWY_INLINE bool triangle(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) {
-        const RayLanes d;
-        const auto corner = [&](std::size_t vertex, std::size_t a)
-                                HWY_ATTR { return hn::Set(d, block.number(header.count, 3 * vertex + axes_[a], i)); };
-        const auto seen = [&](std::size_t vertex, std::size_t a) HWY_ATTR {
-            return hn::Sub(hn::Sub(corner(vertex, a), hn::Load(d, high_[a])), hn::Load(d, low_[a]));
+        const auto vertex = [&](std::size_t k) HWY_ATTR {
+            const auto coordinate = [&](std::size_t a)
+                                        HWY_ATTR { return RayFloats(block.number(header.count, 3 * k + axes_[a], i)); };
+            return three<RayFloats>(coordinate, 0);
         };
-        const auto shear_x = hn::Load(d, shear_x_), shear_y = hn::Load(d, shear_y_);
-        SeenVertices<RV> p;
-        p.az = seen(0, 2), p.bz = seen(1, 2), p.cz = seen(2, 2);
-        p.ax = hn::NegMulAdd(shear_x, p.az, seen(0, 0)), p.ay = hn::NegMulAdd(shear_y, p.az, seen(0, 1));
-        p.bx = hn::NegMulAdd(shear_x, p.bz, seen(1, 0)), p.by = hn::NegMulAdd(shear_y, p.bz, seen(1, 1));
-        p.cx = hn::NegMulAdd(shear_x, p.cz, seen(2, 0)), p.cy = hn::NegMulAdd(shear_y, p.cz, seen(2, 1));
-        const EdgeValues<RV> w = edge_values<false>(d, p);
-        const auto coarse = hn::MulAdd(hn::Load(d, coarse_slope_), w.across, hn::Load(d, coarse_));
-        auto open = hn::Not(is_missed(w, coarse));
-        if (HWY_LIKELY(hn::AllFalse(d, open))) return false;
-
-        const auto m = meet_plane<false>(d, p, w, hn::Set(d, relative_), hn::Load(d, absolute_), hn::Zero(d),
-                                         hn::Load(d, t_from_z_));
-        const auto bound = hn::Load(d, bound_);
-        const auto dropped = hn::Or(hn::Gt(m.near, hn::MulAdd(hn::Set(d, 0x1p-22f), hn::Abs(bound), bound)),
-                                    hn::Lt(m.far, hn::Load(d, possible_after_)));
-        open = hn::AndNot(hn::Or(m.missed, dropped), open);
-        const std::uint32_t lanes = bits(d, open);
-        if (lanes == 0) return false;
-        HWY_ALIGN float nears[kPacket], fars[kPacket];
-        hn::Store(m.near, d, nears);
-        hn::Store(m.far, d, fars);
-        return take(block, i, lanes, bits(d, m.certain), nears, fars);
+        const auto ray =
+            PlanarFloatRay<RayFloats>::from([&](std::size_t k) HWY_ATTR { return load<RayFloats>(numbers_[k]); });
+        const auto hits = test_planar<false>(vertex, ray, first_lanes<RayFloats>(kPacket),
+                                             first_lanes<RayFloats>(leaves_ ? kPacket : 0),
+                                             {load<RayFloats>(possible_after_), above(load<RayFloats>(bound_))});
+        if (!any(hits.open)) return false;
+        HWY_ALIGN float near[kPacket], far[kPacket];
+        store(hits.near, near), store(hits.far, far);
+        return take(block, i, bits(hits.open), bits(hits.certain), near, far);
     }
 
     bool take(const flat::BlockView& block, std::uint32_t i, std::uint32_t open, std::uint32_t certain,
@@ -224,10 +204,9 @@ private:
     const RayFrame* frames_;
     Query* queries_;
     std::size_t count_;
-    std::size_t axes_[3];
-    float relative_ = 0;
-    HWY_ALIGN float high_[3][kPacket], low_[3][kPacket], shear_x_[kPacket], shear_y_[kPacket], absolute_[kPacket],
-        t_from_z_[kPacket], coarse_slope_[kPacket], coarse_[kPacket], bound_[kPacket], possible_after_[kPacket];
+    unsigned axes_[3];
+    bool leaves_ = false;  // all of them: nothing behind their origins counts
+    HWY_ALIGN float numbers_[kNumbers][kPacket], bound_[kPacket], possible_after_[kPacket];
     float certain_after_[kPacket], certain_before_[kPacket];
     std::uint32_t pending_mask_ = 0;
     Pending pending_[kPacket];

@@ -58,18 +58,19 @@ HWY_INLINE bool with_shape(const flat::Scene& scene, PrimitiveKind kind, std::ui
 template <template <class> class Predicate>
 class ExactQueue {
 public:
+    ExactQueue() : size_(0) {}  // the rest is left as it is
+
     bool is_full() const { return size_ == kSize; }
 
     // `tag` comes back with the answer.
     HWY_INLINE void add(const Predicate<double>& shape, const RayFrame& frame, const Search& search,
                         std::uint32_t tag) {
-        const auto of_shape = std::bit_cast<std::array<double, Predicate<double>::kNumbers>>(shape);
         const double of_ray[kRay] = {frame.ray.origin.x,    frame.ray.origin.y,    frame.ray.origin.z,
                                      frame.ray.direction.x, frame.ray.direction.y, frame.ray.direction.z,
                                      frame.origin_error,    frame.direction_error, search.t_min,
                                      search.t_max};
         for (std::size_t k = 0; k < kRay; ++k) ray_[k][size_] = of_ray[k];
-        for (std::size_t k = 0; k < of_shape.size(); ++k) shape_[k][size_] = of_shape[k];
+        for (std::size_t k = 0; k < Predicate<double>::kNumbers; ++k) shape_[k][size_] = number_of<double>(shape, k);
         tag_[size_++] = tag;
     }
 
@@ -103,7 +104,7 @@ public:
 private:
     static constexpr std::size_t kSize = 64, kRay = 10;
 
-    std::size_t size_ = 0;
+    std::size_t size_;
     HWY_ALIGN double ray_[kRay][kSize], shape_[Predicate<double>::kNumbers][kSize];
     std::uint32_t tag_[kSize];
 };

@@ -11,10 +11,8 @@
 #include "core/sphere_uv.h"
 #include "kernels/box_ray-inl.h"
 #include "kernels/node-inl.h"
-#include "kernels/planar-inl.h"
 #include "kernels/queries.h"
 #include "kernels/shapes-inl.h"
-#include "kernels/sphere-inl.h"
 #include "predicates/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -42,8 +40,8 @@ public:
           possible_after_(below(box_ray_.t_min)),
           certain_after_(above(box_ray_.lower(larger(frame.ray.t_min, -kEndless)) + 2 * box_ray_.t_error)),
           certain_before_(below(box_ray_.upper(limn::smaller(query.limit(), kEndless)) - 2 * box_ray_.t_error)) {
-        if constexpr (has_planar()) planar_.emplace(box_ray_, packed_error());
-        if constexpr (has_spheres()) round_.emplace(box_ray_, packed_error());
+        if constexpr (has_planar()) planar_ = PlanarRay(box_ray_, packed_error());
+        if constexpr (has_spheres()) round_ = sphere_ray(box_ray_, packed_error());
     }
 
     // A part of run(), which ends where memory is about to be waited for. False at the end. `next`, at first the root,
@@ -132,15 +130,15 @@ private:
                     break;
                 case PrimitiveKind::sphere:
                     if constexpr (has(PrimitiveKind::sphere))
-                        return take(
-                            test_spheres<false>(block, header.count, *round_, 0, possible_after_, above(bound_)), block,
-                            header);
+                        return take(test_spheres<false>(block, header.count, *round_, 0, possible_after_,
+                                                        certain_after_, above(bound_)),
+                                    block, header);
                     break;
                 case PrimitiveKind::moving_sphere:
                     if constexpr (has(PrimitiveKind::moving_sphere))
-                        return take(
-                            test_spheres<true>(block, header.count, *round_, time(), possible_after_, above(bound_)),
-                            block, header);
+                        return take(test_spheres<true>(block, header.count, *round_, time(), possible_after_,
+                                                       certain_after_, above(bound_)),
+                                    block, header);
                     break;
                 case PrimitiveKind::instance:
                 case PrimitiveKind::foreign:
@@ -301,7 +299,7 @@ private:
     const RayFrame& frame_;
     const BoxRay& box_ray_;
     std::optional<PlanarRay> planar_;
-    std::optional<RoundRay> round_;
+    std::optional<SphereFloatRay<float>> round_;
     const std::uint64_t first_number_;
     Query& query_;
     const NodeTest node_test_;

@@ -59,7 +59,7 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
             Query& query) {
     if constexpr (!Query::kEveryHit) {
         if (id == GroupId::root && !scene.list.empty()) {
-            search_list(scene, ray, query);
+            search_list(scene, ray, frame, query);
             if (scene.list.is_all || query.ended()) return;
         }
     }
@@ -148,7 +148,9 @@ void answer_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
             [&](std::uint32_t r, const PlanarHit& hit) {
                 queries[r].report(hit, scene.list.entries[candidates[r]].number, false);
             },
-            [&](std::uint32_t r) { ask_listed(scene, scene.list.entries[candidates[r]], rays[r], queries[r]); });
+            [&](std::uint32_t r) {
+                ask_listed(scene, scene.list.entries[candidates[r]], RayFrame(rays[r]), queries[r]);
+            });
     };
     for (std::uint32_t r = 0; r < count; ++r) {
         if (candidates[r] == ListPacket<Closest>::kNone) continue;

@@ -1,5 +1,5 @@
-// Numbers in lanes: formulas are written once, over the kind of number N, which is double, or some doubles or floats side
-// by side. Their masks are bool, or one bit a lane. Per-target include guard, as Highway has it.
+// Numbers in lanes: formulas are written once, over the kind of number N, which is double, or some doubles or floats
+// side by side. Their masks are bool, or one bit a lane. Per-target include guard, as Highway has it.
 #if defined(LIMN_LANES_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_LANES_LANES_INL_H
 #undef LIMN_LANES_LANES_INL_H
@@ -43,6 +43,7 @@ struct Wide {
     friend HWY_INLINE Wide operator-(Wide a, Wide b) { return hn::Sub(a.v, b.v); }
     friend HWY_INLINE Wide operator*(Wide a, Wide b) { return hn::Mul(a.v, b.v); }
     friend HWY_INLINE Wide operator/(Wide a, Wide b) { return hn::Div(a.v, b.v); }
+    friend HWY_INLINE Wide operator^(Wide a, Wide b) { return hn::Xor(a.v, b.v); }  // of bits
     friend HWY_INLINE Wide operator-(Wide a) { return hn::Neg(a.v); }
     friend HWY_INLINE WideMask<D> operator<(Wide a, Wide b) { return {hn::Lt(a.v, b.v)}; }
     friend HWY_INLINE WideMask<D> operator<=(Wide a, Wide b) { return {hn::Le(a.v, b.v)}; }
@@ -58,13 +59,15 @@ struct Wide {
     friend HWY_INLINE Wide copy_sign(Wide size, Wide sign) { return hn::CopySign(size.v, sign.v); }
     friend HWY_INLINE Wide floor(Wide a) { return hn::Floor(a.v); }
     friend HWY_INLINE Wide round(Wide a) { return hn::Round(a.v); }
-    // a b + c and c - a b, rounded once where the processor can: not where bits matter.
+    // a b + c, a b - c and c - a b, rounded once where the processor can: not where bits matter.
     friend HWY_INLINE Wide mul_add(Wide a, Wide b, Wide c) { return hn::MulAdd(a.v, b.v, c.v); }
+    friend HWY_INLINE Wide mul_sub(Wide a, Wide b, Wide c) { return hn::MulSub(a.v, b.v, c.v); }
     friend HWY_INLINE Wide neg_mul_add(Wide a, Wide b, Wide c) { return hn::NegMulAdd(a.v, b.v, c.v); }
 };
 
 // The kinds of number.
 using Doubles = Wide<hn::CappedTag<double, 8>>;
+using Single = Wide<hn::CappedTag<double, 1>>;  // where a double's branches would be mispredicted
 template <class N>
 using Mask = decltype(std::declval<N>() < std::declval<N>());
 template <class N>
@@ -107,6 +110,10 @@ HWY_INLINE N load(const typename N::Scalar* from) {
 template <class D>
 HWY_INLINE void store(Wide<D> x, hn::TFromD<D>* to) {
     hn::StoreU(x.v, D(), to);
+}
+template <class D>
+HWY_INLINE hn::TFromD<D> first_of_lanes(Wide<D> x) {
+    return hn::GetLane(x.v);
 }
 template <class D>
 HWY_INLINE hn::TFromD<D> min_of_lanes(Wide<D> x) {

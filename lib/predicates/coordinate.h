@@ -1,4 +1,4 @@
-// A coordinate by its axis, without branches.
+// Numbers of an object by their place, without branches.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,20 @@
 
 namespace limn {
 
-// v.x, v.y or v.z for axis 0, 1 or 2. Read from the object's bytes: no pointer to one member reaches the next one, and
-// compilers make use of that.
+// The i-th of the numbers that an object consists of. Read from the object's bytes: no pointer to one member reaches
+// the next one, and compilers make use of that.
+template <class Number, class Object>
+inline Number number_of(const Object& object, std::size_t i) {
+    Number value;
+    static_assert(std::is_trivially_copyable_v<Object> && sizeof(Object) % sizeof(Number) == 0);
+    std::memcpy(&value, reinterpret_cast<const std::byte*>(&object) + i * sizeof(Number), sizeof(Number));
+    return value;
+}
+
+// v.x, v.y or v.z for axis 0, 1 or 2.
 template <class V>
 inline auto coordinate(const V& v, std::size_t axis) {
-    auto value = v.x;
-    static_assert(std::is_trivially_copyable_v<V> && sizeof(V) == 3 * sizeof(value));
-    std::memcpy(&value, reinterpret_cast<const std::byte*>(&v) + axis * sizeof(value), sizeof(value));
-    return value;
+    return number_of<std::remove_cvref_t<decltype(v.x)>>(v, axis);
 }
 
 }  // namespace limn

@@ -1,6 +1,6 @@
 // Bounds on how far a computed hit point may lie from its surface, times what lets the filter of the next intersection
-// tell on which side a ray starts that is moved as far off the surface: the exact fallback would tell in any case, slower.
-// The bounds are the same along every axis, for an intersection in a rotated or sheared frame mixes the axes.
+// tell on which side a ray starts that is moved as far off the surface: the exact fallback would tell in any case,
+// slower. The bounds are the same along every axis, for an intersection in a rotated or sheared frame mixes the axes.
 #pragma once
 
 #include <algorithm>

@@ -11,6 +11,24 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
+// The permutation of axes that makes a direction largest along z.
+template <class N>
+class Axes {
+public:
+    HWY_INLINE explicit Axes(const Vector<N>& direction) {
+        const N x = abs(direction.x), y = abs(direction.y);
+        x_over_y_ = x > y;
+        z_longest_ = !(select(x_over_y_, x, y) > abs(direction.z));
+    }
+    HWY_INLINE Vector<N> permuted(const Vector<N>& v) const {
+        return {select(z_longest_, v.x, select(x_over_y_, v.y, v.z)),
+                select(z_longest_, v.y, select(x_over_y_, v.z, v.x)),
+                select(z_longest_, v.z, select(x_over_y_, v.x, v.y))};
+    }
+
+private:
+    Mask<N> x_over_y_, z_longest_;
+};
 // The axes are permuted so that the direction is largest along z; shearing maps it onto z, so that a triangle is hit
 // where the origin lies inside its projection (Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1),
 // 2013; here in double).
@@ -22,17 +40,14 @@ namespace limn::HWY_NAMESPACE {
 // E) E. An edge vector, which is not a difference, loses less.
 template <class N>
 struct ShearedRay {
-    Mask<N> x_over_y, z_longest;
+    Axes<N> axes;
     Vector<N> origin, direction;  // permuted
     N shear_x, shear_y;
     N relative, absolute;  // E = relative M + absolute
     N direction_error;     // of direction.z, relative
 
-    HWY_INLINE explicit ShearedRay(const RayOf<N>& ray) {
-        const N x = abs(ray.direction.x), y = abs(ray.direction.y);
-        x_over_y = x > y;
-        z_longest = !(select(x_over_y, x, y) > abs(ray.direction.z));
-        origin = permuted(ray.origin), direction = permuted(ray.direction);
+    HWY_INLINE explicit ShearedRay(const RayOf<N>& ray)
+        : axes(ray.direction), origin(axes.permuted(ray.origin)), direction(axes.permuted(ray.direction)) {
         shear_x = direction.x / direction.z, shear_y = direction.y / direction.z;
         // |d_x / d_z - (d_x + e) / (d_z + e')| <= 2 e / (|d_z| - e); 4 e / |d_z| as long as that is below 1/2.
         const N error = 4 * ray.direction_error / abs(direction.z);
@@ -41,10 +56,6 @@ struct ShearedRay {
         absolute = 2 * ray.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // |S| <= 1 + s
     }
 
-    HWY_INLINE Vector<N> permuted(const Vector<N>& v) const {
-        return {select(z_longest, v.x, select(x_over_y, v.y, v.z)), select(z_longest, v.y, select(x_over_y, v.z, v.x)),
-                select(z_longest, v.z, select(x_over_y, v.x, v.y))};
-    }
     // z is left as it is: dividing by direction.z turns it into t.
     HWY_INLINE Vector<N> sheared(const Vector<N>& v) const { return {v.x - shear_x * v.z, v.y - shear_y * v.z, v.z}; }
 
@@ -120,11 +131,11 @@ template <class N>
 HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> inside, const Vector<N>& u,
                              const Vector<N>& v, const Vector<N>& q, N edge_error, Mask<N> against,
                              FilterResult<N>& result) {
-    const auto undecided = inside & !(result.hit | result.miss) & (within.t_min >= 0.0);
-    if (!any(undecided)) return;
+    const auto undecided = inside & !(result.hit | result.miss);
+    if (HWY_LIKELY(!any(undecided))) return;
     const auto is_outside =
         is_behind(u, v, q, edge_error, 0.5 * ray.absolute, against) | is_beyond(ray, u, v, q, within.t_max, against);
-    result.miss = result.miss | (undecided & is_outside);
+    result.miss = result.miss | (undecided & is_outside & (within.t_min >= 0.0));
 }
 
 }  // namespace limn::HWY_NAMESPACE

@@ -32,8 +32,8 @@ struct QuadPredicate {
     //
     // u and v are off by at most 4 e / |det|; z changes by at most |edge_u.z| + |edge_v.z| over the quad.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
-        const Vector<N> at_u = ray.permuted(edge_u), at_v = ray.permuted(edge_v);
-        const Vector<N> to_corner = ray.permuted(corner) - ray.origin;
+        const Vector<N> at_u = ray.axes.permuted(edge_u), at_v = ray.axes.permuted(edge_v);
+        const Vector<N> to_corner = ray.axes.permuted(corner) - ray.origin;
         const Vector<N> q = ray.sheared(to_corner), eu = ray.sheared(at_u), ev = ray.sheared(at_v);
         N det = eu.x * ev.y - eu.y * ev.x;
         N wu = ev.x * q.y - ev.y * q.x;

@@ -7,6 +7,7 @@
 #endif
 
 #include "lanes/lanes-inl.h"
+#include "predicates/coordinate.h"
 #include "predicates/filter.h"
 #include "predicates/ray_frame.h"
 
@@ -19,9 +20,10 @@ struct RayOf {
     N origin_error, direction_error;  // RayFrame's
 };
 
-HWY_INLINE RayOf<double> ray_of(const RayFrame& frame) {
-    return {broadcast<double>(frame.ray.origin), broadcast<double>(frame.ray.direction), frame.origin_error,
-            frame.direction_error};
+template <class N>
+HWY_INLINE RayOf<N> ray_of(const RayFrame& frame) {
+    return {broadcast<N>(frame.ray.origin), broadcast<N>(frame.ray.direction), N(frame.origin_error),
+            N(frame.direction_error)};
 }
 
 // Where hits may lie: see Search.
@@ -59,19 +61,25 @@ HWY_INLINE Judgement<N> judge(N t, N error, const Interval<N>& within) {
             .within = Mask<N>((t > within.t_min) & (t <= within.t_max) & (t < kInfinity))};
 }
 
+// A shape's numbers, the same in all lanes.
+template <class N, template <class> class Predicate>
+HWY_INLINE Predicate<N> in_lanes(const Predicate<double>& shape) {
+    return Predicate<N>::from([&](std::size_t i) HWY_ATTR { return N(number_of<double>(shape, i)); });
+}
+
 // Exact: whether a shape is hit within the search. t, u, v as kAccurate says. `ray`: the frame's, as such shapes see
 // it.
-template <class Predicate>
-HWY_INLINE bool intersect(const Predicate& shape, const typename Predicate::Ray& ray, const RayFrame& frame,
-                          const Search& search, PlanarHit& hit) {
-    const FilterResult<double> r = shape.filter(ray, {search.t_min, search.t_max});
-    if (!(r.hit | r.miss)) return shape.exact(frame, search, hit);
-    hit = {r.t, r.u, r.v};
-    return r.hit;
+template <template <class> class Predicate>
+HWY_INLINE bool intersect(const Predicate<double>& shape, const typename Predicate<Single>::Ray& ray,
+                          const RayFrame& frame, const Search& search, PlanarHit& hit) {
+    const auto r = in_lanes<Single>(shape).filter(ray, {search.t_min, search.t_max});
+    if (HWY_UNLIKELY(!any(r.hit | r.miss))) return shape.exact(frame, search, hit);
+    hit = {first_of_lanes(r.t), first_of_lanes(r.u), first_of_lanes(r.v)};
+    return any(r.hit);
 }
-template <class Predicate>
-HWY_INLINE bool intersect(const Predicate& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
-    return intersect(shape, typename Predicate::Ray(ray_of(frame)), frame, search, hit);
+template <template <class> class Predicate>
+HWY_INLINE bool intersect(const Predicate<double>& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
+    return intersect(shape, typename Predicate<Single>::Ray(ray_of<Single>(frame)), frame, search, hit);
 }
 
 }  // namespace limn::HWY_NAMESPACE

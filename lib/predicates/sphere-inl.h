@@ -104,7 +104,7 @@ struct SpherePredicate {
     // Every root within the search.
     SphereHits hits(const RayFrame& frame, const Search& search) const {
         const Interval<N> within{search.t_min, search.t_max};
-        const SphereRoots<N> r = roots(ray_of(frame));
+        const SphereRoots<N> r = roots(ray_of<N>(frame));
         if (r.missed) return {};
         const Judgement<N> near = judge(r.near, r.near_error, within);
         const Judgement<N> far = judge(r.far, r.far_error, within);
@@ -115,7 +115,7 @@ struct SpherePredicate {
 
 private:
     SphereHits exact_hits(const RayFrame& frame, const Search& search) const {
-        const SphereRoots<N> r = roots(ray_of(frame));
+        const SphereRoots<N> r = roots(ray_of<N>(frame));
         const auto accurate = [&](const N& t, N error) {
             return r.known && judge(t, error, {search.t_min, search.t_max}).accurate ? &t : nullptr;
         };

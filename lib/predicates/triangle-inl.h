@@ -34,7 +34,7 @@ struct TrianglePredicate {
     // roundings are less than e. As computed they add up to 1, so that in the mean z only differences of z see that
     // error, those of two vertices to the third.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
-        const Vector<N> at_a = ray.permuted(a), at_b = ray.permuted(b), at_c = ray.permuted(c);
+        const Vector<N> at_a = ray.axes.permuted(a), at_b = ray.axes.permuted(b), at_c = ray.axes.permuted(c);
         const Vector<N> qa = at_a - ray.origin, qb = at_b - ray.origin, qc = at_c - ray.origin;
         const Vector<N> pa = ray.sheared(qa), pb = ray.sheared(qb), pc = ray.sheared(qc);
         const N wa = pc.x * pb.y - pc.y * pb.x;

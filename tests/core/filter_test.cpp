@@ -69,7 +69,7 @@ struct Count {
 
 template <class Shape>
 FilterResult<double> filtered(const Shape& shape, const RayFrame& frame, const Search& search) {
-    return shape.filter(typename Shape::Ray(ray_of(frame)), {search.t_min, search.t_max});
+    return shape.filter(typename Shape::Ray(ray_of<double>(frame)), {search.t_min, search.t_max});
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ TEST_CASE("is_beyond: planes that it says a search ends before are met exactly a
         if (!exact_quad(q, e, f, frame, {0, kInfinity}, hit)) continue;
         const double t_max = hit.t * (1 + random.sign() * std::exp2(-random.uniform(20, 56)));
         const bool is_beyond_it = !exact_quad(q, e, f, frame, {0, t_max}, hit);
-        const ShearedRay<double> ray(ray_of(frame));
-        const auto seen = [&](const Vec3& v) { return ray.permuted(broadcast<double>(v)); };
+        const ShearedRay<double> ray(ray_of<double>(frame));
+        const auto seen = [&](const Vec3& v) { return ray.axes.permuted(broadcast<double>(v)); };
         const bool says_so = is_beyond(ray, seen(e), seen(f), seen(q - origin), t_max, along < 0);
         beyond += is_beyond_it, told += says_so, wrong += says_so && !is_beyond_it;
     }
@@ -194,7 +194,7 @@ TEST_CASE("filter_sphere: what it decides is exactly so, and its roots lie withi
             if (random.chance(0.3)) ray.origin = c + r * out;
             if (ray.direction == Vec3{}) continue;
             const Seen seen(ray, instanced);
-            const SphereRoots<double> roots = sphere_of<double>(c, r).roots(ray_of(seen.inner));
+            const SphereRoots<double> roots = sphere_of<double>(c, r).roots(ray_of<double>(seen.inner));
             const SphereHits exact = exact_sphere(c, r, seen.inner, nullptr, nullptr, {-kInfinity, kInfinity});
             if (!roots.known && !roots.missed) continue;
             ++count.decided;
