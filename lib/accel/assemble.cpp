@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "accel/order.h"
 #include "accel/reference.h"
 
 namespace limn::accel {
@@ -100,9 +99,9 @@ private:
         const Part& part = item.part;
         const Rows& first = item.first;
         for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-            WideNode& node = bvh.nodes[first.node + i] = part.nodes[i];
-            for (std::uint32_t& child : node.child)
-                if (child != WideNode::kAbsent) child += (child & WideNode::kLeaf) != 0 ? first.leaf : first.node;
+            Node& node = bvh.nodes[first.node + i] = part.nodes[i];
+            for (Child& child : node.child)
+                if (child != kNothing) child += (child & kLeaf) != 0 ? first.leaf : first.node;
         }
         for (const auto& [slot, target] : item.links) bvh.nodes[first.node].child[slot] = items_[target].first.node;
         for (std::size_t i = 0; i < part.leaves.size(); ++i)
@@ -120,7 +119,7 @@ public:
         : boxes_(boxes), settings_(settings), aside_(aside) {}
 
     // Returns the child that has them all. If one half is a leaf the other is one too, or comes later.
-    std::uint32_t add(std::span<const std::uint32_t> ids) {
+    Child add(std::span<const std::uint32_t> ids) {
         Part& part = aside_.part;
         if (ids.size() <= settings_.max_leaf) {
             aside_.cost += leaf_cost(static_cast<std::uint32_t>(ids.size()), settings_);
@@ -132,7 +131,7 @@ public:
         const std::size_t half = ids.size() / 2;
         const std::span<const std::uint32_t> halves[2] = {ids.first(half), ids.subspan(half)};
         for (std::size_t k = 0; k < 2; ++k) {
-            const std::uint32_t child = add(halves[k]);
+            const Child child = add(halves[k]);
             part.nodes[row].child[k] = child;
             set_box(part.nodes[row], k, around(halves[k]));
         }

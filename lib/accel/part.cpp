@@ -1,9 +1,6 @@
 #include "accel/part.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "accel/order.h"
 
 namespace limn::accel {
 
@@ -23,7 +20,7 @@ void PartWriter::add_tree(const SplitNode& node) {
 }
 
 void PartWriter::add_node(std::span<const SplitNode* const> children) {
-    WideNode& wide = part_.nodes.emplace_back(empty_node());
+    Node& wide = part_.nodes.emplace_back(empty_node());
     for (std::size_t slot = 0; slot < children.size(); ++slot) {
         const SplitNode& child = *children[slot];
         set_box(wide, slot, child.box);
@@ -32,30 +29,14 @@ void PartWriter::add_node(std::span<const SplitNode* const> children) {
     set_order(wide);
 }
 
-std::uint32_t PartWriter::add_leaf(std::span<const std::uint32_t> ids) {
+Child PartWriter::add_leaf(std::span<const std::uint32_t> ids) {
     const auto first = static_cast<std::uint32_t>(part_.ids.size());
     part_.ids.insert(part_.ids.end(), ids.begin(), ids.end());
     std::sort(part_.ids.begin() + first, part_.ids.end());
     // The halves of a box that was cut may meet again.
     part_.ids.erase(std::unique(part_.ids.begin() + first, part_.ids.end()), part_.ids.end());
     part_.leaves.push_back({first, static_cast<std::uint32_t>(part_.ids.size()) - first});
-    return WideNode::kLeaf | static_cast<std::uint32_t>(part_.leaves.size() - 1);
-}
-
-WideNode empty_node() {
-    constexpr float kEndless = std::numeric_limits<float>::infinity();
-    WideNode node;
-    for (std::size_t a = 0; a < 3; ++a) {
-        std::fill_n(node.lower[a], kWidth, kEndless);
-        std::fill_n(node.upper[a], kWidth, -kEndless);
-    }
-    std::fill_n(node.child, kWidth, WideNode::kAbsent);
-    std::fill_n(node.order, kWidth, 0x76543210u);
-    return node;
-}
-
-void set_box(WideNode& node, std::size_t slot, const FloatBox& box) {
-    for (std::size_t a = 0; a < 3; ++a) node.lower[a][slot] = box.lower[a], node.upper[a][slot] = box.upper[a];
+    return kLeaf | static_cast<std::uint32_t>(part_.leaves.size() - 1);
 }
 
 }  // namespace limn::accel

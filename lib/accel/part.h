@@ -10,7 +10,7 @@ namespace limn::accel {
 
 // Some nodes and leaves of a tree, depth first; rows count from the part's own first ones.
 struct Part {
-    std::vector<WideNode> nodes;
+    HugeVector<Node> nodes;
     std::vector<Leaf> leaves;
     std::vector<std::uint32_t> ids;
 };
@@ -27,16 +27,12 @@ public:
     void add_node(std::span<const SplitNode* const> children);
 
     // Returns the child that it becomes.
-    std::uint32_t add_leaf(std::span<const std::uint32_t> ids);
+    Child add_leaf(std::span<const std::uint32_t> ids);
 
 private:
     std::span<const std::uint32_t> ids_;
     Part& part_;
     std::vector<const SplitNode*> children_;  // a stack: of the nodes in the making
 };
-
-// A node without children.
-WideNode empty_node();
-void set_box(WideNode& node, std::size_t slot, const FloatBox& box);
 
 }  // namespace limn::accel

@@ -2,38 +2,20 @@
 // is in them.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "accel/node.h"
+#include "core/huge_pages.h"
+
 namespace limn::accel {
-
-// Closed; the caller rounds it outward. Sides may be infinite; it is empty where lower <= upper fails on an axis.
-struct FloatBox {
-    float lower[3], upper[3];
-};
-
-inline constexpr std::size_t kWidth = 8;
-
-// Present children come first; the box of an absent one is empty: lower +infinity, upper -infinity.
-struct alignas(64) WideNode {
-    static constexpr std::uint32_t kLeaf = 0x80000000u, kAbsent = 0xffffffffu;
-
-    float lower[3][kWidth], upper[3][kWidth];  // of the children
-    std::uint32_t child[kWidth];               // inner: row of nodes; leaf: kLeaf | row of leaves
-    // By octant (bit a is the sign bit of a ray's direction along axis a): eight slots of four bits, the lowest names
-    // the child to be visited first, the one that lies nearest along the octant's diagonal. Absent ones come last.
-    std::uint32_t order[kWidth];
-};
-static_assert(sizeof(WideNode) == 256);
 
 struct Leaf {
     std::uint32_t first, count;  // of the ids
 };
 
 struct WideBvh {
-    std::vector<WideNode> nodes;     // [0] is the root, even above a single leaf; empty if nothing can be hit
+    HugeVector<Node> nodes;          // [0] is the root, even above a single leaf; empty if nothing can be hit
     std::vector<Leaf> leaves;        // depth first; those of one node follow each other
     std::vector<std::uint32_t> ids;  // of the boxes, leaf by leaf, ascending within one; empty boxes are left out
     FloatBox bounds;                 // of everything

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "accel/clip_triangle.h"
 #include "accel/float_box.h"
@@ -235,7 +236,7 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     accel::WideBvh bvh = accel::build_wide_bvh(
         boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2, .spatial_splits = may_cut}, may_cut ? &clip : nullptr);
     group.cost = bvh.cost;
-    group.root = pack_tree(bvh, boxes_, references_, scene_);
+    group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
 }
 
 }  // namespace limn::compiler

@@ -7,7 +7,6 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <limits>
 
 #include "limn/core/error.h"
 #include "predicates/mesh_triangle.h"
@@ -32,13 +31,10 @@ public:
         if (bvh_.nodes.empty()) return flat::kNothing;
         for_all(bvh_.leaves.size(), [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
         place_leaves();
-        const auto root = static_cast<std::uint32_t>(scene_.nodes.size());
-        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == accel::WideNode::kAbsent;
+        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
         for_all(bvh_.leaves.size(), [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
-        if (is_lone) return flat::kLeaf | static_cast<flat::Child>(places_[0] / 2);
-        scene_.nodes.resize(root + bvh_.nodes.size());
-        for_all(bvh_.nodes.size(), [&](std::size_t i) { scene_.nodes[root + i] = node(bvh_.nodes[i], root); });
-        return root;
+        if (is_lone) return leaf_at(0);
+        return append_nodes();
     }
 
 private:
@@ -175,25 +171,24 @@ private:
         return rows;
     }
 
-    flat::Node node(const accel::WideNode& from, std::uint32_t root) const {
-        static_assert(flat::kWidth == accel::kWidth);
-        flat::Node to;
-        for (std::size_t i = 0; i < flat::kWidth; ++i) {
-            for (std::size_t a = 0; a < 3; ++a)
-                to.planes[a][i] = from.lower[a][i], to.planes[3 + a][i] = from.upper[a][i];
-            const std::uint32_t child = from.child[i];
-            if (child == accel::WideNode::kAbsent)
-                to.child[i] = flat::kNothing;
-            else if (child & accel::WideNode::kLeaf)
-                to.child[i] = flat::kLeaf | static_cast<flat::Child>(places_[child & ~accel::WideNode::kLeaf] / 2);
-            else
-                to.child[i] = root + child;
-            to.order[i] = 0;
-            for (std::size_t k = 0; k < flat::kWidth; ++k)
-                to.order[i] |= (from.order[i] >> (4 * k) & 15) << (4 * (flat::kWidth - 1 - k));
-        }
-        return to;
+    // Returns where they begin.
+    flat::Child append_nodes() {
+        const auto root = static_cast<flat::Child>(scene_.nodes.size());
+        if (root == 0)
+            scene_.nodes = std::move(bvh_.nodes);
+        else
+            scene_.nodes.insert(scene_.nodes.end(), bvh_.nodes.begin(), bvh_.nodes.end());
+        for_all(scene_.nodes.size() - root, [&](std::size_t i) {
+            for (flat::Child& child : scene_.nodes[root + i].child) {
+                if (child == flat::kNothing) continue;
+                const bool is_leaf = (child & flat::kLeaf) != 0;
+                child = is_leaf ? leaf_at(child & ~flat::kLeaf) : root + child;
+            }
+        });
+        return root;
     }
+
+    flat::Child leaf_at(std::size_t row) const { return flat::kLeaf | static_cast<flat::Child>(places_[row] / 2); }
 
     accel::WideBvh& bvh_;
     std::span<const accel::FloatBox> boxes_;
@@ -205,7 +200,7 @@ private:
 
 }  // namespace
 
-flat::Child pack_tree(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes,
+flat::Child pack_tree(accel::WideBvh bvh, std::span<const accel::FloatBox> boxes,
                       std::span<const flat::Reference> references, flat::Scene& scene) {
     return Packer(bvh, boxes, references, scene).pack();
 }

@@ -14,8 +14,8 @@
 
 using namespace limn;
 using accel::FloatBox;
+using accel::Node;
 using accel::WideBvh;
-using accel::WideNode;
 
 namespace {
 
@@ -115,7 +115,8 @@ TEST_CASE("clip_triangle: no point of the triangle in the box is lost, in exact 
     CHECK(crossings > 1000);
 }
 
-TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and empty on a side where nothing is", "[accel]") {
+TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and empty on a side where nothing is",
+          "[accel]") {
     const Corners c{{{0, 0, 0}, {4, 0, 0}, {0, 4, 2}}};
     const FloatBox all{{0, 0, 0}, {4, 4, 2}};
     const auto is_near = [](const FloatBox& part, const FloatBox& expected) {
@@ -143,10 +144,10 @@ TEST_CASE("WideBvh: with spatial splits every point of a triangle is in a leaf t
     const std::vector<FloatBox> boxes = triangles.boxes();
     const WideBvh bvh = accel::build_wide_bvh(boxes, {.spatial_splits = true}, &triangles);
     std::vector<std::vector<FloatBox>> leaves(boxes.size());  // of each triangle
-    for (const WideNode& node : bvh.nodes)
+    for (const Node& node : bvh.nodes)
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot) {
-            if (node.child[slot] == WideNode::kAbsent || (node.child[slot] & WideNode::kLeaf) == 0) continue;
-            const accel::Leaf leaf = bvh.leaves[node.child[slot] & ~WideNode::kLeaf];
+            if (node.child[slot] == accel::kNothing || (node.child[slot] & accel::kLeaf) == 0) continue;
+            const accel::Leaf leaf = bvh.leaves[node.child[slot] & ~accel::kLeaf];
             for (std::uint32_t i = 0; i < leaf.count; ++i)
                 leaves[bvh.ids[leaf.first + i]].push_back(test::box_of(node, slot));
         }

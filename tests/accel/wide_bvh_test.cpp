@@ -15,8 +15,8 @@ using namespace limn;
 using accel::build_wide_bvh;
 using accel::BuildSettings;
 using accel::FloatBox;
+using accel::Node;
 using accel::WideBvh;
-using accel::WideNode;
 using test::check_tree;
 using test::random_boxes;
 
@@ -136,15 +136,15 @@ TEST_CASE("WideBvh: its extent is the largest finite coordinate, of either sign,
 
 TEST_CASE("WideBvh: children are ordered by where their centres lie along the octant's diagonal", "[accel]") {
     const WideBvh bvh = build_wide_bvh(random_boxes(5000, 3));
-    for (const WideNode& node : bvh.nodes) {
+    for (const Node& node : bvh.nodes) {
         const auto present = static_cast<std::uint32_t>(
-            std::count_if(node.child, node.child + 8, [](std::uint32_t c) { return c != WideNode::kAbsent; }));
+            std::count_if(node.child, node.child + 8, [](std::uint32_t c) { return c != accel::kNothing; }));
         for (std::uint32_t octant = 0; octant < 8; ++octant) {
-            const auto slot = [&](std::uint32_t k) { return node.order[octant] >> 4 * k & 15; };
+            const auto slot = [&](std::uint32_t k) { return node.order[octant] >> 4 * (7 - k) & 15; };
             const auto along = [&](std::uint32_t c) {
                 double sum = 0;
                 for (std::uint32_t a = 0; a < 3; ++a)
-                    sum += (octant >> a & 1 ? -1.0 : 1.0) * (double{node.lower[a][c]} + node.upper[a][c]);
+                    sum += (octant >> a & 1 ? -1.0 : 1.0) * (double{node.planes[a][c]} + node.planes[3 + a][c]);
                 return sum;
             };
             std::uint32_t seen = 0;

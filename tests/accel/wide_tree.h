@@ -31,9 +31,9 @@ inline bool contains(const accel::FloatBox& outer, const accel::FloatBox& inner)
     return true;
 }
 
-inline accel::FloatBox box_of(const accel::WideNode& node, std::size_t slot) {
-    return {{node.lower[0][slot], node.lower[1][slot], node.lower[2][slot]},
-            {node.upper[0][slot], node.upper[1][slot], node.upper[2][slot]}};
+inline accel::FloatBox box_of(const accel::Node& node, std::size_t slot) {
+    return {{node.planes[0][slot], node.planes[1][slot], node.planes[2][slot]},
+            {node.planes[3][slot], node.planes[4][slot], node.planes[5][slot]}};
 }
 
 inline double half_area(const accel::FloatBox& b) {
@@ -52,12 +52,11 @@ inline accel::FloatBox merged(const std::vector<accel::FloatBox>& boxes) {
 
 // What a random ray that meets the root is expected to cost.
 inline double expected_cost(const accel::WideBvh& bvh, const accel::BuildSettings& settings) {
-    using accel::WideNode;
     double sum = settings.node_cost;
-    for (const WideNode& node : bvh.nodes)
-        for (std::size_t slot = 0; slot < accel::kWidth && node.child[slot] != WideNode::kAbsent; ++slot) {
-            const bool is_leaf = (node.child[slot] & WideNode::kLeaf) != 0;
-            const std::uint32_t count = is_leaf ? bvh.leaves[node.child[slot] & ~WideNode::kLeaf].count : 0;
+    for (const accel::Node& node : bvh.nodes)
+        for (std::size_t slot = 0; slot < accel::kWidth && node.child[slot] != accel::kNothing; ++slot) {
+            const bool is_leaf = (node.child[slot] & accel::kLeaf) != 0;
+            const std::uint32_t count = is_leaf ? bvh.leaves[node.child[slot] & ~accel::kLeaf].count : 0;
             const double cost =
                 is_leaf ? std::ceil(double(count) / settings.leaf_width) * settings.leaf_cost : settings.node_cost;
             sum += cost * half_area(box_of(node, slot)) / half_area(bvh.bounds);
@@ -67,7 +66,7 @@ inline double expected_cost(const accel::WideBvh& bvh, const accel::BuildSetting
 
 inline bool same_bits(const accel::WideBvh& a, const accel::WideBvh& b) {
     return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.ids == b.ids &&
-           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(accel::WideNode)) == 0 &&
+           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(accel::Node)) == 0 &&
            std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(accel::Leaf)) == 0 &&
            std::memcmp(&a.bounds, &b.bounds, sizeof a.bounds) == 0 && a.cost == b.cost && a.extent == b.extent;
 }
@@ -91,26 +90,25 @@ public:
 
 private:
     int check(std::uint32_t row, const accel::FloatBox& around) {
-        using accel::WideNode;
-        const WideNode& node = bvh_.nodes.at(row);
+        const accel::Node& node = bvh_.nodes.at(row);
         ++nodes_;
         bool present = true;
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot) {
             const std::uint32_t child = node.child[slot];
-            if (child == WideNode::kAbsent) {
+            if (child == accel::kNothing) {
                 REQUIRE(slot > 0);
                 for (std::size_t a = 0; a < 3; ++a)
-                    REQUIRE((node.lower[a][slot] == INFINITY && node.upper[a][slot] == -INFINITY));
+                    REQUIRE((node.planes[a][slot] == INFINITY && node.planes[3 + a][slot] == -INFINITY));
                 present = false;
                 continue;
             }
             REQUIRE(present);  // present ones come first
             REQUIRE(contains(around, box_of(node, slot)));
-            if ((child & WideNode::kLeaf) != 0) check_leaf(child & ~WideNode::kLeaf, box_of(node, slot));
+            if ((child & accel::kLeaf) != 0) check_leaf(child & ~accel::kLeaf, box_of(node, slot));
         }
         int depth = 1;
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot)
-            if ((node.child[slot] & WideNode::kLeaf) == 0)
+            if ((node.child[slot] & accel::kLeaf) == 0)
                 depth = std::max(depth, 1 + check(node.child[slot], box_of(node, slot)));
         return depth;
     }
