@@ -17,7 +17,7 @@ struct Aside {
 // Halves the numbers down to leaves.
 Aside set_aside(std::span<const FloatBox> boxes, std::span<const std::uint32_t> ids, const BuildSettings& settings);
 
-// Fills in all but bounds and extent. The tree may be none; `ids` are those of its references.
+// The tree may be none; `ids` are those of its references.
 WideBvh assemble(const SplitNode* root, const ForestCosts& costs, std::span<const std::uint32_t> ids, Aside aside,
                  const BuildSettings& settings);
 

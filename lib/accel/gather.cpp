@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace limn::accel {
 
@@ -15,19 +14,10 @@ constexpr float kBounded = 0x1p125f;
 struct Chunk {
     Range range;  // of its references, from its own first box on
     std::vector<std::uint32_t> unbounded;
-    float extent = 0;
 };
 
 bool is_empty(const FloatBox& b) {
     return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
-}
-
-float largest_magnitude(const FloatBox& b) {
-    float largest = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-        for (const float x : {b.lower[a], b.upper[a]})
-            if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
-    return largest;
 }
 
 // Runs function(chunk, begin, end) over the numbers from begin to end.
@@ -55,7 +45,6 @@ Chunk fill(std::span<const FloatBox> boxes, std::uint32_t begin, std::uint32_t e
         if ((plain[0] & plain[1] & plain[2]) == 0) {
             if (is_empty(b)) continue;
             chunk.unbounded.push_back(id);
-            chunk.extent = std::max(chunk.extent, largest_magnitude(b));
             continue;
         }
         const Reference r(bounds, id);
@@ -71,13 +60,12 @@ Chunk fill(std::span<const FloatBox> boxes, std::uint32_t begin, std::uint32_t e
 
 Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
     const auto size = static_cast<std::uint32_t>(boxes.size());
-    Gathered all{ReferenceArray(boxes.size() + room), {}, {}, 0};
+    Gathered all{ReferenceArray(boxes.size() + room), {}, {}};
     Reference* references = all.references.data();
     std::vector<Chunk> chunks((size + kChunk - 1) / kChunk);
     for_each_chunk(0, size, [&](std::uint32_t c, std::uint32_t begin, std::uint32_t end) {
         chunks[c] = fill(boxes, begin, end, references);
     });
-    float extent = 0;
     for (const Chunk& chunk : chunks) {
         const Range& part = chunk.range;
         if (part.begin != all.range.end)
@@ -85,11 +73,8 @@ Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
         all.range.end += part.size();
         all.range.extend(part);
         all.unbounded.insert(all.unbounded.end(), chunk.unbounded.begin(), chunk.unbounded.end());
-        extent = std::max(extent, chunk.extent);
     }
     all.range.room = room;
-    if (all.range.size() > 0) extent = std::max(extent, largest_magnitude(to_box(all.range.bounds)));
-    all.extent = extent;
     return all;
 }
 

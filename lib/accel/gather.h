@@ -32,7 +32,6 @@ struct Gathered {
     ReferenceArray references;             // of bounded boxes
     Range range;                           // all of them
     std::vector<std::uint32_t> unbounded;  // numbers of the others
-    double extent = 0;                     // the largest finite magnitude of a coordinate
 };
 
 // Leaves out empty boxes. Counts boxes as unbounded too whose sides' sums or differences could overflow. The references

@@ -107,20 +107,11 @@ WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& set
     const auto room =
         clip == nullptr ? 0 : static_cast<std::uint32_t>(settings.room * static_cast<double>(boxes.size()));
     Gathered gathered = gather(boxes, room);
-    Bounds bounds = gathered.range.bounds;
     Aside aside = set_aside(boxes, gathered.unbounded, settings);
-    if (!gathered.unbounded.empty()) bounds.extend(to_bounds(aside.box));
-    WideBvh bvh;
-    if (gathered.range.size() > 0) {
-        TreeBuilder tree(gathered.range, settings, clip);
-        const ForestCosts costs = tree.build(gathered.references.data(), gathered.range);
-        bvh = assemble(&tree.root(), costs, tree.ids(), std::move(aside), settings);
-    } else {
-        bvh = assemble(nullptr, {}, {}, std::move(aside), settings);
-    }
-    bvh.bounds = to_box(bounds);
-    bvh.extent = gathered.extent;
-    return bvh;
+    if (gathered.range.size() == 0) return assemble(nullptr, {}, {}, std::move(aside), settings);
+    TreeBuilder tree(gathered.range, settings, clip);
+    const ForestCosts costs = tree.build(gathered.references.data(), gathered.range);
+    return assemble(&tree.root(), costs, tree.ids(), std::move(aside), settings);
 }
 
 }  // namespace limn::accel

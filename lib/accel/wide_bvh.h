@@ -18,10 +18,8 @@ struct WideBvh {
     HugeVector<Node> nodes;          // [0] is the root, even above a single leaf; empty if nothing can be hit
     std::vector<Leaf> leaves;        // depth first; those of one node follow each other
     std::vector<std::uint32_t> ids;  // of the boxes, leaf by leaf, ascending within one; empty boxes are left out
-    FloatBox bounds;                 // of everything
-    double extent = 0;               // the largest finite magnitude of a coordinate
-    double cost = 0;                 // expected, of a ray that meets `bounds`: see BuildSettings; unbounded boxes count
-                                     // as large as all bounded ones together
+    double cost = 0;                 // expected, of a ray that meets the bounds of everything: see BuildSettings;
+                                     // unbounded boxes count as large as all bounded ones together
 };
 
 // The surface-area heuristic: a ray that meets the root meets a node or leaf with the probability of its area over the
