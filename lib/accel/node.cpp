@@ -5,30 +5,17 @@
 
 namespace limn::accel {
 
-namespace {
-
-constexpr float kEndless = std::numeric_limits<float>::infinity();
-
-}  // namespace
-
-Node empty_node() {
+Node make_node(std::span<const FloatBox> boxes) {
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
     Node node;
+    std::fill_n(node.child, kWidth, kNothing);
     for (std::size_t a = 0; a < 3; ++a) {
         std::fill_n(node.planes[a], kWidth, kEndless);
         std::fill_n(node.planes[3 + a], kWidth, -kEndless);
+        for (std::size_t c = 0; c < boxes.size(); ++c)
+            node.planes[a][c] = boxes[c].lower[a], node.planes[3 + a][c] = boxes[c].upper[a];
     }
-    std::fill_n(node.child, kWidth, kNothing);
-    std::fill_n(node.order, kWidth, 0x01234567u);
-    return node;
-}
-
-void set_box(Node& node, std::size_t slot, const FloatBox& box) {
-    for (std::size_t a = 0; a < 3; ++a) node.planes[a][slot] = box.lower[a], node.planes[3 + a][slot] = box.upper[a];
-}
-
-void set_order(Node& node) {
-    std::uint32_t present = 0;
-    while (present < kWidth && node.child[present] != kNothing) ++present;
+    const auto present = static_cast<std::uint32_t>(boxes.size());
     // An octant and its opposite have opposite orders.
     for (std::uint32_t octant = 0; octant < 4; ++octant) {
         float along[kWidth];              // twice the centre, along the octant's diagonal
@@ -54,6 +41,7 @@ void set_order(Node& node) {
         node.order[octant] = word;
         node.order[7 - octant] = opposite;
     }
+    return node;
 }
 
 }  // namespace limn::accel

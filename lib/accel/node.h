@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace limn::accel {
 
@@ -29,12 +30,7 @@ struct alignas(64) Node {
 };
 static_assert(sizeof(Node) == 256);
 
-// One without children.
-Node empty_node();
-
-void set_box(Node& node, std::size_t slot, const FloatBox& box);
-
-// Fills in `order`. \pre all else is filled in
-void set_order(Node& node);
+// Of children with these boxes, up to eight, that are yet to be named.
+Node make_node(std::span<const FloatBox> boxes);
 
 }  // namespace limn::accel

@@ -9,11 +9,11 @@ namespace limn::accel {
 namespace {
 
 constexpr int kMaxBins = 16;
-constexpr std::uint32_t kSample = 128;  // references that are cut to choose a plane, or some more
+constexpr std::uint32_t kSample = 128;  // primitives that are cut to choose a plane, or some more
 
 struct Bin {
     Bounds bounds = kEmpty;
-    std::uint32_t begins = 0, ends = 0;  // references whose lowest, and whose highest bin it is
+    std::uint32_t begins = 0, ends = 0;  // primitives whose lowest, and whose highest bin it is
 };
 
 // Bins of space along one axis.
@@ -32,14 +32,14 @@ public:
 
     // `is_sampled`: if planes go through it, the bins get what they make of it; else they only count it. Where rounding
     // puts bins and planes differently the choice is a little worse.
-    void add(const Reference& r, bool is_sampled, const Clip& clip) {
+    void add(const BuildPrimitive& r, bool is_sampled, const Clip& clip) {
         const int first = bin_of(r.lower[axis_]), last = bin_of(r.upper[axis_]);
         ++bins_[first].begins;
         ++bins_[last].ends;
         if (first < last && !is_sampled) return;
         Bounds rest = r.bounds();
         for (int b = first; b < last; ++b) {
-            const Clip::Parts parts = clip.cut(r.id(), to_box(rest), axis_, plane(b + 1));
+            const Clip::Parts parts = clip.cut(r.index(), to_box(rest), axis_, plane(b + 1));
             bins_[b].bounds.extend(to_bounds(parts.lower));
             rest = to_bounds(parts.upper);
         }
@@ -80,10 +80,6 @@ private:
     Bin bins_[kMaxBins];
 };
 
-bool is_empty(const Bounds& b) {
-    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
-}
-
 Bounds joined(Bounds a, const Bounds& b) {
     a.extend(b);
     return a;
@@ -93,22 +89,22 @@ Bounds common(const Bounds& a, const Bounds& b) { return {max(a.lower, b.lower),
 
 }  // namespace
 
-double overlap(const Reference* references, const Range& range, const Split& split) {
+double overlap(const BuildPrimitive* primitives, const Range& range, const Split& split) {
     Bounds lower = kEmpty, upper = kEmpty;
     for (std::uint32_t i = range.begin; i < range.end; ++i)
-        (split.is_lower(references[i]) ? lower : upper).extend(references[i].bounds());
+        (split.is_lower(primitives[i]) ? lower : upper).extend(primitives[i].bounds());
     const Bounds both = common(lower, upper);
     return is_empty(both) ? 0 : half_area(to_box(both));
 }
 
-Cut best_cut(const Reference* references, const Range& range, std::uint32_t leaf_width, const Clip& clip) {
+Cut best_cut(const BuildPrimitive* primitives, const Range& range, std::uint32_t leaf_width, const Clip& clip) {
     const std::uint32_t step = 1 + range.size() / kSample;
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
         Slices slices(range, axis);
         if (!slices.exist()) continue;
         for (std::uint32_t i = range.begin; i < range.end; ++i)
-            slices.add(references[i], (i - range.begin) % step == 0, clip);
+            slices.add(primitives[i], (i - range.begin) % step == 0, clip);
         const Cut cut = slices.best(leaf_width);
         if (cut.cost < best.cost) best = cut;
     }
@@ -116,12 +112,12 @@ Cut best_cut(const Reference* references, const Range& range, std::uint32_t leaf
     return best;
 }
 
-bool cut(const Reference* references, Reference* to, const Range& range, const Cut& cut, const Clip& clip, Range& lower,
-         Range& upper) {
+bool cut(const BuildPrimitive* primitives, BuildPrimitive* to, const Range& range, const Cut& cut, const Clip& clip,
+         Range& lower, Range& upper) {
     lower = upper = Range();
     std::uint32_t lower_count = 0, upper_count = 0, across = 0;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        const Reference& r = references[i];
+        const BuildPrimitive& r = primitives[i];
         if (r.upper[cut.axis] <= cut.position) {
             lower.extend(r), ++lower_count;
         } else if (r.lower[cut.axis] >= cut.position) {
@@ -137,7 +133,7 @@ bool cut(const Reference* references, Reference* to, const Range& range, const C
     const std::uint32_t end = range.end + range.room;
     std::uint32_t lower_end = range.begin, upper_begin = end;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        const Reference& r = references[i];
+        const BuildPrimitive& r = primitives[i];
         if (r.upper[cut.axis] <= cut.position) {
             to[lower_end++] = r;
             continue;
@@ -146,7 +142,7 @@ bool cut(const Reference* references, Reference* to, const Range& range, const C
             to[--upper_begin] = r;
             continue;
         }
-        const Clip::Parts parts = clip.cut(r.id(), to_box(r.bounds()), cut.axis, cut.position);
+        const Clip::Parts parts = clip.cut(r.index(), to_box(r.bounds()), cut.axis, cut.position);
         Bounds below = common(r.bounds(), to_bounds(parts.lower)), above = common(r.bounds(), to_bounds(parts.upper));
         below.upper[cut.axis] = std::min(below.upper[cut.axis], cut.position);
         above.lower[cut.axis] = std::max(above.lower[cut.axis], cut.position);
@@ -170,8 +166,8 @@ bool cut(const Reference* references, Reference* to, const Range& range, const C
             }
         }
         lower_count -= any_below ? 0 : 1, upper_count -= any_above ? 0 : 1;
-        if (any_below) lower.extend(to[lower_end++] = Reference(below, r.id()));
-        if (any_above) upper.extend(to[--upper_begin] = Reference(above, r.id()));
+        if (any_below) lower.extend(to[lower_end++] = BuildPrimitive(below, r.index()));
+        if (any_above) upper.extend(to[--upper_begin] = BuildPrimitive(above, r.index()));
     }
     const std::uint32_t size = range.size(), lower_size = lower_end - range.begin, upper_size = end - upper_begin;
     if (lower_size == 0 || upper_size == 0 || lower_size >= size || upper_size >= size) return false;
@@ -179,7 +175,7 @@ bool cut(const Reference* references, Reference* to, const Range& range, const C
     return true;
 }
 
-void share_room(Reference* to, const Range& range, std::uint32_t lower_size, std::uint32_t upper_begin,
+void share_room(BuildPrimitive* to, const Range& range, std::uint32_t lower_size, std::uint32_t upper_begin,
                 std::uint32_t upper_size, Range& lower, Range& upper) {
     const std::uint32_t size = lower_size + upper_size, room = range.size() + range.room - size;
     lower.begin = range.begin, lower.end = range.begin + lower_size;

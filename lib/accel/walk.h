@@ -8,8 +8,9 @@
 
 namespace limn::accel {
 
-// Calls `visit(id)` for every id in a leaf that the ray meets, nearer children first, up to t_max. `visit` returns the
-// t beyond which the rest does not matter. The tree's boxes are the ray's world's, times `scale`, a power of two.
+// Calls `visit(index)` for every primitive in a leaf that the ray meets, nearer children first, up to t_max. `visit`
+// returns the t beyond which the rest does not matter. The tree's boxes are the ray's world's, times `scale`, a power
+// of two.
 template <class Visit>
 void for_each_met(const WideBvh& bvh, double scale, const SlabRay& slab, double t_max, const Visit& visit) {
     if (bvh.nodes.empty()) return;
@@ -25,7 +26,7 @@ void for_each_met(const WideBvh& bvh, double scale, const SlabRay& slab, double 
         if (slab.is_beyond(entry.near, t_max)) continue;
         if ((entry.child & kLeaf) != 0) {
             const Leaf leaf = bvh.leaves[entry.child & ~kLeaf];
-            for (std::uint32_t i = 0; i < leaf.count; ++i) t_max = visit(bvh.ids[leaf.first + i]);
+            for (std::uint32_t i = 0; i < leaf.count; ++i) t_max = visit(bvh.indices[leaf.first + i]);
             continue;
         }
         const Node& node = bvh.nodes[entry.child];

@@ -27,8 +27,8 @@ public:
     TriangleClip(const flat::Scene& scene, std::span<const flat::Reference> references)
         : scene_(scene), references_(references) {}
 
-    Parts cut(std::uint32_t id, const accel::FloatBox& box, int axis, float position) const override {
-        const flat::Reference& reference = references_[id];
+    Parts cut(std::uint32_t primitive, const accel::FloatBox& box, int axis, float position) const override {
+        const flat::Reference& reference = references_[primitive];
         const PrimitiveRange& range = scene_.ranges[reference.range];
         if (range.kind != PrimitiveKind::mesh) {
             Parts parts{box, box};
@@ -233,8 +233,8 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     // A leaf takes two to three times as long as a node (docs/performance.md).
     const TriangleClip clip(scene_, references_);
     const bool may_cut = cut_triangles && group.scale == 1;
-    accel::WideBvh bvh = accel::build_wide_bvh(
-        boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2, .spatial_splits = may_cut}, may_cut ? &clip : nullptr);
+    accel::WideBvh bvh =
+        accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2}, may_cut ? &clip : nullptr);
     group.cost = bvh.cost;
     group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
 }

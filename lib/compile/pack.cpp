@@ -46,22 +46,23 @@ private:
         });
     }
 
-    const PrimitiveRange& range_of(std::uint32_t id) const { return scene_.ranges[references_[id].range]; }
+    // Of the primitive with an index of the tree.
+    const PrimitiveRange& range_of(std::uint32_t index) const { return scene_.ranges[references_[index].range]; }
 
     void sort_by_kind(const accel::Leaf& leaf) {
-        const auto kind_of = [&](std::uint32_t id) { return range_of(id).kind; };
-        const std::span ids = std::span(bvh_.ids).subspan(leaf.first, leaf.count);
-        if (std::ranges::is_sorted(ids, {}, kind_of)) return;
-        std::ranges::sort(ids, {}, [&](std::uint32_t id) { return std::pair(kind_of(id), id); });
+        const auto kind_of = [&](std::uint32_t index) { return range_of(index).kind; };
+        const std::span indices = std::span(bvh_.indices).subspan(leaf.first, leaf.count);
+        if (std::ranges::is_sorted(indices, {}, kind_of)) return;
+        std::ranges::sort(indices, {}, [&](std::uint32_t index) { return std::pair(kind_of(index), index); });
     }
 
-    // How many of the ids from `first` on share a block. `last`: where the leaf ends.
+    // How many of the indices from `first` on share a block. `last`: where the leaf ends.
     std::uint32_t block_size(std::uint32_t first, std::uint32_t last) const {
-        const flat::Reference& reference = references_[bvh_.ids[first]];
-        const PrimitiveKind kind = range_of(bvh_.ids[first]).kind;
+        const flat::Reference& reference = references_[bvh_.indices[first]];
+        const PrimitiveKind kind = range_of(bvh_.indices[first]).kind;
         std::uint32_t end = first + 1;
         while (end < last && end - first < flat::kMaxBlock) {
-            const flat::Reference& next = references_[bvh_.ids[end]];
+            const flat::Reference& next = references_[bvh_.indices[end]];
             const bool same =
                 kind == PrimitiveKind::mesh ? next.range == reference.range : scene_.ranges[next.range].kind == kind;
             if (!same) break;
@@ -70,12 +71,12 @@ private:
         return end - first;
     }
 
-    // visit(first id, count, kind) for each block of a leaf.
+    // visit(first index, count, kind) for each block of a leaf.
     template <class Visit>
     void for_each_block(const accel::Leaf& leaf, const Visit& visit) const {
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count;) {
             const std::uint32_t count = block_size(i, leaf.first + leaf.count);
-            visit(i, count, range_of(bvh_.ids[i]).kind);
+            visit(i, count, range_of(bvh_.indices[i]).kind);
             i += count;
         }
     }
@@ -103,16 +104,16 @@ private:
         for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
             std::uint32_t* words = scene_.blocks.data() + at;
             const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,
-                                     0, references_[bvh_.ids[first]].range};
+                                     0, references_[bvh_.indices[first]].range};
             const auto head = std::bit_cast<std::array<std::uint32_t, 2>>(header);
             words[0] = head[0], words[1] = head[1];
             std::uint32_t* ids = words + flat::kHeaderWords;
             const std::size_t row_count = flat::rows_of(kind);
             for (std::uint32_t i = 0; i < count; ++i) {
-                const flat::Reference& r = references_[bvh_.ids[first + i]];
+                const flat::Reference& r = references_[bvh_.indices[first + i]];
                 ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
                 if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
-                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.ids[first + i]]);
+                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.indices[first + i]]);
                 for (std::size_t row = 0; row < row_count; ++row)
                     ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
             }

@@ -8,7 +8,7 @@
 namespace limn::compiler {
 
 // Moves the tree and the blocks of its leaves to the scene; the root. `references`: what the boxes were made from.
-// The ids of a leaf are sorted by kind.
+// The primitives of a leaf are sorted by kind.
 flat::Child pack_tree(accel::WideBvh bvh, std::span<const accel::FloatBox> boxes,
                       std::span<const flat::Reference> references, flat::Scene& scene);
 

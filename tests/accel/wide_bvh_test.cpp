@@ -102,10 +102,10 @@ TEST_CASE("WideBvh: unbounded boxes stand apart, in leaves beside the tree of al
         const auto last = static_cast<std::uint32_t>(boxes.size() - 1);
         int apart = 0;
         for (const accel::Leaf& leaf : with.leaves) {
-            const std::vector<std::uint32_t> ids(with.ids.begin() + leaf.first,
-                                                 with.ids.begin() + leaf.first + leaf.count);
-            if (std::find(ids.begin(), ids.end(), 0u) != ids.end()) {
-                CHECK(ids == std::vector<std::uint32_t>{0, last});
+            const std::vector<std::uint32_t> indices(with.indices.begin() + leaf.first,
+                                                     with.indices.begin() + leaf.first + leaf.count);
+            if (std::find(indices.begin(), indices.end(), 0u) != indices.end()) {
+                CHECK(indices == std::vector<std::uint32_t>{0, last});
                 ++apart;
             }
         }

@@ -72,7 +72,7 @@ inline double expected_cost(const accel::WideBvh& bvh, const accel::BuildSetting
 }
 
 inline bool same_bits(const accel::WideBvh& a, const accel::WideBvh& b) {
-    return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.ids == b.ids &&
+    return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.indices == b.indices &&
            std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(accel::Node)) == 0 &&
            std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(accel::Leaf)) == 0 &&
            a.cost == b.cost;
@@ -81,8 +81,13 @@ inline bool same_bits(const accel::WideBvh& a, const accel::WideBvh& b) {
 class TreeCheck {
 public:
     TreeCheck(const accel::WideBvh& bvh, const std::vector<accel::FloatBox>& boxes,
-              const accel::BuildSettings& settings)
-        : bvh_(bvh), boxes_(boxes), settings_(settings), seen_(boxes.size(), 0) {}
+              const accel::BuildSettings& settings, bool is_cut = false)
+        : bvh_(bvh),
+          boxes_(boxes),
+          settings_(settings),
+          is_cut_(is_cut),
+          is_in_leaf_(bvh.indices.size(), false),
+          seen_(boxes.size(), 0) {}
 
     // Returns how many nodes the longest path has.
     int run() {
@@ -91,7 +96,7 @@ public:
         CHECK(next_leaf_ == bvh_.leaves.size());
         CHECK(nodes_ == bvh_.nodes.size());
         for (std::size_t i = 0; i < boxes_.size(); ++i)
-            REQUIRE((seen_[i] == (is_empty(boxes_[i]) ? 0 : 1) || (settings_.spatial_splits && seen_[i] > 1)));
+            REQUIRE((seen_[i] == (is_empty(boxes_[i]) ? 0 : 1) || (is_cut_ && seen_[i] > 1)));
         return depth;
     }
 
@@ -123,22 +128,24 @@ private:
     void check_leaf(std::uint32_t row, const accel::FloatBox& box) {
         REQUIRE(row == next_leaf_++);
         const accel::Leaf leaf = bvh_.leaves.at(row);
-        REQUIRE(leaf.first == next_id_);
         REQUIRE((leaf.count > 0 && leaf.count <= settings_.max_leaf));
-        next_id_ += leaf.count;
         for (std::uint32_t i = 0; i < leaf.count; ++i) {
-            const std::uint32_t id = bvh_.ids.at(leaf.first + i);
-            if (i > 0) REQUIRE(bvh_.ids[leaf.first + i - 1] < id);
-            REQUIRE((settings_.spatial_splits || contains(box, boxes_.at(id))));
-            ++seen_[id];
+            const std::uint32_t index = bvh_.indices.at(leaf.first + i);
+            if (i > 0) REQUIRE(bvh_.indices[leaf.first + i - 1] < index);
+            REQUIRE((is_cut_ || contains(box, boxes_.at(index))));
+            REQUIRE(!is_in_leaf_[leaf.first + i]);
+            is_in_leaf_[leaf.first + i] = true;
+            ++seen_[index];
         }
     }
 
     const accel::WideBvh& bvh_;
     const std::vector<accel::FloatBox>& boxes_;
     const accel::BuildSettings& settings_;
+    const bool is_cut_;
+    std::vector<bool> is_in_leaf_;  // by place in the indices
     std::vector<int> seen_;
-    std::uint32_t next_leaf_ = 0, next_id_ = 0;
+    std::uint32_t next_leaf_ = 0;
     std::size_t nodes_ = 0;
 };
 
