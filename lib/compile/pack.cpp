@@ -1,13 +1,11 @@
 #include "compile/pack.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 
+#include "accel/parallel.h"
 #include "limn/core/error.h"
 #include "predicates/mesh_triangle.h"
 
@@ -29,22 +27,22 @@ public:
 
     flat::Child pack() {
         if (bvh_.nodes.empty()) return flat::kNothing;
-        for_all(bvh_.leaves.size(), [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
+        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
         place_leaves();
         const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
-        for_all(bvh_.leaves.size(), [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
+        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
         if (is_lone) return leaf_at(0);
         return append_nodes();
     }
 
 private:
-    template <class Body>
-    static void for_all(std::size_t count, const Body& body) {
-        using Range = oneapi::tbb::blocked_range<std::size_t>;
-        oneapi::tbb::parallel_for(Range(0, count, 1024), [&](const Range& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-        });
-    }
+    static constexpr std::size_t kGrain = 1024;  // nodes or leaves
+
+    // Where a leaf's blocks begin, and where its references.
+    struct Place {
+        std::size_t word;
+        std::uint32_t reference;
+    };
 
     // Of the primitive with an index of the tree.
     const PrimitiveRange& range_of(std::uint32_t index) const { return scene_.ranges[references_[index].range]; }
@@ -84,12 +82,10 @@ private:
     void place_leaves() {
         std::size_t end = scene_.blocks.size(), references = scene_.references.size();
         if (end > 0) end -= flat::kSlackWords;
-        places_.resize(bvh_.leaves.size());
-        first_reference_.resize(bvh_.leaves.size());
-        for (std::size_t i = 0; i < bvh_.leaves.size(); ++i) {
-            places_[i] = end;
-            first_reference_[i] = static_cast<std::uint32_t>(references);
-            for_each_block(bvh_.leaves[i], [&](std::uint32_t, std::uint32_t count, PrimitiveKind kind) {
+        places_.reserve(bvh_.leaves.size());
+        for (const accel::Leaf& leaf : bvh_.leaves) {
+            places_.push_back({end, static_cast<std::uint32_t>(references)});
+            for_each_block(leaf, [&](std::uint32_t, std::uint32_t count, PrimitiveKind kind) {
                 end += flat::words_of(kind, count);
                 if (kind != PrimitiveKind::mesh) references += count;
             });
@@ -99,8 +95,8 @@ private:
         scene_.references.resize(references);
     }
 
-    void write_leaf(const accel::Leaf& leaf, std::size_t at) {
-        std::uint32_t reference = first_reference_[static_cast<std::size_t>(&leaf - bvh_.leaves.data())];
+    void write_leaf(const accel::Leaf& leaf, Place place) {
+        auto [at, reference] = place;
         for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
             std::uint32_t* words = scene_.blocks.data() + at;
             const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,
@@ -179,8 +175,8 @@ private:
             scene_.nodes = std::move(bvh_.nodes);
         else
             scene_.nodes.insert(scene_.nodes.end(), bvh_.nodes.begin(), bvh_.nodes.end());
-        for_all(scene_.nodes.size() - root, [&](std::size_t i) {
-            for (flat::Child& child : scene_.nodes[root + i].child) {
+        accel::for_all(root, scene_.nodes.size(), kGrain, [&](std::size_t i) {
+            for (flat::Child& child : scene_.nodes[i].child) {
                 if (child == flat::kNothing) continue;
                 const bool is_leaf = (child & flat::kLeaf) != 0;
                 child = is_leaf ? leaf_at(child & ~flat::kLeaf) : root + child;
@@ -189,14 +185,13 @@ private:
         return root;
     }
 
-    flat::Child leaf_at(std::size_t row) const { return flat::kLeaf | static_cast<flat::Child>(places_[row] / 2); }
+    flat::Child leaf_at(std::size_t row) const { return flat::kLeaf | static_cast<flat::Child>(places_[row].word / 2); }
 
     accel::WideBvh& bvh_;
     std::span<const accel::FloatBox> boxes_;
     std::span<const flat::Reference> references_;
     flat::Scene& scene_;
-    std::vector<std::size_t> places_;             // of leaves, in words
-    std::vector<std::uint32_t> first_reference_;  // of leaves
+    std::vector<Place> places_;  // of leaves
 };
 
 }  // namespace
