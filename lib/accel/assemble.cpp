@@ -1,188 +1,113 @@
 #include "accel/assemble.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "accel/order.h"
-#include "accel/reference.h"
+#include "accel/parallel.h"
 
 namespace limn::accel {
 
 namespace {
 
-constexpr std::uint32_t kPart = 1 << 14;  // references whose nodes one thread writes
+constexpr std::uint32_t kPart = 1 << 14;  // build primitives whose nodes one thread writes
 
+// Of the wide tree.
 struct Rows {
-    std::uint32_t node = 0, leaf = 0, id = 0;
+    std::uint32_t node = 0, leaf = 0;
+
+    void operator+=(const Rows& r) { node += r.node, leaf += r.leaf; }
 };
 
-// Items are parts of the tree, depth first. At the top each has one node, which others hang from.
+Slots children_of(const SplitNode& node) {
+    Slots children;
+    fill_slots(node, kWidth, children);
+    return children;
+}
+
+// All nodes and leaves stand depth first. What is at the top is written by one thread, the parts that hang from it in
+// parallel, once it is known how large each is.
 class Assembler {
 public:
-    explicit Assembler(std::span<const std::uint32_t> ids) : ids_(ids) {}
+    explicit Assembler(HugeVector<std::uint32_t> indices) { bvh_.indices = std::move(indices); }
 
-    void add_tree(const SplitNode& node) {
-        if (node.size() <= kPart) {
-            items_.emplace_back().whole = &node;
-            return;
-        }
-        std::vector<const SplitNode*> children;
-        fill_slots(*node.left, node.left_slots[kWidth], children);
-        fill_slots(*node.right, kWidth - node.left_slots[kWidth], children);
-        add_node(children, {});
-    }
-
-    // `aside` becomes the last child.
-    void add_node(std::span<const SplitNode* const> children, Aside aside) {
-        const std::size_t item = items_.size();
-        Part& part = items_.emplace_back().part;
-        PartWriter writer(ids_, part);
-        writer.add_node(children);
-        const bool has_aside = !aside.part.leaves.empty();
-        if (has_aside) {
-            set_box(part.nodes[0], children.size(), aside.box);
-            part.nodes[0].child[children.size()] = aside.part.nodes.empty() ? writer.add_leaf(aside.part.ids) : 0;
-            set_order(part.nodes[0]);
-        }
-        for (std::size_t slot = 0; slot < children.size(); ++slot) {
-            if (children[slot]->is_leaf) continue;
-            items_[item].links.push_back({slot, items_.size()});
-            add_tree(*children[slot]);
-        }
-        if (has_aside && !aside.part.nodes.empty()) {
-            items_[item].links.push_back({children.size(), items_.size()});
-            items_.emplace_back().part = std::move(aside.part);
-        }
-    }
-
-    WideBvh build() {
-        for_each_item([&](Item& item) {
-            if (item.whole != nullptr) PartWriter(ids_, item.part).add_tree(*item.whole);
-        });
-        WideBvh bvh;
-        if (items_.size() == 1) {
-            Part& part = items_[0].part;
-            bvh.nodes = std::move(part.nodes), bvh.leaves = std::move(part.leaves), bvh.ids = std::move(part.ids);
-            return bvh;
-        }
+    WideBvh build(const Slots& root) {
+        const bool at_top = bvh_.indices.size() > kPart;
+        Rows all = count(root, at_top);
+        for_all(0, parts_.size(), 1,
+                [&](std::size_t i) { parts_[i].size = count(children_of(*parts_[i].root), false); });
+        for (const Part& part : parts_) all += part.size;
+        bvh_.nodes.resize(all.node), bvh_.leaves.resize(all.leaf);
         Rows next;
-        for (Item& item : items_) {
-            item.first = next;
-            next.node += static_cast<std::uint32_t>(item.part.nodes.size());
-            next.leaf += static_cast<std::uint32_t>(item.part.leaves.size());
-            next.id += static_cast<std::uint32_t>(item.part.ids.size());
-        }
-        bvh.nodes.resize(next.node), bvh.leaves.resize(next.leaf), bvh.ids.resize(next.id);
-        for_each_item([&](const Item& item) { copy(item, bvh); });
-        return bvh;
+        write(root, next, at_top);
+        for_all(0, parts_.size(), 1, [&](std::size_t i) {
+            Rows at = parts_[i].first;
+            write(children_of(*parts_[i].root), at, false);
+        });
+        return std::move(bvh_);
     }
 
 private:
-    struct Item {
-        const SplitNode* whole = nullptr;  // what is to be written
-        Part part;
-        struct Link {
-            std::size_t slot, item;
-        };
-        std::vector<Link> links;  // of its first node
-        Rows first;
+    struct Part {
+        const SplitNode* root;
+        Rows size = {}, first = {};
     };
 
-    template <class Function>
-    void for_each_item(const Function& function) {
-        if (items_.size() == 1) return function(items_[0]);
-        tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { function(items_[i]); });
-    }
+    static bool is_part(const SplitNode& node, bool at_top) { return at_top && node.size() <= kPart; }
 
-    void copy(const Item& item, WideBvh& bvh) const {
-        const Part& part = item.part;
-        const Rows& first = item.first;
-        for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-            WideNode& node = bvh.nodes[first.node + i] = part.nodes[i];
-            for (std::uint32_t& child : node.child)
-                if (child != WideNode::kAbsent) child += (child & WideNode::kLeaf) != 0 ? first.leaf : first.node;
+    // What a node with these children takes, and all that is under it. At the top parts are only noted.
+    Rows count(const Slots& children, bool at_top) {
+        Rows rows{1, 0};
+        for (const SplitNode* child : children) {
+            if (child->is_leaf)
+                ++rows.leaf;
+            else if (is_part(*child, at_top))
+                parts_.push_back({child});
+            else
+                rows += count(children_of(*child), at_top);
         }
-        for (const auto& [slot, target] : item.links) bvh.nodes[first.node].child[slot] = items_[target].first.node;
-        for (std::size_t i = 0; i < part.leaves.size(); ++i)
-            bvh.leaves[first.leaf + i] = {part.leaves[i].first + first.id, part.leaves[i].count};
-        std::copy(part.ids.begin(), part.ids.end(), bvh.ids.begin() + first.id);
+        return rows;
     }
 
-    std::span<const std::uint32_t> ids_;
-    std::vector<Item> items_;
-};
-
-class Halver {
-public:
-    Halver(std::span<const FloatBox> boxes, const BuildSettings& settings, Aside& aside)
-        : boxes_(boxes), settings_(settings), aside_(aside) {}
-
-    // Returns the child that has them all. If one half is a leaf the other is one too, or comes later.
-    std::uint32_t add(std::span<const std::uint32_t> ids) {
-        Part& part = aside_.part;
-        if (ids.size() <= settings_.max_leaf) {
-            aside_.cost += leaf_cost(static_cast<std::uint32_t>(ids.size()), settings_);
-            return PartWriter({}, part).add_leaf(ids);
+    // Writes them from `next` on. At the top parts are only given their place.
+    void write(const Slots& children, Rows& next, bool at_top) {
+        FloatBox boxes[kWidth];
+        for (std::size_t slot = 0; slot < children.count; ++slot) boxes[slot] = children.node[slot]->box;
+        Node& node = bvh_.nodes[next.node++] = make_node({boxes, children.count});
+        for (std::size_t slot = 0; slot < children.count; ++slot) {
+            if (!children.node[slot]->is_leaf) continue;
+            node.child[slot] = kLeaf | next.leaf;
+            bvh_.leaves[next.leaf++] = leaf(*children.node[slot]);
         }
-        const auto row = static_cast<std::uint32_t>(part.nodes.size());
-        part.nodes.push_back(empty_node());
-        aside_.cost += settings_.node_cost;
-        const std::size_t half = ids.size() / 2;
-        const std::span<const std::uint32_t> halves[2] = {ids.first(half), ids.subspan(half)};
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::uint32_t child = add(halves[k]);
-            part.nodes[row].child[k] = child;
-            set_box(part.nodes[row], k, around(halves[k]));
+        for (std::size_t slot = 0; slot < children.count; ++slot) {
+            const SplitNode& child = *children.node[slot];
+            if (child.is_leaf) continue;
+            node.child[slot] = next.node;
+            if (!is_part(child, at_top)) {
+                write(children_of(child), next, at_top);
+                continue;
+            }
+            Part& part = parts_[next_part_++];
+            part.first = next;
+            next += part.size;
         }
-        return row;
     }
 
-    FloatBox around(std::span<const std::uint32_t> ids) const {
-        Bounds all = kEmpty;
-        for (const std::uint32_t id : ids) all.extend(to_bounds(boxes_[id]));
-        return to_box(all);
+    Leaf leaf(const SplitNode& node) {
+        const auto first = bvh_.indices.begin() + node.begin, last = first + node.size();
+        std::sort(first, last);
+        // The halves of a box that was cut may meet again.
+        return {node.begin, static_cast<std::uint32_t>(std::unique(first, last) - first)};
     }
 
-private:
-    std::span<const FloatBox> boxes_;
-    const BuildSettings& settings_;
-    Aside& aside_;
+    WideBvh bvh_;
+    std::vector<Part> parts_;
+    std::size_t next_part_ = 0;
 };
 
 }  // namespace
 
-Aside set_aside(std::span<const FloatBox> boxes, std::span<const std::uint32_t> ids, const BuildSettings& settings) {
-    Aside aside;
-    if (ids.empty()) return aside;
-    Halver halver(boxes, settings, aside);
-    aside.box = halver.around(ids);
-    halver.add(ids);
-    return aside;
-}
-
-WideBvh assemble(const SplitNode* root, const ForestCosts& costs, std::span<const std::uint32_t> ids, Aside aside,
-                 const BuildSettings& settings) {
-    const bool has_aside = !aside.part.leaves.empty();
-    if (root == nullptr && !has_aside) return {};
-    double cost = root == nullptr ? 0 : costs[0] / half_area(root->box);
-    Assembler assembler(ids);
-    if (!has_aside && !root->is_leaf) {
-        assembler.add_tree(*root);
-    } else {
-        std::vector<const SplitNode*> children;
-        if (root != nullptr) {
-            const std::size_t slots = has_aside ? kWidth - 1 : 1;
-            fill_slots(*root, slots, children);
-            cost = costs[slots - 1] / half_area(root->box);
-        }
-        cost += settings.node_cost + aside.cost;
-        assembler.add_node(children, std::move(aside));
-    }
-    WideBvh bvh = assembler.build();
-    bvh.cost = cost;
-    return bvh;
+WideBvh assemble(const Slots& root, HugeVector<std::uint32_t> indices) {
+    return Assembler(std::move(indices)).build(root);
 }
 
 }  // namespace limn::accel

@@ -29,11 +29,11 @@ struct Bins {
             if (extent[axis] > 0x1p-120f) scale[axis] = static_cast<float>(bins) / extent[axis];
     }
 
-    void add(const Reference& r) {
-        const Int4 place = __builtin_convertvector(min((r.center() - origin) * scale, last), Int4);
-        const auto weight = static_cast<std::int32_t>(r.weight());
+    void add(const BuildPrimitive& p) {
+        const Int4 place = __builtin_convertvector(min((p.center() - origin) * scale, last), Int4);
+        const auto weight = static_cast<std::int32_t>(p.weight());
         for (int axis = 0; axis < 3; ++axis) {
-            bounds[axis][place[axis]].extend(r.bounds());
+            bounds[axis][place[axis]].extend(p.bounds());
             count[place[axis]][axis] += weight;
         }
     }
@@ -52,9 +52,9 @@ Vec4 areas(const Bounds (&boxes)[3], Vec4 scale) {
 
 }  // namespace
 
-Split best_split(const Reference* references, const Range& range, std::uint32_t leaf_width) {
+Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint32_t leaf_width) {
     Bins bins(range);
-    for (std::uint32_t i = range.begin; i < range.end; ++i) bins.add(references[i]);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) bins.add(primitives[i]);
 
     const Vec4 sides = range.bounds.upper - range.bounds.lower;
     const Vec4 scale = splat(1 / std::max({sides[0], sides[1], sides[2], 0x1p-120f}));
@@ -94,11 +94,11 @@ Split best_split(const Reference* references, const Range& range, std::uint32_t 
     return best;
 }
 
-std::uint32_t partition(const Reference* from, Reference* to, const Range& range, const Split& split) {
+std::uint32_t partition(const BuildPrimitive* from, BuildPrimitive* to, const Range& range, const Split& split) {
     // Each goes to both ends of what is still free, and one end moves: that takes no branch that could be mispredicted.
     std::uint32_t begin = range.begin, end = range.end;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        const Reference r = from[i];
+        const BuildPrimitive r = from[i];
         to[begin] = to[end - 1] = r;
         const bool lower = split.is_lower(r);
         begin += lower ? 1 : 0;

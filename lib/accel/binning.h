@@ -2,7 +2,7 @@
 // Bounding Volume Hierarchies, 2007).
 #pragma once
 
-#include "accel/reference.h"
+#include "accel/build_primitive.h"
 
 namespace limn::accel {
 
@@ -13,14 +13,16 @@ struct Split {
 
     bool exists() const { return cost < std::numeric_limits<float>::infinity(); }
     // What is said for Bins::add below, in the same operations.
-    bool is_lower(const Reference& r) const { return ((r.lower[axis] + r.upper[axis]) - origin) * scale < first_upper; }
+    bool is_lower(const BuildPrimitive& p) const {
+        return ((p.lower[axis] + p.upper[axis]) - origin) * scale < first_upper;
+    }
 };
 
 // The cheapest one. Where there is any, neither side is empty.
-Split best_split(const Reference* references, const Range& range, std::uint32_t leaf_width);
+Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint32_t leaf_width);
 
 // Copies the range, to the same place elsewhere, so that what is below the split comes first. Returns where the upper
 // side begins.
-std::uint32_t partition(const Reference* from, Reference* to, const Range& range, const Split& split);
+std::uint32_t partition(const BuildPrimitive* from, BuildPrimitive* to, const Range& range, const Split& split);
 
 }  // namespace limn::accel

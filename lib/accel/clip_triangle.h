@@ -1,7 +1,7 @@
 // Bounds of what a plane leaves of a triangle on both its sides, for the spatial splits of a tree.
 #pragma once
 
-#include "accel/reference.h"
+#include "accel/build_primitive.h"
 
 namespace limn::accel {
 

@@ -52,9 +52,9 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
     return costs;
 }
 
-void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled) {
+void fill_slots(const SplitNode& node, std::size_t slots, Slots& filled) {
     if (slots < node.open_from) {
-        filled.push_back(&node);
+        filled.add(node);
         return;
     }
     fill_slots(*node.left, node.left_slots[slots], filled);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "accel/wide_bvh.h"
 
@@ -11,7 +10,7 @@ namespace limn::accel {
 
 struct SplitNode {
     FloatBox box;
-    std::uint32_t begin = 0, end = 0;  // of the references under it
+    std::uint32_t begin = 0, end = 0;  // of the primitives under it
     SplitNode *left = nullptr, *right = nullptr;
     // The plan: if all that is under the node may fill so many slots, two or more, how many of them its left child
     // gets; and with fewer than `open_from` the node fills one, by itself, as a node or a leaf.
@@ -20,6 +19,16 @@ struct SplitNode {
     bool is_leaf = true;
 
     std::uint32_t size() const { return end - begin; }
+};
+
+// The children of a wide node.
+struct Slots {
+    const SplitNode* node[kWidth];
+    std::size_t count = 0;
+
+    void add(const SplitNode& child) { node[count++] = &child; }
+    const SplitNode* const* begin() const { return node; }
+    const SplitNode* const* end() const { return node + count; }
 };
 
 // The least cost of what is under a binary node, times the root's area, if it may fill up to i + 1 slots.
@@ -36,6 +45,6 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
                       const BuildSettings& settings);
 
 // Adds the nodes that make the most of so many slots for all that is under `node`.
-void fill_slots(const SplitNode& node, std::size_t slots, std::vector<const SplitNode*>& filled);
+void fill_slots(const SplitNode& node, std::size_t slots, Slots& filled);
 
 }  // namespace limn::accel

@@ -1,9 +1,8 @@
 #include "accel/gather.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
-#include <cmath>
+
+#include "accel/parallel.h"
 
 namespace limn::accel {
 
@@ -12,94 +11,59 @@ namespace {
 constexpr std::uint32_t kChunk = 1 << 15;
 constexpr float kBounded = 0x1p125f;
 
-struct Chunk {
-    Range range;  // of its references, from its own first box on
-    std::vector<std::uint32_t> unbounded;
-    float extent = 0;
-};
-
-bool is_empty(const FloatBox& b) {
-    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
+// Of what they are around nothing is known yet.
+std::vector<Range> chunks_of(std::uint32_t begin, std::uint32_t end) {
+    std::vector<Range> chunks;
+    for (; begin < end; begin += kChunk) chunks.push_back({begin, std::min(begin + kChunk, end)});
+    return chunks;
 }
 
-float largest_magnitude(const FloatBox& b) {
-    float largest = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-        for (const float x : {b.lower[a], b.upper[a]})
-            if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
-    return largest;
-}
-
-// Runs function(chunk, begin, end) over the numbers from begin to end.
-template <class Function>
-void for_each_chunk(std::uint32_t begin, std::uint32_t end, const Function& function) {
-    const std::uint32_t chunks = (end - begin + kChunk - 1) / kChunk;
-    const auto run = [&](std::uint32_t c) {
-        const std::uint32_t first = begin + c * kChunk;
-        function(c, first, first + std::min(kChunk, end - first));
-    };
-    if (chunks == 1) return run(0);
-    tbb::parallel_for(std::uint32_t{0}, chunks, run);
-}
-
-Chunk fill(std::span<const FloatBox> boxes, std::uint32_t begin, std::uint32_t end, Reference* references) {
-    Chunk chunk;
-    chunk.range.begin = chunk.range.end = begin;
-    Range range;  // apart from the chunk, so that it stays in registers
-    std::uint32_t at = begin;
-    for (std::uint32_t id = begin; id < end; ++id) {
-        const FloatBox& b = boxes[id];
-        const Bounds bounds = to_bounds(b);
+// Of the chunk's boxes, from its begin on. Returns which those are.
+Range fill(std::span<const FloatBox> boxes, const Range& chunk, BuildPrimitive* primitives,
+           std::vector<std::uint32_t>& unbounded) {
+    Range range;  // apart from what is returned, so that it stays in registers
+    std::uint32_t at = chunk.begin;
+    for (std::uint32_t i = chunk.begin; i < chunk.end; ++i) {
+        const Bounds bounds = to_bounds(boxes[i]);
         const Int4 plain =
             (bounds.lower <= bounds.upper) & (bounds.lower >= splat(-kBounded)) & (bounds.upper <= splat(kBounded));
         if ((plain[0] & plain[1] & plain[2]) == 0) {
-            if (is_empty(b)) continue;
-            chunk.unbounded.push_back(id);
-            chunk.extent = std::max(chunk.extent, largest_magnitude(b));
+            if (!is_empty(bounds)) unbounded.push_back(i);
             continue;
         }
-        const Reference r(bounds, id);
-        references[at++] = r;
-        range.extend(r);
+        const BuildPrimitive p(bounds, i);
+        primitives[at++] = p;
+        range.extend(p);
     }
-    chunk.range = range;
-    chunk.range.begin = begin, chunk.range.end = at;
-    return chunk;
+    return {chunk.begin, at, 0, range.bounds, range.centers};
 }
 
 }  // namespace
 
 Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
-    const auto size = static_cast<std::uint32_t>(boxes.size());
-    Gathered all{ReferenceArray(boxes.size() + room), {}, {}, 0};
-    Reference* references = all.references.data();
-    std::vector<Chunk> chunks((size + kChunk - 1) / kChunk);
-    for_each_chunk(0, size, [&](std::uint32_t c, std::uint32_t begin, std::uint32_t end) {
-        chunks[c] = fill(boxes, begin, end, references);
-    });
-    float extent = 0;
-    for (const Chunk& chunk : chunks) {
-        const Range& part = chunk.range;
-        if (part.begin != all.range.end)
-            std::copy(references + part.begin, references + part.end, references + all.range.end);
-        all.range.end += part.size();
-        all.range.extend(part);
-        all.unbounded.insert(all.unbounded.end(), chunk.unbounded.begin(), chunk.unbounded.end());
-        extent = std::max(extent, chunk.extent);
+    Gathered all{allocate_primitives(boxes.size() + room), {}, {}};
+    BuildPrimitive* primitives = all.primitives.get();
+    std::vector<Range> chunks = chunks_of(0, static_cast<std::uint32_t>(boxes.size()));
+    std::vector<std::vector<std::uint32_t>> unbounded(chunks.size());
+    for_all(0, chunks.size(), 1, [&](std::size_t i) { chunks[i] = fill(boxes, chunks[i], primitives, unbounded[i]); });
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        const Range& chunk = chunks[i];
+        if (chunk.begin != all.range.end)
+            std::copy(primitives + chunk.begin, primitives + chunk.end, primitives + all.range.end);
+        all.range.end += chunk.size();
+        all.range.extend(chunk);
+        all.unbounded.insert(all.unbounded.end(), unbounded[i].begin(), unbounded[i].end());
     }
     all.range.room = room;
-    if (all.range.size() > 0) extent = std::max(extent, largest_magnitude(to_box(all.range.bounds)));
-    all.extent = extent;
     return all;
 }
 
-Range range_over_many(const Reference* references, std::uint32_t begin, std::uint32_t end) {
-    std::vector<Range> ranges((end - begin + kChunk - 1) / kChunk);
-    for_each_chunk(begin, end, [&](std::uint32_t c, std::uint32_t first, std::uint32_t last) {
-        ranges[c] = range_over(references, first, last);
-    });
-    Range all{begin, end, 0};
-    for (const Range& r : ranges) all.extend(r);
+Range range_over_many(const BuildPrimitive* primitives, std::uint32_t begin, std::uint32_t end) {
+    std::vector<Range> chunks = chunks_of(begin, end);
+    for_all(0, chunks.size(), 1,
+            [&](std::size_t i) { chunks[i] = range_over(primitives, chunks[i].begin, chunks[i].end); });
+    Range all{begin, end};
+    for (const Range& chunk : chunks) all.extend(chunk);
     return all;
 }
 

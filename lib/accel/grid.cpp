@@ -1,10 +1,9 @@
 #include "accel/grid.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "accel/binning.h"
+#include "accel/parallel.h"
 #include "accel/subtree.h"
 
 namespace limn::accel {
@@ -12,7 +11,7 @@ namespace limn::accel {
 namespace {
 
 constexpr int kMaxBits = 15;               // of a cell's number: the table of cells stays in the second-level cache
-constexpr std::uint32_t kGroup = 1 << 18;  // references that share a table of cells; the tree does not depend on it
+constexpr std::uint32_t kGroup = 1 << 18;  // primitives that share a table of cells; the tree does not depend on it
 constexpr std::uint32_t kMaxGroups = 64;
 constexpr float kMinExtent = 0x1p-110f;  // its reciprocal, times a number of cells, is finite
 constexpr std::uint32_t kMinCells = 8;   // with fewer a range gets a grid of its own
@@ -35,8 +34,8 @@ public:
         }
     }
 
-    std::uint32_t cell_of(const Reference& r) const {
-        const Int4 place = __builtin_convertvector(min((r.center() - origin_) * scale_, last_), Int4);
+    std::uint32_t cell_of(const BuildPrimitive& p) const {
+        const Int4 place = __builtin_convertvector(min((p.center() - origin_) * scale_, last_), Int4);
         return static_cast<std::uint32_t>(place[0] | place[1] << bits_[0] | place[2] << (bits_[0] + bits_[1]));
     }
 
@@ -51,23 +50,23 @@ struct Group {
     std::vector<std::uint32_t> count;  // by cell, then by range: where its next reference goes
 };
 
-// Splits cells until their references are few enough.
+// Splits cells until their primitives are few enough.
 class CellTree {
 public:
     CellTree(std::uint32_t enough, const BuildSettings& settings, std::deque<SplitNode>& nodes,
              std::vector<std::uint32_t>& range_of_cell)
         : enough_(enough), settings_(settings), nodes_(nodes), range_of_cell_(range_of_cell) {}
 
-    std::vector<OpenRange> build(std::vector<Reference> cells, std::uint32_t begin, SplitNode& root, int depth) {
-        next_ = begin;
-        std::vector<Reference> spare(cells.size());
-        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), 2, root, depth);
+    std::vector<OpenRange> build(std::vector<BuildPrimitive> cells, const OpenRange& open) {
+        next_ = open.begin;
+        std::vector<BuildPrimitive> spare(cells.size());
+        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), 2, *open.node, open.depth);
         return std::move(ranges_);
     }
 
 private:
-    void split(Reference* cells, Reference* spare, std::uint32_t begin, std::uint32_t end, std::uint32_t min_cells,
-               SplitNode& node, int depth) {
+    void split(BuildPrimitive* cells, BuildPrimitive* spare, std::uint32_t begin, std::uint32_t end,
+               std::uint32_t min_cells, SplitNode& node, int depth) {
         const Range range = range_over(cells, begin, end);
         std::uint32_t size = 0;
         for (std::uint32_t i = begin; i < end; ++i) size += cells[i].weight();
@@ -78,7 +77,7 @@ private:
             best = best_split(cells, range, settings_.leaf_width);
         if (!best.exists()) {
             for (std::uint32_t i = begin; i < end; ++i)
-                range_of_cell_[cells[i].id()] = static_cast<std::uint32_t>(ranges_.size());
+                range_of_cell_[cells[i].index()] = static_cast<std::uint32_t>(ranges_.size());
             ranges_.push_back({&node, depth, next_, next_ + size});
             next_ += size;
             return;
@@ -104,15 +103,15 @@ bool has_extent(const Range& range) {
     return std::max({extent[0], extent[1], extent[2]}) > kMinExtent;
 }
 
-std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, SplitNode& node,
-                                     int depth, std::uint32_t enough, const BuildSettings& settings,
+std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const OpenRange& open,
+                                     const Range& range, std::uint32_t enough, const BuildSettings& settings,
                                      std::deque<SplitNode>& nodes) {
     const int bits = std::clamp(static_cast<int>(std::bit_width(range.size())) - 2, 6, kMaxBits);
     const std::size_t cells = std::size_t{1} << bits;
     const Grid grid(range, bits);
 
     std::vector<Group> groups(std::clamp(range.size() / kGroup, 1u, kMaxGroups));
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    for_all(0, groups.size(), 1, [&](std::size_t g) {
         Group& group = groups[g];
         const auto bound = [&](std::size_t i) {
             return static_cast<std::uint32_t>(range.begin + std::uint64_t{range.size()} * i / groups.size());
@@ -127,7 +126,7 @@ std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const
         }
     });
 
-    std::vector<Reference> filled;
+    std::vector<BuildPrimitive> filled;
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
         Bounds bounds = kEmpty;
         std::uint32_t count = 0;
@@ -138,10 +137,9 @@ std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const
         if (count > 0) filled.emplace_back(bounds, cell, count);
     }
     std::vector<std::uint32_t> range_of_cell(cells, 0);
-    std::vector<OpenRange> ranges =
-        CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), range.begin, node, depth);
+    std::vector<OpenRange> ranges = CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), open);
 
-    // Within a range the references keep their order.
+    // Within a range the primitives keep their order.
     std::vector<std::uint32_t> next;
     for (const OpenRange& r : ranges) next.push_back(r.begin);
     for (Group& group : groups) {
@@ -149,7 +147,7 @@ std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const
         for (std::size_t cell = 0; cell < cells; ++cell) next[range_of_cell[cell]] += group.count[cell];
         group.count = std::move(first);
     }
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    for_all(0, groups.size(), 1, [&](std::size_t g) {
         Group& group = groups[g];
         for (std::uint32_t i = group.begin; i < group.end; ++i)
             to[group.count[range_of_cell[grid.cell_of(from[i])]]++] = from[i];

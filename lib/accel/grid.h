@@ -1,16 +1,16 @@
-// The upper part of a tree over many references: splits by area over the cells of a grid, instead of over bins anew at
-// every level, for all levels at once with two passes over the references.
+// The upper part of a tree over many build primitives: splits by area over the cells of a grid, instead of over bins
+// anew at every level, for all levels at once with two passes over the primitives.
 #pragma once
 
 #include <deque>
 #include <vector>
 
+#include "accel/build_primitive.h"
 #include "accel/collapse.h"
-#include "accel/reference.h"
 
 namespace limn::accel {
 
-// References that a node of the binary tree is left to be built of.
+// Build primitives that a node of the binary tree is left to be built of.
 struct OpenRange {
     SplitNode* node;
     int depth;
@@ -22,10 +22,10 @@ struct OpenRange {
 // Whether its centres differ enough for a grid.
 bool has_extent(const Range& range);
 
-// Sorts the range, from one place to the same place elsewhere, into ranges of up to `enough` references if the grid's
-// cells are fine enough for that. Adds the tree above these ranges under `node`. \pre has_extent(range)
-std::vector<OpenRange> split_by_grid(const Reference* from, Reference* to, const Range& range, SplitNode& node,
-                                     int depth, std::uint32_t enough, const BuildSettings& settings,
+// Sorts the range, from one place to the same place elsewhere, into ranges of up to `enough` primitives if the grid's
+// cells are fine enough for that. Adds the tree above these ranges under the open node. \pre has_extent(range)
+std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const OpenRange& open,
+                                     const Range& range, std::uint32_t enough, const BuildSettings& settings,
                                      std::deque<SplitNode>& nodes);
 
 }  // namespace limn::accel

@@ -1,6 +1,7 @@
 #include "accel/spatial_split.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "accel/collapse.h"
 
@@ -9,11 +10,11 @@ namespace limn::accel {
 namespace {
 
 constexpr int kMaxBins = 16;
-constexpr std::uint32_t kSample = 128;  // references that are cut to choose a plane, or some more
+constexpr std::uint32_t kSample = 128;  // primitives that are cut to choose a plane, or some more
 
 struct Bin {
     Bounds bounds = kEmpty;
-    std::uint32_t begins = 0, ends = 0;  // references whose lowest, and whose highest bin it is
+    std::uint32_t begins = 0, ends = 0;  // primitives whose lowest, and whose highest bin it is
 };
 
 // Bins of space along one axis.
@@ -32,14 +33,14 @@ public:
 
     // `is_sampled`: if planes go through it, the bins get what they make of it; else they only count it. Where rounding
     // puts bins and planes differently the choice is a little worse.
-    void add(const Reference& r, bool is_sampled, const Clip& clip) {
-        const int first = bin_of(r.lower[axis_]), last = bin_of(r.upper[axis_]);
+    void add(const BuildPrimitive& p, bool is_sampled, const Clip& clip) {
+        const int first = bin_of(p.lower[axis_]), last = bin_of(p.upper[axis_]);
         ++bins_[first].begins;
         ++bins_[last].ends;
         if (first < last && !is_sampled) return;
-        Bounds rest = r.bounds();
+        Bounds rest = p.bounds();
         for (int b = first; b < last; ++b) {
-            const Clip::Parts parts = clip.cut(r.id(), to_box(rest), axis_, plane(b + 1));
+            const Clip::Parts parts = clip.cut(p.index(), to_box(rest), axis_, plane(b + 1));
             bins_[b].bounds.extend(to_bounds(parts.lower));
             rest = to_bounds(parts.upper);
         }
@@ -80,10 +81,6 @@ private:
     Bin bins_[kMaxBins];
 };
 
-bool is_empty(const Bounds& b) {
-    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
-}
-
 Bounds joined(Bounds a, const Bounds& b) {
     a.extend(b);
     return a;
@@ -91,24 +88,51 @@ Bounds joined(Bounds a, const Bounds& b) {
 
 Bounds common(const Bounds& a, const Bounds& b) { return {max(a.lower, b.lower), min(a.upper, b.upper)}; }
 
+struct Halves {
+    Bounds below, above;
+};
+
+// What of a build primitive lies on either side of the plane.
+Halves halves_of(const BuildPrimitive& p, const Cut& cut, const Clip& clip) {
+    const Clip::Parts parts = clip.cut(p.index(), to_box(p.bounds()), cut.axis, cut.position);
+    Halves halves{common(p.bounds(), to_bounds(parts.lower)), common(p.bounds(), to_bounds(parts.upper))};
+    halves.below.upper[cut.axis] = std::min(halves.below.upper[cut.axis], cut.position);
+    halves.above.lower[cut.axis] = std::max(halves.above.lower[cut.axis], cut.position);
+    return halves;
+}
+
+// Gives one side all of a build primitive, and the other nothing, where that is cheaper. The counts have it on both.
+void leave_whole(const BuildPrimitive& p, const Range& lower, std::uint32_t lower_count, const Range& upper,
+                 std::uint32_t upper_count, Bounds& below, Bounds& above) {
+    const auto cost = [&](const Bounds& l, std::uint32_t in_lower, const Bounds& u, std::uint32_t in_upper) {
+        return half_area(to_box(l)) * in_lower + half_area(to_box(u)) * in_upper;
+    };
+    const double both = cost(joined(lower.bounds, below), lower_count, joined(upper.bounds, above), upper_count);
+    const double all_below = cost(joined(lower.bounds, p.bounds()), lower_count, upper.bounds, upper_count - 1);
+    const double all_above = cost(lower.bounds, lower_count - 1, joined(upper.bounds, p.bounds()), upper_count);
+    if (!(all_below < both || all_above < both)) return;
+    const bool is_below = all_below <= all_above;
+    below = is_below ? p.bounds() : kEmpty, above = is_below ? kEmpty : p.bounds();
+}
+
 }  // namespace
 
-double overlap(const Reference* references, const Range& range, const Split& split) {
+double overlap(const BuildPrimitive* primitives, const Range& range, const Split& split) {
     Bounds lower = kEmpty, upper = kEmpty;
     for (std::uint32_t i = range.begin; i < range.end; ++i)
-        (split.is_lower(references[i]) ? lower : upper).extend(references[i].bounds());
+        (split.is_lower(primitives[i]) ? lower : upper).extend(primitives[i].bounds());
     const Bounds both = common(lower, upper);
     return is_empty(both) ? 0 : half_area(to_box(both));
 }
 
-Cut best_cut(const Reference* references, const Range& range, std::uint32_t leaf_width, const Clip& clip) {
+Cut best_cut(const BuildPrimitive* primitives, const Range& range, std::uint32_t leaf_width, const Clip& clip) {
     const std::uint32_t step = 1 + range.size() / kSample;
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
         Slices slices(range, axis);
         if (!slices.exist()) continue;
         for (std::uint32_t i = range.begin; i < range.end; ++i)
-            slices.add(references[i], (i - range.begin) % step == 0, clip);
+            slices.add(primitives[i], (i - range.begin) % step == 0, clip);
         const Cut cut = slices.best(leaf_width);
         if (cut.cost < best.cost) best = cut;
     }
@@ -116,62 +140,38 @@ Cut best_cut(const Reference* references, const Range& range, std::uint32_t leaf
     return best;
 }
 
-bool cut(const Reference* references, Reference* to, const Range& range, const Cut& cut, const Clip& clip, Range& lower,
-         Range& upper) {
+bool cut(const BuildPrimitive* primitives, BuildPrimitive* to, const Range& range, const Cut& cut, const Clip& clip,
+         Range& lower, Range& upper) {
     lower = upper = Range();
-    std::uint32_t lower_count = 0, upper_count = 0, across = 0;
+    const auto is_below = [&](const BuildPrimitive& p) { return p.upper[cut.axis] <= cut.position; };
+    const auto is_above = [&](const BuildPrimitive& p) { return p.lower[cut.axis] >= cut.position; };
+    std::uint32_t lower_count = 0, upper_count = 0;  // with those across the plane, as long as both sides may get them
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        const Reference& r = references[i];
-        if (r.upper[cut.axis] <= cut.position) {
-            lower.extend(r), ++lower_count;
-        } else if (r.lower[cut.axis] >= cut.position) {
-            upper.extend(r), ++upper_count;
-        } else {
-            ++across;
-        }
+        const BuildPrimitive& p = primitives[i];
+        const bool below = is_below(p), above = !below && is_above(p);
+        if (below) lower.extend(p);
+        if (above) upper.extend(p);
+        lower_count += above ? 0 : 1, upper_count += below ? 0 : 1;
     }
-    if (across > range.room) return false;
-    lower_count += across, upper_count += across;
+    if (lower_count + upper_count - range.size() > range.room) return false;
 
     // The lower side is written from the near end of the room upwards, the upper one from the far end downwards.
     const std::uint32_t end = range.end + range.room;
     std::uint32_t lower_end = range.begin, upper_begin = end;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        const Reference& r = references[i];
-        if (r.upper[cut.axis] <= cut.position) {
-            to[lower_end++] = r;
-            continue;
+        const BuildPrimitive& p = primitives[i];
+        if (is_below(p)) {
+            to[lower_end++] = p;
+        } else if (is_above(p)) {
+            to[--upper_begin] = p;
+        } else {
+            auto [below, above] = halves_of(p, cut, clip);
+            if (!is_empty(below) && !is_empty(above))
+                leave_whole(p, lower, lower_count, upper, upper_count, below, above);
+            lower_count -= is_empty(below) ? 1 : 0, upper_count -= is_empty(above) ? 1 : 0;
+            if (!is_empty(below)) lower.extend(to[lower_end++] = BuildPrimitive(below, p.index()));
+            if (!is_empty(above)) upper.extend(to[--upper_begin] = BuildPrimitive(above, p.index()));
         }
-        if (r.lower[cut.axis] >= cut.position) {
-            to[--upper_begin] = r;
-            continue;
-        }
-        const Clip::Parts parts = clip.cut(r.id(), to_box(r.bounds()), cut.axis, cut.position);
-        Bounds below = common(r.bounds(), to_bounds(parts.lower)), above = common(r.bounds(), to_bounds(parts.upper));
-        below.upper[cut.axis] = std::min(below.upper[cut.axis], cut.position);
-        above.lower[cut.axis] = std::max(above.lower[cut.axis], cut.position);
-        const bool any_below = !is_empty(below), any_above = !is_empty(above);
-        if (any_below && any_above) {
-            const auto cost = [&](const Bounds& l, std::uint32_t in_lower, const Bounds& u, std::uint32_t in_upper) {
-                return half_area(to_box(l)) * in_lower + half_area(to_box(u)) * in_upper;
-            };
-            const double both =
-                cost(joined(lower.bounds, below), lower_count, joined(upper.bounds, above), upper_count);
-            const double whole_lower =
-                cost(joined(lower.bounds, r.bounds()), lower_count, upper.bounds, upper_count - 1);
-            const double whole_upper =
-                cost(lower.bounds, lower_count - 1, joined(upper.bounds, r.bounds()), upper_count);
-            if (whole_lower < both || whole_upper < both) {
-                const bool is_lower = whole_lower <= whole_upper;
-                (is_lower ? lower : upper).extend(r);
-                to[is_lower ? lower_end++ : --upper_begin] = r;
-                --(is_lower ? upper_count : lower_count);
-                continue;
-            }
-        }
-        lower_count -= any_below ? 0 : 1, upper_count -= any_above ? 0 : 1;
-        if (any_below) lower.extend(to[lower_end++] = Reference(below, r.id()));
-        if (any_above) upper.extend(to[--upper_begin] = Reference(above, r.id()));
     }
     const std::uint32_t size = range.size(), lower_size = lower_end - range.begin, upper_size = end - upper_begin;
     if (lower_size == 0 || upper_size == 0 || lower_size >= size || upper_size >= size) return false;
@@ -179,18 +179,14 @@ bool cut(const Reference* references, Reference* to, const Range& range, const C
     return true;
 }
 
-void share_room(Reference* to, const Range& range, std::uint32_t lower_size, std::uint32_t upper_begin,
+void share_room(BuildPrimitive* to, const Range& range, std::uint32_t lower_size, std::uint32_t upper_begin,
                 std::uint32_t upper_size, Range& lower, Range& upper) {
     const std::uint32_t size = lower_size + upper_size, room = range.size() + range.room - size;
     lower.begin = range.begin, lower.end = range.begin + lower_size;
     lower.room = static_cast<std::uint32_t>(std::uint64_t{room} * lower_size / size);
     upper.begin = lower.end + lower.room, upper.end = upper.begin + upper_size;
     upper.room = room - lower.room;
-    if (upper.begin <= upper_begin) {
-        std::copy(to + upper_begin, to + upper_begin + upper_size, to + upper.begin);
-    } else {
-        std::copy_backward(to + upper_begin, to + upper_begin + upper_size, to + upper.end);
-    }
+    std::memmove(to + upper.begin, to + upper_begin, upper_size * sizeof *to);
 }
 
 }  // namespace limn::accel

@@ -1,11 +1,11 @@
-// The binary tree over references few enough for one thread and its cache.
+// The binary tree over build primitives few enough for one thread and its cache, or over any number that may be cut.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "accel/build_primitive.h"
 #include "accel/collapse.h"
-#include "accel/reference.h"
 
 namespace limn::accel {
 
@@ -25,23 +25,24 @@ struct Splitting {
 
 class SubtreeBuilder {
 public:
-    // `ids` gets the numbers of the references, at their places in the tree.
-    SubtreeBuilder(const Splitting& splitting, std::uint32_t* ids) : splitting_(splitting), ids_(ids) {}
+    // `indices` gets those of the primitives, at their places in the tree.
+    SubtreeBuilder(const Splitting& splitting, std::uint32_t* indices) : splitting_(splitting), indices_(indices) {}
 
-    // Fills in `root` and adds what is under it. `references` has what is in the range; both it and `spare`, of the
+    // Fills in `root` and adds what is under it. `primitives` has what is in the range; both it and `spare`, of the
     // same rows and room, are used up. \pre the range is not empty; once only
-    ForestCosts build(Reference* references, Reference* spare, const Range& range, int depth, SplitNode& root);
+    ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, int depth,
+                      SplitNode& root);
 
 private:
-    ForestCosts split(Reference* references, Reference* spare, const Range& range, int depth, SplitNode& node);
-    bool divide(Reference*& references, Reference*& spare, const Range& range, int depth, Range& lower,
+    ForestCosts split(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, int depth,
+                      SplitNode& node);
+    bool divide(BuildPrimitive*& primitives, BuildPrimitive*& spare, const Range& range, int depth, Range& lower,
                 Range& upper) const;
-    ForestCosts fork(Reference* references, Reference* spare, const Range& range, int depth, SplitNode& node);
-    ForestCosts make_leaf(const Reference* references, const Range& range, SplitNode& node);
+    ForestCosts make_leaf(const BuildPrimitive* primitives, const Range& range, SplitNode& node);
 
     const Splitting& splitting_;
-    std::uint32_t* ids_;
-    std::uint32_t next_id_ = 0;
+    std::uint32_t* indices_;
+    std::uint32_t next_ = 0;  // of the indices
     std::vector<SplitNode> nodes_;
     std::unique_ptr<SubtreeBuilder> lower_, upper_;
 };

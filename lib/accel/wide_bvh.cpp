@@ -1,20 +1,19 @@
 #include "accel/wide_bvh.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <deque>
-#include <memory>
+#include <utility>
 
 #include "accel/assemble.h"
 #include "accel/gather.h"
 #include "accel/grid.h"
+#include "accel/parallel.h"
 #include "accel/subtree.h"
 
 namespace limn::accel {
 
 namespace {
 
-constexpr std::uint32_t kSubtree = 4096;  // references that one thread sorts, in its second-level cache
+constexpr std::uint32_t kSubtree = 4096;  // build primitives that one thread sorts, in its second-level cache
 
 // Stich, Friedrich and Dietrich found this good for all their scenes, as a part of the root's area.
 constexpr double kLeastOverlap = 1e-5;
@@ -22,104 +21,113 @@ constexpr double kLeastOverlap = 1e-5;
 // The binary tree over all bounded boxes.
 class TreeBuilder {
 public:
-    TreeBuilder(const Range& range, const BuildSettings& settings, const Clip* clip)
-        : settings_(settings),
-          splitting_{settings, clip, kLeastOverlap * half_area(to_box(range.bounds))},
-          spare_(range.size() + range.room),
-          ids_(range.size() + range.room) {}
+    // `indices` gets those of the primitives, at their places in the tree.
+    TreeBuilder(const Splitting& splitting, std::uint32_t* indices) : splitting_(splitting), indices_(indices) {}
 
-    ForestCosts build(Reference* references, const Range& range) {
-        if (splitting_.clip != nullptr) {  // cells of a grid cannot be cut
-            whole_ = std::make_unique<SubtreeBuilder>(splitting_, ids_.data());
-            return whole_->build(references, spare_.data(), range, 1, root_);
-        }
-        split(references, spare_.data(), {&root_, 1, 0, range.size()}, range);
-        if (jobs_.size() == 1) {
-            run(jobs_[0]);
-        } else {
-            tbb::parallel_for(std::size_t{0}, jobs_.size(), [this](std::size_t i) { run(jobs_[i]); });
-        }
+    ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& root) {
+        split(primitives, spare, {&root, 1, range.begin, range.end}, range);
+        for_all(0, jobs_.size(), 1, [this](std::size_t i) { run(jobs_[i]); });
         std::size_t next_job = 0;
-        return plan(root_, next_job);
+        return plan(root, next_job);
     }
-
-    const SplitNode& root() const { return root_; }
-    std::span<const std::uint32_t> ids() const { return ids_; }
 
 private:
     struct Job {
-        Reference *references, *spare;
-        OpenRange range;
+        BuildPrimitive *primitives, *spare;
+        OpenRange open;
+        Range range;  // empty where it is yet to be found out
         SubtreeBuilder builder;
         ForestCosts costs;
     };
 
-    void split(Reference* references, Reference* spare, const OpenRange& open, const Range& range) {
-        if (open.size() <= kSubtree) {
-            jobs_.push_back({references, spare, open, {splitting_, ids_.data()}, {}});
-        } else if (has_extent(range) && may_split(open.size(), open.depth)) {
-            for (const OpenRange& part :
-                 split_by_grid(references, spare, range, *open.node, open.depth, kSubtree, settings_, nodes_))
-                split_further(spare, references, part);
-        } else {
-            SplitNode& node = *open.node;
-            node.box = to_box(range.bounds);
-            node.begin = open.begin, node.end = open.end;
-            const std::uint32_t middle = open.begin + open.size() / 2;
-            node.left = &nodes_.emplace_back();
-            split_further(references, spare, {node.left, open.depth + 1, open.begin, middle});
-            node.right = &nodes_.emplace_back();
-            split_further(references, spare, {node.right, open.depth + 1, middle, open.end});
+    void split(BuildPrimitive* primitives, BuildPrimitive* spare, const OpenRange& open, const Range& range) {
+        const bool has_cells = splitting_.clip == nullptr;  // which cannot be cut
+        if (!has_cells || open.size() <= kSubtree || !has_extent(range) || !may_split(open.size(), open.depth)) {
+            jobs_.push_back({primitives, spare, open, range, {splitting_, indices_}, {}});
+            return;
         }
+        for (const OpenRange& part :
+             split_by_grid(primitives, spare, open, range, kSubtree, splitting_.settings, nodes_))
+            split(spare, primitives, part,
+                  part.size() > kSubtree ? range_over_many(spare, part.begin, part.end) : Range());
     }
 
-    void split_further(Reference* references, Reference* spare, const OpenRange& open) {
-        split(references, spare, open,
-              open.size() > kSubtree ? range_over_many(references, open.begin, open.end) : Range());
-    }
-
-    void run(Job& job) {
-        const Range range = range_over(job.references, job.range.begin, job.range.end);
-        job.costs = job.builder.build(job.references, job.spare, range, job.range.depth, *job.range.node);
+    static void run(Job& job) {
+        if (job.range.size() == 0) job.range = range_over(job.primitives, job.open.begin, job.open.end);
+        job.costs = job.builder.build(job.primitives, job.spare, job.range, job.open.depth, *job.open.node);
     }
 
     // Jobs stand in the order of their nodes, depth first.
     ForestCosts plan(SplitNode& node, std::size_t& next_job) {
-        if (next_job < jobs_.size() && jobs_[next_job].range.node == &node) return jobs_[next_job++].costs;
+        if (next_job < jobs_.size() && jobs_[next_job].open.node == &node) return jobs_[next_job++].costs;
         const ForestCosts left = plan(*node.left, next_job), right = plan(*node.right, next_job);
-        return plan_node(node, left, right, settings_);
+        return plan_node(node, left, right, splitting_.settings);
     }
 
-    const BuildSettings& settings_;
-    Splitting splitting_;
-    std::unique_ptr<SubtreeBuilder> whole_;
-    ReferenceArray spare_;
-    HugeVector<std::uint32_t> ids_;
-    SplitNode root_;
+    const Splitting& splitting_;
+    std::uint32_t* indices_;
     std::deque<SplitNode> nodes_;  // at the top
     std::deque<Job> jobs_;
+};
+
+// Boxes that no split by area can part stand beside the tree of all others, halved down to leaves.
+struct UnboundedTree {
+    std::span<const FloatBox> boxes;
+    std::span<const std::uint32_t> indices;
+    const BuildSettings& settings;
+    std::deque<SplitNode> nodes = {};
+    double cost = 0;
+
+    SplitNode* build(std::uint32_t begin, std::uint32_t end) {
+        SplitNode& node = nodes.emplace_back();
+        node.begin = begin, node.end = end;
+        Bounds bounds = kEmpty;
+        if (node.size() <= settings.max_leaf) {
+            cost += leaf_cost(node.size(), settings);
+            for (const std::uint32_t i : indices.subspan(begin, node.size())) bounds.extend(to_bounds(boxes[i]));
+        } else {
+            cost += settings.node_cost;
+            const std::uint32_t middle = begin + node.size() / 2;
+            node.left = build(begin, middle), node.right = build(middle, end);
+            bounds.extend(to_bounds(node.left->box));
+            bounds.extend(to_bounds(node.right->box));
+            node.is_leaf = false;
+            node.open_from = kWidth, node.left_slots[kWidth] = 1;  // a wide node of two children
+        }
+        node.box = to_box(bounds);
+        return &node;
+    }
 };
 
 }  // namespace
 
 WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings, const Clip* clip) {
-    if (!settings.spatial_splits) clip = nullptr;
     const auto room =
         clip == nullptr ? 0 : static_cast<std::uint32_t>(settings.room * static_cast<double>(boxes.size()));
-    Gathered gathered = gather(boxes, room);
-    Bounds bounds = gathered.range.bounds;
-    Aside aside = set_aside(boxes, gathered.unbounded, settings);
-    if (!gathered.unbounded.empty()) bounds.extend(to_bounds(aside.box));
-    WideBvh bvh;
-    if (gathered.range.size() > 0) {
-        TreeBuilder tree(gathered.range, settings, clip);
-        const ForestCosts costs = tree.build(gathered.references.data(), gathered.range);
-        bvh = assemble(&tree.root(), costs, tree.ids(), std::move(aside), settings);
-    } else {
-        bvh = assemble(nullptr, {}, {}, std::move(aside), settings);
+    const Gathered gathered = gather(boxes, room);
+    const Range& range = gathered.range;
+    const std::uint32_t bounded_end = range.size() + room;
+    HugeVector<std::uint32_t> indices(bounded_end + gathered.unbounded.size());
+    std::ranges::copy(gathered.unbounded, indices.begin() + bounded_end);
+
+    const Splitting splitting{settings, clip, kLeastOverlap * half_area(to_box(range.bounds))};
+    TreeBuilder builder(splitting, indices.data());
+    UnboundedTree unbounded{boxes, indices, settings};
+    const bool has_unbounded = !gathered.unbounded.empty();
+    SplitNode root;
+    Slots top;  // of the wide root
+    double cost = 0;
+    if (range.size() > 0) {
+        const PrimitiveArray spare = allocate_primitives(range.size() + room);
+        const ForestCosts costs = builder.build(gathered.primitives.get(), spare.get(), range, root);
+        fill_slots(root, has_unbounded ? kWidth - 1 : kWidth, top);
+        cost = costs[has_unbounded ? kWidth - 2 : 0] / half_area(root.box);
     }
-    bvh.bounds = to_box(bounds);
-    bvh.extent = gathered.extent;
+    if (has_unbounded) top.add(*unbounded.build(bounded_end, static_cast<std::uint32_t>(indices.size())));
+    if (top.count == 0) return {};
+    if (root.is_leaf || has_unbounded) cost += settings.node_cost + unbounded.cost;
+    WideBvh bvh = assemble(top, std::move(indices));
+    bvh.cost = cost;
     return bvh;
 }
 

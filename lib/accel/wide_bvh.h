@@ -1,45 +1,25 @@
-// A bounding volume hierarchy over boxes with eight children a node. It knows boxes and their numbers, nothing of what
-// is in them.
+// A bounding volume hierarchy over boxes with eight children a node. It knows boxes and the indices of the primitives
+// in them, nothing of these primitives.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "accel/node.h"
+#include "core/huge_pages.h"
+
 namespace limn::accel {
 
-// Closed; the caller rounds it outward. Sides may be infinite; it is empty where lower <= upper fails on an axis.
-struct FloatBox {
-    float lower[3], upper[3];
-};
-
-inline constexpr std::size_t kWidth = 8;
-
-// Present children come first; the box of an absent one is empty: lower +infinity, upper -infinity.
-struct alignas(64) WideNode {
-    static constexpr std::uint32_t kLeaf = 0x80000000u, kAbsent = 0xffffffffu;
-
-    float lower[3][kWidth], upper[3][kWidth];  // of the children
-    std::uint32_t child[kWidth];               // inner: row of nodes; leaf: kLeaf | row of leaves
-    // By octant (bit a is the sign bit of a ray's direction along axis a): eight slots of four bits, the lowest names
-    // the child to be visited first, the one that lies nearest along the octant's diagonal. Absent ones come last.
-    std::uint32_t order[kWidth];
-};
-static_assert(sizeof(WideNode) == 256);
-
 struct Leaf {
-    std::uint32_t first, count;  // of the ids
+    std::uint32_t first, count;  // of the indices
 };
 
 struct WideBvh {
-    std::vector<WideNode> nodes;     // [0] is the root, even above a single leaf; empty if nothing can be hit
-    std::vector<Leaf> leaves;        // depth first; those of one node follow each other
-    std::vector<std::uint32_t> ids;  // of the boxes, leaf by leaf, ascending within one; empty boxes are left out
-    FloatBox bounds;                 // of everything
-    double extent = 0;               // the largest finite magnitude of a coordinate
-    double cost = 0;                 // expected, of a ray that meets `bounds`: see BuildSettings; unbounded boxes count
-                                     // as large as all bounded ones together
+    HugeVector<Node> nodes;             // [0] is the root, even above a single leaf; empty if nothing can be hit
+    std::vector<Leaf> leaves;           // depth first; those of one node follow each other
+    HugeVector<std::uint32_t> indices;  // of primitives, ascending within a leaf; those of empty boxes are left out
+    double cost = 0;                    // expected, of a ray that meets the bounds of everything: see BuildSettings;
+                                        // unbounded boxes count as large as all bounded ones together
 };
 
 // The surface-area heuristic: a ray that meets the root meets a node or leaf with the probability of its area over the
@@ -48,8 +28,7 @@ struct BuildSettings {
     std::uint32_t max_leaf = 8;    // boxes
     std::uint32_t leaf_width = 8;  // boxes tested at once
     double node_cost = 1, leaf_cost = 1;
-    bool spatial_splits = false;  // boxes may be cut, so that an id stands in several leaves; needs a Clip
-    double room = 0.3;            // for how many more, as a part of the number of boxes
+    double room = 0.3;  // where boxes are cut: for how many more, as a part of their number
 };
 
 // What is in a box, to one who would cut it.
@@ -60,16 +39,17 @@ public:
     };
 
     virtual ~Clip() = default;
-    // The bounds, rounded outward, of what of the primitive `id` lies in `box`, on either side of the plane where
-    // coordinate `axis` is `position`; the plane belongs to both sides. `box` lies within the primitive's own. Many
-    // threads call it.
-    virtual Parts cut(std::uint32_t id, const FloatBox& box, int axis, float position) const = 0;
+    // The bounds, rounded outward, of what of a primitive lies in `box`, on either side of the plane where coordinate
+    // `axis` is `position`; the plane belongs to both sides. `box` lies within the primitive's own. Many threads call
+    // it.
+    virtual Parts cut(std::uint32_t primitive, const FloatBox& box, int axis, float position) const = 0;
 };
 
 // No path from the root to a leaf has more nodes.
 inline constexpr int kMaxWideDepth = 64;
 
-// Parallel in the caller's arena, the same to the bit on any number of threads. \pre fewer than 2^31 boxes
+// Parallel in the caller's arena, the same to the bit on any number of threads. With a clip, boxes may be cut, so that
+// a primitive stands in several leaves. \pre fewer than 2^31 boxes
 WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings = {}, const Clip* clip = nullptr);
 
 }  // namespace limn::accel

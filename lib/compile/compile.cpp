@@ -174,8 +174,7 @@ void count_unassigned(flat::Scene& s) {
         open.pop_back();
         if (seen[id]) continue;
         seen[id] = true;
-        for (std::uint32_t i = 0; i < s.groups[id].range_count; ++i) {
-            const PrimitiveRange& range = s.ranges[s.groups[id].first_range + i];
+        for (const PrimitiveRange& range : flat::ranges_of(s, s.groups[id])) {
             if (range.kind == PrimitiveKind::instance) open.push_back(s.instances[range.first_row].group);
             const bool has_row = range.kind != PrimitiveKind::instance && range.kind != PrimitiveKind::medium &&
                                  range.kind != PrimitiveKind::foreign;

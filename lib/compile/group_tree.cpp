@@ -1,15 +1,16 @@
 #include "compile/group_tree.h"
 
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "accel/clip_triangle.h"
 #include "accel/float_box.h"
+#include "accel/parallel.h"
 #include "accel/slab.h"
 #include "compile/pack.h"
 #include "limn/core/error.h"
@@ -26,8 +27,8 @@ public:
     TriangleClip(const flat::Scene& scene, std::span<const flat::Reference> references)
         : scene_(scene), references_(references) {}
 
-    Parts cut(std::uint32_t id, const accel::FloatBox& box, int axis, float position) const override {
-        const flat::Reference& reference = references_[id];
+    Parts cut(std::uint32_t primitive, const accel::FloatBox& box, int axis, float position) const override {
+        const flat::Reference& reference = references_[primitive];
         const PrimitiveRange& range = scene_.ranges[reference.range];
         if (range.kind != PrimitiveKind::mesh) {
             Parts parts{box, box};
@@ -61,7 +62,6 @@ double lost(const Point3& p, const Vec3& edge) {
     return most;
 }
 
-using Indices = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
 
 }  // namespace
@@ -69,36 +69,35 @@ constexpr std::size_t kGrain = 4096;
 void GroupTree::add(const PrimitiveRange& range, std::uint32_t row) {
     if (range.kind == PrimitiveKind::medium) return;  // apart, see place_media
     const std::uint64_t stored = range.kind == PrimitiveKind::instance ? 1 : range.count;
-    if (stored + references_.size() >= flat::kLeaf) throw ArgumentError("scene: too many primitives");
-    parts_.push_back({range, references_.size(), stored});
+    const std::size_t first = references_.size();
+    if (stored + first >= flat::kLeaf) throw ArgumentError("scene: too many primitives");
     for (std::uint32_t i = 0; i < stored; ++i) references_.push_back({row, i});
     boxes_.resize(references_.size());
-    if (range.kind == PrimitiveKind::mesh) {
-        measure_mesh(parts_.back());
-    } else {
-        scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
-        for (std::uint32_t i = 0; i < stored; ++i) {
-            others_.push_back({{row, i}, bounds_of(range, i)});
-            bounds_.extend(others_.back().box);
-            extent_ = std::max(extent_, accel::finite_extent(others_.back().box));
-        }
+    if (range.kind == PrimitiveKind::mesh) return measure_mesh(range, first);
+    scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
+    for (std::size_t index = first; index < references_.size(); ++index) {
+        Candidate& other = others_.emplace_back(measure(range, references_[index]));
+        other.index = static_cast<std::uint32_t>(index);
+        bounds_.extend(other.box);
+        extent_ = std::max(extent_, accel::finite_extent(other.box));
     }
 }
 
-void GroupTree::measure_mesh(const Part& part) {
+void GroupTree::measure_mesh(const PrimitiveRange& range, std::size_t first) {
+    using Indices = oneapi::tbb::blocked_range<std::size_t>;
     struct Found {
         Box bounds;
         std::size_t degenerate = 0;
     };
-    const MeshView& mesh = scene_.meshes[part.range.first_row].arrays;
+    const MeshView& mesh = scene_.meshes[range.first_row].arrays;
     const Found found = oneapi::tbb::parallel_reduce(
-        Indices(0, part.count, kGrain), Found{},
+        Indices(0, range.count, kGrain), Found{},
         [&](const Indices& indices, Found so_far) {
             for (std::size_t i = indices.begin(); i < indices.end(); ++i) {
                 const TriangleVertices v = triangle_vertices(mesh, i);
                 const bool counts = !is_degenerate(v);
                 const Box box = triangle_bounds(v);
-                boxes_[part.first + i] = accel::to_float_box(counts ? box : Box());
+                boxes_[first + i] = accel::to_float_box(counts ? box : Box());
                 if (counts)
                     so_far.bounds.extend(box);
                 else
@@ -113,87 +112,55 @@ void GroupTree::measure_mesh(const Part& part) {
     bounds_.extend(found.bounds);
     mesh_bounds_.extend(found.bounds);
     scene_.degenerate += found.degenerate;
-    scene_.stored_primitives += part.count - found.degenerate;
-    if (part.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
+    scene_.stored_primitives += range.count - found.degenerate;
+    if (range.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
 }
 
-Box GroupTree::bounds_of(const PrimitiveRange& range, std::uint32_t element) const {
-    const std::uint32_t row = range.first_row + element;
+Candidate GroupTree::measure(const PrimitiveRange& range, const flat::Reference& reference) const {
+    const std::uint32_t row = range.first_row + reference.element;
     switch (range.kind) {
         case PrimitiveKind::sphere: {
             const flat::Sphere& s = scene_.spheres[row];
-            return sphere_bounds(s.center, s.center, s.radius);
+            return {reference, sphere_bounds(s.center, s.center, s.radius), lost(s.center)};
         }
-        case PrimitiveKind::moving_sphere: {
+        case PrimitiveKind::moving_sphere: {  // whose way between two floats is rounded three times
             const flat::MovingSphere& s = scene_.moving_spheres[row];
-            return sphere_bounds(s.center0, s.center1, s.radius);
+            const double largest = std::max(max_abs(s.center0), max_abs(s.center1));
+            return {reference, sphere_bounds(s.center0, s.center1, s.radius),
+                    std::max(lost(s.center0), lost(s.center1)) + 0x1p-22 * largest};
         }
         case PrimitiveKind::triangle: {
             const flat::Triangle& t = scene_.triangles[row];
-            return triangle_bounds({t.a, t.b, t.c});
+            return {reference, triangle_bounds({t.a, t.b, t.c}), std::max({lost(t.a), lost(t.b), lost(t.c)})};
         }
         case PrimitiveKind::quad: {
             const flat::Quad& q = scene_.quads[row];
-            return quad_bounds(q.corner, q.edge_u, q.edge_v);
+            return {reference, quad_bounds(q.corner, q.edge_u, q.edge_v),
+                    std::max({lost(q.corner), lost(q.corner, q.edge_u), lost(q.corner, q.edge_v)})};
         }
         case PrimitiveKind::instance: {
             const flat::Instance& instance = scene_.instances[row];
-            return instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                   flat::group_at(scene_, instance.group).bounds);
+            return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
+                                               flat::group_at(scene_, instance.group).bounds)};
         }
-        case PrimitiveKind::foreign: return scene_.foreign[row].bounds;
+        case PrimitiveKind::foreign: return {reference, scene_.foreign[row].bounds};
         case PrimitiveKind::mesh:
         case PrimitiveKind::medium: break;
     }
     return {};
 }
 
-double GroupTree::packed_error_of(const PrimitiveRange& range, std::uint32_t element) const {
-    const std::uint32_t row = range.first_row + element;
-    switch (range.kind) {
-        case PrimitiveKind::sphere: return lost(scene_.spheres[row].center);
-        case PrimitiveKind::moving_sphere: {  // whose way between two floats is rounded three times
-            const flat::MovingSphere& s = scene_.moving_spheres[row];
-            const double largest = std::max(max_abs(s.center0), max_abs(s.center1));
-            return std::max(lost(s.center0), lost(s.center1)) + 0x1p-22 * largest;
-        }
-        case PrimitiveKind::triangle: {
-            const flat::Triangle& t = scene_.triangles[row];
-            return std::max({lost(t.a), lost(t.b), lost(t.c)});
-        }
-        case PrimitiveKind::quad: {
-            const flat::Quad& q = scene_.quads[row];
-            return std::max({lost(q.corner), lost(q.corner, q.edge_u), lost(q.corner, q.edge_v)});
-        }
-        case PrimitiveKind::mesh:
-        case PrimitiveKind::instance:
-        case PrimitiveKind::foreign:
-        case PrimitiveKind::medium: break;
-    }
-    return 0;
-}
-
 // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.
 void GroupTree::scale_boxes(double scale) {
-    std::size_t next = 0;
-    for (const Part& part : parts_) {
-        if (part.range.kind != PrimitiveKind::mesh) {
-            for (std::size_t i = 0; i < part.count; ++i, ++next) {
-                const Box& box = others_[next].box;
-                boxes_[part.first + i] = accel::to_float_box(box, scale);
+    if (scale != 1)
+        accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
+            accel::FloatBox& box = boxes_[i];
+            for (std::size_t a = 0; a < 3; ++a) {
+                box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));
+                box.upper[a] = accel::round_up(scale * static_cast<double>(box.upper[a]));
             }
-            continue;
-        }
-        if (scale == 1) continue;
-        oneapi::tbb::parallel_for(Indices(part.first, part.first + part.count, kGrain), [&](const Indices& indices) {
-            for (std::size_t i = indices.begin(); i < indices.end(); ++i)
-                for (std::size_t a = 0; a < 3; ++a) {
-                    accel::FloatBox& box = boxes_[i];
-                    box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));
-                    box.upper[a] = accel::round_up(scale * static_cast<double>(box.upper[a]));
-                }
         });
-    }
+    for (const Candidate& other : others_) boxes_[other.index] = accel::to_float_box(other.box, scale);
 }
 
 // Leaves out of the tree what is listed beside it.
@@ -211,13 +178,15 @@ void GroupTree::list() {
     std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
 }
 
-void GroupTree::note_what_is_left() {
+// Its kinds; returns its error by packing.
+double GroupTree::note_what_is_left() {
+    double packed_error = 0;
     for (const Candidate& other : others_) {
         if (other.box.is_empty()) continue;
-        const PrimitiveRange& range = scene_.ranges[other.reference.range];
-        packed_error_ = std::max(packed_error_, packed_error_of(range, other.reference.element));
-        scene_.kinds |= flat::bit(range.kind);
+        packed_error = std::max(packed_error, other.packed_error);
+        scene_.kinds |= flat::bit(scene_.ranges[other.reference.range].kind);
     }
+    return packed_error;
 }
 
 void GroupTree::finish(flat::Group& group, bool cut_triangles) {
@@ -226,16 +195,15 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     // Where float serves, boxes stay as they are.
     group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
     if (&group == &scene_.groups.front()) list();
-    note_what_is_left();
-    group.packed_error = accel::round_up(packed_error_);
+    group.packed_error = accel::round_up(note_what_is_left());
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).
     const TriangleClip clip(scene_, references_);
     const bool may_cut = cut_triangles && group.scale == 1;
-    accel::WideBvh bvh = accel::build_wide_bvh(
-        boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2, .spatial_splits = may_cut}, may_cut ? &clip : nullptr);
+    accel::WideBvh bvh =
+        accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2}, may_cut ? &clip : nullptr);
     group.cost = bvh.cost;
-    group.root = pack_tree(bvh, boxes_, references_, scene_);
+    group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
 }
 
 }  // namespace limn::compiler

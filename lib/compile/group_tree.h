@@ -8,7 +8,7 @@
 
 namespace limn::compiler {
 
-// Collects the primitives of one group, then builds the tree over them.
+// Collects the primitives of one group, then builds the tree over them: the BLAS of an instance, or the scene's own.
 class GroupTree {
 public:
     explicit GroupTree(flat::Scene& scene) : scene_(scene) {}
@@ -20,27 +20,19 @@ public:
     void finish(flat::Group& group, bool cut_triangles);
 
 private:
-    // The boxes of a range, from boxes_[first] on.
-    struct Part {
-        PrimitiveRange range;
-        std::size_t first = 0, count = 0;
-    };
-
-    void measure_mesh(const Part& part);
+    void measure_mesh(const PrimitiveRange& range, std::size_t first);
     void list();
-    void note_what_is_left();
-    Box bounds_of(const PrimitiveRange& range, std::uint32_t element) const;
-    double packed_error_of(const PrimitiveRange& range, std::uint32_t element) const;
+    double note_what_is_left();
+    Candidate measure(const PrimitiveRange& range, const flat::Reference& reference) const;
     void scale_boxes(double scale);
 
     flat::Scene& scene_;
-    std::vector<Part> parts_;
+    // By the index that the tree knows a primitive by.
     std::vector<flat::Reference> references_;
     std::vector<accel::FloatBox> boxes_;
     std::vector<Candidate> others_;  // what is not in a mesh, its box not yet in float; empty where it is listed
     Box bounds_, mesh_bounds_;
     double extent_ = 0;  // the largest finite coordinate
-    double packed_error_ = 0;
 };
 
 }  // namespace limn::compiler

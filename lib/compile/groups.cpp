@@ -13,15 +13,19 @@ namespace limn::compiler {
 
 namespace {
 
+std::vector<bool> groups_with_media(const flat::Scene& scene) {
+    return groups_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; });
+}
+
 class TreeBuilder {
 public:
     TreeBuilder(flat::Scene& scene, bool cut_triangles)
         : scene_(scene),
           cut_triangles_(cut_triangles),
           height_(scene.groups.size(), kUnbuilt),
-          holds_media_(scene.groups.size(), false) {}
+          holds_media_(groups_with_media(scene)) {}
 
-    // Inner groups first: an instance needs the bounds of its group. Returns how many instances nest below.
+    // A BLAS before those above it: an instance needs the bounds of its own. Returns how many instances nest below.
     std::uint32_t build(GroupId id) {
         const auto index = static_cast<std::size_t>(id);
         if (height_[index] != kUnbuilt) return height_[index];
@@ -31,15 +35,12 @@ public:
             const std::uint32_t row = scene_.groups[index].first_range + i;
             const PrimitiveRange range = scene_.ranges[row];
             if (range.kind == PrimitiveKind::instance) {
-                const GroupId inner = scene_.instances[range.first_row].group;
-                height = std::max(height, 1 + build(inner));
-                if (holds_media_[static_cast<std::size_t>(inner)]) holds_media_[index] = true;
+                height = std::max(height, 1 + build(scene_.instances[range.first_row].group));
             } else if (range.kind == PrimitiveKind::medium) {
                 const GroupId boundary = scene_.medium_shapes[range.first_row].boundary;
                 height = std::max(height, build(boundary));
                 if (holds_media_[static_cast<std::size_t>(boundary)])
                     throw ArgumentError("scene: the boundary of a medium contains a medium");
-                holds_media_[index] = true;
             }
             tree.add(range, row);
         }
@@ -62,19 +63,14 @@ private:
 // Walks every path of instances that leads to a medium.
 class MediumPlacer {
 public:
-    explicit MediumPlacer(flat::Scene& scene)
-        : scene_(scene),
-          holds_media_(
-              groups_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; })) {
+    explicit MediumPlacer(flat::Scene& scene) : scene_(scene), holds_media_(groups_with_media(scene)) {
         visit(GroupId::root, 0);
     }
 
 private:
     void visit(GroupId id, std::uint64_t first_number) {
         if (!holds_media_[static_cast<std::size_t>(id)]) return;
-        const flat::Group group = flat::group_at(scene_, id);
-        for (std::uint32_t i = 0; i < group.range_count; ++i) {
-            const PrimitiveRange range = scene_.ranges[group.first_range + i];
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::group_at(scene_, id))) {
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance) {
                 path_.push_back(range.first_row);

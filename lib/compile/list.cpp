@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "predicates/exact.h"
@@ -40,8 +41,7 @@ public:
 
     // False if not all can be listed.
     bool list_all() {
-        if (!is_in_range() || scene_.stored_primitives > PrimitiveList::kMost || !add_group(root_, 0, nullptr, 0))
-            return false;
+        if (!is_in_range() || scene_.stored_primitives > PrimitiveList::kMost || !add_group(root_, 0, {})) return false;
         if (entries_.empty() || entries_.size() > PrimitiveList::kMost) return false;
         pack();
         scene_.list.is_all = true;
@@ -80,7 +80,7 @@ private:
     bool add_candidate(const flat::Reference& reference) {
         const PrimitiveRange& range = scene_.ranges[reference.range];
         if (range.kind != PrimitiveKind::instance)
-            return add(range, reference.element, range.first_number + reference.element, nullptr, 0);
+            return add(range, reference.element, range.first_number + reference.element, {});
         const std::size_t before = entries_.size();
         if (add_instance(range, range.first_number)) return true;
         entries_.resize(before);
@@ -89,33 +89,30 @@ private:
 
     bool add_instance(const PrimitiveRange& range, std::uint64_t number) {
         const flat::Instance& instance = scene_.instances[range.first_row];
-        return !instance.moving &&
-               add_group(flat::group_at(scene_, instance.group), number, &instance.world_from_object0, range.first_row);
+        return !instance.moving && add_group(flat::group_at(scene_, instance.group), number, range.first_row);
     }
 
     // Whether all of the group can be listed.
-    bool add_group(const flat::Group& group, std::uint64_t first_number, const Transform* matrix,
-                   std::uint32_t instance) {
-        for (std::uint32_t i = 0; i < group.range_count; ++i) {
-            const PrimitiveRange& range = scene_.ranges[group.first_range + i];
+    bool add_group(const flat::Group& group, std::uint64_t first_number, std::optional<std::uint32_t> instance) {
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, group)) {
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance) {
-                if (matrix || !add_instance(range, number)) return false;
+                if (instance || !add_instance(range, number)) return false;
                 continue;
             }
             if (range.kind == PrimitiveKind::medium) continue;  // apart
             for (std::uint64_t e = 0; e < range.count; ++e)
-                if (!add(range, static_cast<std::uint32_t>(e), number + e, matrix, instance)) return false;
+                if (!add(range, static_cast<std::uint32_t>(e), number + e, instance)) return false;
         }
         return true;
     }
 
-    bool add(const PrimitiveRange& range, std::uint32_t element, std::uint64_t number, const Transform* matrix,
-             std::uint32_t instance) {
+    bool add(const PrimitiveRange& range, std::uint32_t element, std::uint64_t number,
+             std::optional<std::uint32_t> instance) {
         if (entries_.size() == PrimitiveList::kMost) return false;
         PrimitiveList::Entry e;
         e.kind = range.kind, e.number = number, e.row = range.first_row + element;
-        e.is_instanced = matrix != nullptr, e.instance = instance;
+        e.is_instanced = instance.has_value(), e.instance = instance.value_or(0);
         switch (range.kind) {
             case PrimitiveKind::quad: {
                 const flat::Quad& q = scene_.quads[e.row];
@@ -136,7 +133,7 @@ private:
                 break;
             }
             case PrimitiveKind::sphere: {
-                if (matrix) return false;
+                if (instance) return false;
                 const flat::Sphere& s = scene_.spheres[e.row];
                 e.corner = s.center, e.radius = std::abs(s.radius);
                 break;
@@ -146,14 +143,15 @@ private:
             case PrimitiveKind::foreign:
             case PrimitiveKind::medium: return false;
         }
-        if (matrix) {
+        if (instance) {
+            const Transform& matrix = scene_.instances[*instance].world_from_object0;
             const double size = max_abs(e.corner) + max_abs(e.edge_u) + max_abs(e.edge_v);
-            for (const auto& m : matrix->rows) {
+            for (const auto& m : matrix.rows) {
                 const double most = sum_abs({m[0], m[1], m[2]}) * size + std::abs(m[3]);
                 e.error = std::max(e.error, kInstanceError * most);
             }
-            e.corner = transform_point(*matrix, e.corner);
-            e.edge_u = transform_vector(*matrix, e.edge_u), e.edge_v = transform_vector(*matrix, e.edge_v);
+            e.corner = transform_point(matrix, e.corner);
+            e.edge_u = transform_vector(matrix, e.edge_u), e.edge_v = transform_vector(matrix, e.edge_v);
         }
         if (!(e.kind == PrimitiveKind::sphere ? e.radius > kSmallest * root_.extent : is_plane_clear(e))) return false;
         entries_.push_back(e);

@@ -15,6 +15,8 @@ bool list_all(flat::Scene& scene);
 struct Candidate {
     flat::Reference reference;
     Box box;
+    double packed_error = 0;  // how far its numbers move when they are packed as float
+    std::uint32_t index = 0;  // in the tree
 };
 
 // Fills Scene::list with the candidates that are so large beside the rest that most rays would come upon them in a

@@ -1,14 +1,11 @@
 #include "compile/pack.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
-#include <limits>
 
+#include "accel/parallel.h"
 #include "limn/core/error.h"
 #include "predicates/mesh_triangle.h"
 
@@ -30,42 +27,40 @@ public:
 
     flat::Child pack() {
         if (bvh_.nodes.empty()) return flat::kNothing;
-        for_all(bvh_.leaves.size(), [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
+        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
         place_leaves();
-        const auto root = static_cast<std::uint32_t>(scene_.nodes.size());
-        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == accel::WideNode::kAbsent;
-        for_all(bvh_.leaves.size(), [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
-        if (is_lone) return flat::kLeaf | static_cast<flat::Child>(places_[0] / 2);
-        scene_.nodes.resize(root + bvh_.nodes.size());
-        for_all(bvh_.nodes.size(), [&](std::size_t i) { scene_.nodes[root + i] = node(bvh_.nodes[i], root); });
-        return root;
+        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
+        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
+        if (is_lone) return leaf_at(0);
+        return append_nodes();
     }
 
 private:
-    template <class Body>
-    static void for_all(std::size_t count, const Body& body) {
-        using Range = oneapi::tbb::blocked_range<std::size_t>;
-        oneapi::tbb::parallel_for(Range(0, count, 1024), [&](const Range& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-        });
-    }
+    static constexpr std::size_t kGrain = 1024;  // nodes or leaves
 
-    const PrimitiveRange& range_of(std::uint32_t id) const { return scene_.ranges[references_[id].range]; }
+    // Where a leaf's blocks begin, and where its references.
+    struct Place {
+        std::size_t word;
+        std::uint32_t reference;
+    };
+
+    // Of the primitive with an index of the tree.
+    const PrimitiveRange& range_of(std::uint32_t index) const { return scene_.ranges[references_[index].range]; }
 
     void sort_by_kind(const accel::Leaf& leaf) {
-        const auto kind_of = [&](std::uint32_t id) { return range_of(id).kind; };
-        const std::span ids = std::span(bvh_.ids).subspan(leaf.first, leaf.count);
-        if (std::ranges::is_sorted(ids, {}, kind_of)) return;
-        std::ranges::sort(ids, {}, [&](std::uint32_t id) { return std::pair(kind_of(id), id); });
+        const auto kind_of = [&](std::uint32_t index) { return range_of(index).kind; };
+        const std::span indices = std::span(bvh_.indices).subspan(leaf.first, leaf.count);
+        if (std::ranges::is_sorted(indices, {}, kind_of)) return;
+        std::ranges::sort(indices, {}, [&](std::uint32_t index) { return std::pair(kind_of(index), index); });
     }
 
-    // How many of the ids from `first` on share a block. `last`: where the leaf ends.
+    // How many of the indices from `first` on share a block. `last`: where the leaf ends.
     std::uint32_t block_size(std::uint32_t first, std::uint32_t last) const {
-        const flat::Reference& reference = references_[bvh_.ids[first]];
-        const PrimitiveKind kind = range_of(bvh_.ids[first]).kind;
+        const flat::Reference& reference = references_[bvh_.indices[first]];
+        const PrimitiveKind kind = range_of(bvh_.indices[first]).kind;
         std::uint32_t end = first + 1;
         while (end < last && end - first < flat::kMaxBlock) {
-            const flat::Reference& next = references_[bvh_.ids[end]];
+            const flat::Reference& next = references_[bvh_.indices[end]];
             const bool same =
                 kind == PrimitiveKind::mesh ? next.range == reference.range : scene_.ranges[next.range].kind == kind;
             if (!same) break;
@@ -74,12 +69,12 @@ private:
         return end - first;
     }
 
-    // visit(first id, count, kind) for each block of a leaf.
+    // visit(first index, count, kind) for each block of a leaf.
     template <class Visit>
     void for_each_block(const accel::Leaf& leaf, const Visit& visit) const {
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count;) {
             const std::uint32_t count = block_size(i, leaf.first + leaf.count);
-            visit(i, count, range_of(bvh_.ids[i]).kind);
+            visit(i, count, range_of(bvh_.indices[i]).kind);
             i += count;
         }
     }
@@ -87,12 +82,10 @@ private:
     void place_leaves() {
         std::size_t end = scene_.blocks.size(), references = scene_.references.size();
         if (end > 0) end -= flat::kSlackWords;
-        places_.resize(bvh_.leaves.size());
-        first_reference_.resize(bvh_.leaves.size());
-        for (std::size_t i = 0; i < bvh_.leaves.size(); ++i) {
-            places_[i] = end;
-            first_reference_[i] = static_cast<std::uint32_t>(references);
-            for_each_block(bvh_.leaves[i], [&](std::uint32_t, std::uint32_t count, PrimitiveKind kind) {
+        places_.reserve(bvh_.leaves.size());
+        for (const accel::Leaf& leaf : bvh_.leaves) {
+            places_.push_back({end, static_cast<std::uint32_t>(references)});
+            for_each_block(leaf, [&](std::uint32_t, std::uint32_t count, PrimitiveKind kind) {
                 end += flat::words_of(kind, count);
                 if (kind != PrimitiveKind::mesh) references += count;
             });
@@ -102,21 +95,21 @@ private:
         scene_.references.resize(references);
     }
 
-    void write_leaf(const accel::Leaf& leaf, std::size_t at) {
-        std::uint32_t reference = first_reference_[static_cast<std::size_t>(&leaf - bvh_.leaves.data())];
+    void write_leaf(const accel::Leaf& leaf, Place place) {
+        auto [at, reference] = place;
         for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
             std::uint32_t* words = scene_.blocks.data() + at;
             const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,
-                                     0, references_[bvh_.ids[first]].range};
+                                     0, references_[bvh_.indices[first]].range};
             const auto head = std::bit_cast<std::array<std::uint32_t, 2>>(header);
             words[0] = head[0], words[1] = head[1];
             std::uint32_t* ids = words + flat::kHeaderWords;
             const std::size_t row_count = flat::rows_of(kind);
             for (std::uint32_t i = 0; i < count; ++i) {
-                const flat::Reference& r = references_[bvh_.ids[first + i]];
+                const flat::Reference& r = references_[bvh_.indices[first + i]];
                 ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
                 if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
-                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.ids[first + i]]);
+                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.indices[first + i]]);
                 for (std::size_t row = 0; row < row_count; ++row)
                     ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
             }
@@ -175,37 +168,35 @@ private:
         return rows;
     }
 
-    flat::Node node(const accel::WideNode& from, std::uint32_t root) const {
-        static_assert(flat::kWidth == accel::kWidth);
-        flat::Node to;
-        for (std::size_t i = 0; i < flat::kWidth; ++i) {
-            for (std::size_t a = 0; a < 3; ++a)
-                to.planes[a][i] = from.lower[a][i], to.planes[3 + a][i] = from.upper[a][i];
-            const std::uint32_t child = from.child[i];
-            if (child == accel::WideNode::kAbsent)
-                to.child[i] = flat::kNothing;
-            else if (child & accel::WideNode::kLeaf)
-                to.child[i] = flat::kLeaf | static_cast<flat::Child>(places_[child & ~accel::WideNode::kLeaf] / 2);
-            else
-                to.child[i] = root + child;
-            to.order[i] = 0;
-            for (std::size_t k = 0; k < flat::kWidth; ++k)
-                to.order[i] |= (from.order[i] >> (4 * k) & 15) << (4 * (flat::kWidth - 1 - k));
-        }
-        return to;
+    // Returns where they begin.
+    flat::Child append_nodes() {
+        const auto root = static_cast<flat::Child>(scene_.nodes.size());
+        if (root == 0)
+            scene_.nodes = std::move(bvh_.nodes);
+        else
+            scene_.nodes.insert(scene_.nodes.end(), bvh_.nodes.begin(), bvh_.nodes.end());
+        accel::for_all(root, scene_.nodes.size(), kGrain, [&](std::size_t i) {
+            for (flat::Child& child : scene_.nodes[i].child) {
+                if (child == flat::kNothing) continue;
+                const bool is_leaf = (child & flat::kLeaf) != 0;
+                child = is_leaf ? leaf_at(child & ~flat::kLeaf) : root + child;
+            }
+        });
+        return root;
     }
+
+    flat::Child leaf_at(std::size_t row) const { return flat::kLeaf | static_cast<flat::Child>(places_[row].word / 2); }
 
     accel::WideBvh& bvh_;
     std::span<const accel::FloatBox> boxes_;
     std::span<const flat::Reference> references_;
     flat::Scene& scene_;
-    std::vector<std::size_t> places_;             // of leaves, in words
-    std::vector<std::uint32_t> first_reference_;  // of leaves
+    std::vector<Place> places_;  // of leaves
 };
 
 }  // namespace
 
-flat::Child pack_tree(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes,
+flat::Child pack_tree(accel::WideBvh bvh, std::span<const accel::FloatBox> boxes,
                       std::span<const flat::Reference> references, flat::Scene& scene) {
     return Packer(bvh, boxes, references, scene).pack();
 }

@@ -7,9 +7,9 @@
 
 namespace limn::compiler {
 
-// Appends the tree and the blocks of its leaves to the scene; the root. `references`: what the boxes were made from.
-// The ids of a leaf are sorted by kind.
-flat::Child pack_tree(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes,
+// Moves the tree and the blocks of its leaves to the scene; the root. `references`: what the boxes were made from.
+// The primitives of a leaf are sorted by kind.
+flat::Child pack_tree(accel::WideBvh bvh, std::span<const accel::FloatBox> boxes,
                       std::span<const flat::Reference> references, flat::Scene& scene);
 
 }  // namespace limn::compiler

@@ -15,8 +15,8 @@ std::vector<bool> groups_that_reach(const flat::Scene& scene, const Wanted& want
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t g = scene.groups.size(); g-- > 0;) {
-            for (std::uint32_t i = 0; i < scene.groups[g].range_count && !reaches[g]; ++i) {
-                const PrimitiveRange& range = scene.ranges[scene.groups[g].first_range + i];
+            for (const PrimitiveRange& range : flat::ranges_of(scene, scene.groups[g])) {
+                if (reaches[g]) break;
                 const bool found = range.kind == PrimitiveKind::instance
                                        ? reaches[static_cast<std::size_t>(scene.instances[range.first_row].group)]
                                        : wanted(range);

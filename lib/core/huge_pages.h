@@ -25,6 +25,10 @@ struct HugePageAllocator {
     friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
 };
 
+struct HugePageDeleter {
+    void operator()(void* memory) const noexcept { free_huge_pages(memory); }
+};
+
 template <class T>
 using HugeVector = std::vector<T, HugePageAllocator<T>>;
 

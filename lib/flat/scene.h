@@ -167,4 +167,8 @@ TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 
+inline std::span<const PrimitiveRange> ranges_of(const Scene& s, const Group& group) {
+    return std::span(s.ranges).subspan(group.first_range, group.range_count);
+}
+
 }  // namespace limn::flat

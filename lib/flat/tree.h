@@ -6,27 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "accel/node.h"
 #include "limn/records.h"
 #include "predicates/mesh_triangle.h"
 
 namespace limn::flat {
 
-inline constexpr std::size_t kWidth = 8;
-
-// What a node refers to: another node, a leaf, or nothing.
-using Child = std::uint32_t;
-inline constexpr Child kLeaf = 0x80000000u;  // bit: the rest is where the leaf starts, in pairs of words
-inline constexpr Child kNothing = 0xffffffffu;
-
-// Boxes are scaled by Group::scale and rounded outward to float.
-struct alignas(64) Node {
-    float planes[6][kWidth];  // of the children: lower x y z, upper x y z; of an absent one +infinity and -infinity
-    Child child[kWidth];
-    // By the signs of a ray's direction, bit a for a negative direction[a]: the children as such rays tend to meet
-    // them, four bits each, the FARTHEST lowest, absent ones first.
-    std::uint32_t order[kWidth];
-};
-static_assert(sizeof(Node) == 256);
+// Boxes are scaled by Group::scale and rounded outward to float. A leaf is named by where its first block starts, in
+// pairs of words.
+using accel::Node, accel::Child, accel::kLeaf, accel::kNothing, accel::kWidth;
 
 // The primitives of a leaf, or some of them, all of one kind. In words of 32 bits: this header; an id for each; rows of
 // floats, one number for each primitive in a row; a word of padding if the sum is odd. SIMD reads past the end of a

@@ -62,17 +62,17 @@ TEST_CASE("best_split: of all splits along all axes it takes the one of least co
             const int count = draw_int(2, 10);
             const auto leaf_width = static_cast<std::uint32_t>(draw_int(1, 4));
             const std::vector<FloatBox> boxes = draw_boxes(count);
-            std::vector<accel::Reference> references;
-            for (const FloatBox& b : boxes) references.emplace_back(accel::to_bounds(b), 7 + references.size());
-            const accel::Range range = accel::range_over(references.data(), 0, static_cast<std::uint32_t>(count));
-            const accel::Split split = accel::best_split(references.data(), range, leaf_width);
+            std::vector<accel::BuildPrimitive> primitives;
+            for (const FloatBox& b : boxes) primitives.emplace_back(accel::to_bounds(b), 7 + primitives.size());
+            const accel::Range range = accel::range_over(primitives.data(), 0, static_cast<std::uint32_t>(count));
+            const accel::Split split = accel::best_split(primitives.data(), range, leaf_width);
             double least = INFINITY;
             for (std::size_t axis = 0; axis < 3; ++axis)
                 for (std::size_t middle = 1; middle < boxes.size(); ++middle)
                     least = std::min(least, cut_at(boxes, axis, middle, leaf_width).cost);
             RC_ASSERT(split.exists());
-            std::vector<accel::Reference> sorted(references.size());
-            const std::uint32_t middle = accel::partition(references.data(), sorted.data(), range, split);
+            std::vector<accel::BuildPrimitive> sorted(primitives.size());
+            const std::uint32_t middle = accel::partition(primitives.data(), sorted.data(), range, split);
             const Cut chosen = cut_at(boxes, static_cast<std::size_t>(split.axis), middle, leaf_width);
             // All that is said of sides, the builder says of sides longer by 2^-12 of the longest; its rounding is
             // less.
@@ -87,7 +87,7 @@ TEST_CASE("best_split: of all splits along all axes it takes the one of least co
             for (std::uint32_t i = 0; i < sorted.size(); ++i) {
                 const FloatBox box = accel::to_box(sorted[i].bounds());
                 RC_ASSERT(test::contains(i < middle ? chosen.lower : chosen.upper, box));
-                numbers |= 1u << (sorted[i].id() - 7);
+                numbers |= 1u << (sorted[i].index() - 7);
             }
             RC_ASSERT(numbers == (1u << count) - 1);
         },

@@ -14,8 +14,8 @@
 
 using namespace limn;
 using accel::FloatBox;
+using accel::Node;
 using accel::WideBvh;
-using accel::WideNode;
 
 namespace {
 
@@ -38,8 +38,8 @@ struct Triangles final : accel::Clip {
         }
         return boxes;
     }
-    Parts cut(std::uint32_t id, const FloatBox& box, int axis, float position) const override {
-        return accel::clip_triangle(corners[id].at, box, axis, position);
+    Parts cut(std::uint32_t primitive, const FloatBox& box, int axis, float position) const override {
+        return accel::clip_triangle(corners[primitive].at, box, axis, position);
     }
 };
 
@@ -115,7 +115,8 @@ TEST_CASE("clip_triangle: no point of the triangle in the box is lost, in exact 
     CHECK(crossings > 1000);
 }
 
-TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and empty on a side where nothing is", "[accel]") {
+TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and empty on a side where nothing is",
+          "[accel]") {
     const Corners c{{{0, 0, 0}, {4, 0, 0}, {0, 4, 2}}};
     const FloatBox all{{0, 0, 0}, {4, 4, 2}};
     const auto is_near = [](const FloatBox& part, const FloatBox& expected) {
@@ -141,37 +142,39 @@ TEST_CASE("clip_triangle: parts are what the plane leaves, hardly wider, and emp
 TEST_CASE("WideBvh: with spatial splits every point of a triangle is in a leaf that lists it", "[accel]") {
     const Triangles triangles = needles(3000);
     const std::vector<FloatBox> boxes = triangles.boxes();
-    const WideBvh bvh = accel::build_wide_bvh(boxes, {.spatial_splits = true}, &triangles);
+    const WideBvh bvh = accel::build_wide_bvh(boxes, {}, &triangles);
     std::vector<std::vector<FloatBox>> leaves(boxes.size());  // of each triangle
-    for (const WideNode& node : bvh.nodes)
+    for (const Node& node : bvh.nodes)
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot) {
-            if (node.child[slot] == WideNode::kAbsent || (node.child[slot] & WideNode::kLeaf) == 0) continue;
-            const accel::Leaf leaf = bvh.leaves[node.child[slot] & ~WideNode::kLeaf];
+            if (node.child[slot] == accel::kNothing || (node.child[slot] & accel::kLeaf) == 0) continue;
+            const accel::Leaf leaf = bvh.leaves[node.child[slot] & ~accel::kLeaf];
             for (std::uint32_t i = 0; i < leaf.count; ++i)
-                leaves[bvh.ids[leaf.first + i]].push_back(test::box_of(node, slot));
+                leaves[bvh.indices[leaf.first + i]].push_back(test::box_of(node, slot));
         }
-    for (std::size_t id = 0; id < boxes.size(); ++id)
+    for (std::size_t index = 0; index < boxes.size(); ++index)
         for (int i = 0; i <= 32; ++i)
             for (const int j : {0, (32 - i) / 2, 32 - i}) {
                 std::array<Exact, 3> point{};
-                const auto& at = triangles.corners[id].at;
+                const auto& at = triangles.corners[index].at;
                 for (std::size_t a = 0; a < 3; ++a)
                     point[a] = Exact(i) * at[0][a] + Exact(j) * at[1][a] + Exact(32 - i - j) * at[2][a];
                 const auto holds = [&](const FloatBox& box) { return holds_point(box, point, 32); };
-                REQUIRE(std::any_of(leaves[id].begin(), leaves[id].end(), holds));
+                REQUIRE(std::any_of(leaves[index].begin(), leaves[index].end(), holds));
             }
 }
 
-TEST_CASE("WideBvh: spatial splits make trees cheaper, with no more references than there is room for", "[accel]") {
+TEST_CASE("WideBvh: spatial splits make trees cheaper, with no more primitives than there is room for", "[accel]") {
     for (const std::size_t count : {500u, 20'000u}) {
         const Triangles triangles = needles(count);
         const std::vector<FloatBox> boxes = triangles.boxes();
-        const accel::BuildSettings settings{.leaf_width = 4, .spatial_splits = true, .room = 0.25};
+        const accel::BuildSettings settings{.leaf_width = 4, .room = 0.25};
         const WideBvh bvh = accel::build_wide_bvh(boxes, settings, &triangles);
-        test::TreeCheck(bvh, boxes, settings).run();
-        CHECK(bvh.ids.size() > count);
-        CHECK(bvh.ids.size() <= count + count / 4);
-        CHECK(bvh.cost < 0.97 * accel::build_wide_bvh(boxes, {.leaf_width = 4}, &triangles).cost);
+        test::TreeCheck(bvh, boxes, settings, true).run();
+        std::size_t in_leaves = 0;
+        for (const accel::Leaf& leaf : bvh.leaves) in_leaves += leaf.count;
+        CHECK(in_leaves > count);
+        CHECK(in_leaves <= count + count / 4);
+        CHECK(bvh.cost < 0.97 * accel::build_wide_bvh(boxes, {.leaf_width = 4}).cost);
     }
 }
 
@@ -183,8 +186,7 @@ TEST_CASE("WideBvh: spatial splits give the same bits on any number of threads",
     WideBvh first;
     for (const int threads : {1, 2, 7}) {
         tbb::task_arena arena(threads);
-        const WideBvh bvh =
-            arena.execute([&] { return accel::build_wide_bvh(boxes, {.spatial_splits = true}, &triangles); });
+        const WideBvh bvh = arena.execute([&] { return accel::build_wide_bvh(boxes, {}, &triangles); });
         if (threads == 1) first = bvh;
         CHECK(test::same_bits(first, bvh));
     }

@@ -5,7 +5,7 @@
 #include "catch.h"
 
 using namespace limn;
-using accel::Reference;
+using accel::BuildPrimitive;
 using accel::SplitNode;
 
 namespace {
@@ -20,20 +20,20 @@ TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the re
           "[accel]") {
     for (const float side : {1.0f, -1.0f})
         for (const int above : {1, 20}) {
-            std::vector<Reference> references;
+            std::vector<BuildPrimitive> primitives;
             for (int power = -140; power < 120; ++power) {
                 const float x = std::ldexp(side, power), low = std::min(x, 1.1f * x), high = std::max(x, 1.1f * x);
-                references.emplace_back(accel::to_bounds({{low, low, low}, {high, high, high}}),
-                                        static_cast<std::uint32_t>(references.size()));
+                primitives.emplace_back(accel::to_bounds({{low, low, low}, {high, high, high}}),
+                                        static_cast<std::uint32_t>(primitives.size()));
             }
-            const auto size = static_cast<std::uint32_t>(references.size());
+            const auto size = static_cast<std::uint32_t>(primitives.size());
             const accel::BuildSettings settings{.max_leaf = 1, .leaf_width = 1};
-            std::vector<std::uint32_t> ids(size);
-            std::vector<Reference> spare(size);
+            std::vector<std::uint32_t> indices(size);
+            std::vector<BuildPrimitive> spare(size);
             SplitNode root;
             const accel::Splitting splitting{settings};
-            accel::SubtreeBuilder builder(splitting, ids.data());
-            builder.build(references.data(), spare.data(), accel::range_over(references.data(), 0, size), above, root);
+            accel::SubtreeBuilder builder(splitting, indices.data());
+            builder.build(primitives.data(), spare.data(), accel::range_over(primitives.data(), 0, size), above, root);
             const int depth = above - 1 + depth_of(root);
             CHECK(depth <= accel::kMaxSplitDepth);
             CHECK(depth > accel::kMaxSplitDepth - 5);

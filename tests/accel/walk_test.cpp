@@ -58,15 +58,15 @@ TEST_CASE("for_each_met: a ray visits every box that it meets, and far fewer tha
             const Ray ray{{size * unit(random), size * unit(random), size * unit(random)},
                           {unit(random), unit(random), unit(random)}};
             std::set<std::uint32_t> visited;
-            tree.walk(ray, [&](std::uint32_t id) {
-                visited.insert(id);
+            tree.walk(ray, [&](std::uint32_t index) {
+                visited.insert(index);
                 return ray.t_max;
             });
             visits += visited.size();
             const accel::SlabRay slab(ray, tree.extent);
-            for (std::uint32_t id = 0; id < boxes.size(); ++id) {
+            for (std::uint32_t index = 0; index < boxes.size(); ++index) {
                 double near = 0;
-                if (slab.meets(boxes[id], ray.t_max, near)) REQUIRE(visited.count(id) == 1);
+                if (slab.meets(boxes[index], ray.t_max, near)) REQUIRE(visited.count(index) == 1);
             }
         }
         CHECK(visits < boxes.size() / 20 * rays);
@@ -82,8 +82,8 @@ TEST_CASE("for_each_met: nearer boxes are visited first, and none beyond what vi
             const Ray ray{.origin = {2.0 * from + 0.5 - way, 0.5, 0.5}, .direction = {way, 0, 0}};
             const int last = way > 0 ? 63 : 0;
             std::vector<std::uint32_t> visited;
-            tree.walk(ray, [&](std::uint32_t id) {
-                visited.push_back(id);
+            tree.walk(ray, [&](std::uint32_t index) {
+                visited.push_back(index);
                 return kInfinity;
             });
             std::vector<std::uint32_t> expected;

@@ -31,9 +31,9 @@ inline bool contains(const accel::FloatBox& outer, const accel::FloatBox& inner)
     return true;
 }
 
-inline accel::FloatBox box_of(const accel::WideNode& node, std::size_t slot) {
-    return {{node.lower[0][slot], node.lower[1][slot], node.lower[2][slot]},
-            {node.upper[0][slot], node.upper[1][slot], node.upper[2][slot]}};
+inline accel::FloatBox box_of(const accel::Node& node, std::size_t slot) {
+    return {{node.planes[0][slot], node.planes[1][slot], node.planes[2][slot]},
+            {node.planes[3][slot], node.planes[4][slot], node.planes[5][slot]}};
 }
 
 inline double half_area(const accel::FloatBox& b) {
@@ -50,67 +50,77 @@ inline accel::FloatBox merged(const std::vector<accel::FloatBox>& boxes) {
     return all;
 }
 
+// Of everything. \pre there is a node
+inline accel::FloatBox bounds_of(const accel::WideBvh& bvh) {
+    std::vector<accel::FloatBox> boxes;
+    for (std::size_t slot = 0; slot < accel::kWidth; ++slot) boxes.push_back(box_of(bvh.nodes.at(0), slot));
+    return merged(boxes);
+}
+
 // What a random ray that meets the root is expected to cost.
 inline double expected_cost(const accel::WideBvh& bvh, const accel::BuildSettings& settings) {
-    using accel::WideNode;
     double sum = settings.node_cost;
-    for (const WideNode& node : bvh.nodes)
-        for (std::size_t slot = 0; slot < accel::kWidth && node.child[slot] != WideNode::kAbsent; ++slot) {
-            const bool is_leaf = (node.child[slot] & WideNode::kLeaf) != 0;
-            const std::uint32_t count = is_leaf ? bvh.leaves[node.child[slot] & ~WideNode::kLeaf].count : 0;
+    for (const accel::Node& node : bvh.nodes)
+        for (std::size_t slot = 0; slot < accel::kWidth && node.child[slot] != accel::kNothing; ++slot) {
+            const bool is_leaf = (node.child[slot] & accel::kLeaf) != 0;
+            const std::uint32_t count = is_leaf ? bvh.leaves[node.child[slot] & ~accel::kLeaf].count : 0;
             const double cost =
                 is_leaf ? std::ceil(double(count) / settings.leaf_width) * settings.leaf_cost : settings.node_cost;
-            sum += cost * half_area(box_of(node, slot)) / half_area(bvh.bounds);
+            sum += cost * half_area(box_of(node, slot)) / half_area(bounds_of(bvh));
         }
     return sum;
 }
 
 inline bool same_bits(const accel::WideBvh& a, const accel::WideBvh& b) {
-    return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.ids == b.ids &&
-           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(accel::WideNode)) == 0 &&
+    return a.nodes.size() == b.nodes.size() && a.leaves.size() == b.leaves.size() && a.indices == b.indices &&
+           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(accel::Node)) == 0 &&
            std::memcmp(a.leaves.data(), b.leaves.data(), a.leaves.size() * sizeof(accel::Leaf)) == 0 &&
-           std::memcmp(&a.bounds, &b.bounds, sizeof a.bounds) == 0 && a.cost == b.cost && a.extent == b.extent;
+           a.cost == b.cost;
 }
 
 class TreeCheck {
 public:
     TreeCheck(const accel::WideBvh& bvh, const std::vector<accel::FloatBox>& boxes,
-              const accel::BuildSettings& settings)
-        : bvh_(bvh), boxes_(boxes), settings_(settings), seen_(boxes.size(), 0) {}
+              const accel::BuildSettings& settings, bool is_cut = false)
+        : bvh_(bvh),
+          boxes_(boxes),
+          settings_(settings),
+          is_cut_(is_cut),
+          is_in_leaf_(bvh.indices.size(), false),
+          seen_(boxes.size(), 0) {}
 
     // Returns how many nodes the longest path has.
     int run() {
-        const int depth = bvh_.nodes.empty() ? 0 : check(0, bvh_.bounds);
+        const int depth = bvh_.nodes.empty() ? 0 : check(0, bounds_of(bvh_));
         CHECK(depth <= accel::kMaxWideDepth);
         CHECK(next_leaf_ == bvh_.leaves.size());
         CHECK(nodes_ == bvh_.nodes.size());
         for (std::size_t i = 0; i < boxes_.size(); ++i)
-            REQUIRE((seen_[i] == (is_empty(boxes_[i]) ? 0 : 1) || (settings_.spatial_splits && seen_[i] > 1)));
+            REQUIRE((seen_[i] == (is_empty(boxes_[i]) ? 0 : 1) || (is_cut_ && seen_[i] > 1)));
         return depth;
     }
 
 private:
     int check(std::uint32_t row, const accel::FloatBox& around) {
-        using accel::WideNode;
-        const WideNode& node = bvh_.nodes.at(row);
+        const accel::Node& node = bvh_.nodes.at(row);
         ++nodes_;
         bool present = true;
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot) {
             const std::uint32_t child = node.child[slot];
-            if (child == WideNode::kAbsent) {
+            if (child == accel::kNothing) {
                 REQUIRE(slot > 0);
                 for (std::size_t a = 0; a < 3; ++a)
-                    REQUIRE((node.lower[a][slot] == INFINITY && node.upper[a][slot] == -INFINITY));
+                    REQUIRE((node.planes[a][slot] == INFINITY && node.planes[3 + a][slot] == -INFINITY));
                 present = false;
                 continue;
             }
             REQUIRE(present);  // present ones come first
             REQUIRE(contains(around, box_of(node, slot)));
-            if ((child & WideNode::kLeaf) != 0) check_leaf(child & ~WideNode::kLeaf, box_of(node, slot));
+            if ((child & accel::kLeaf) != 0) check_leaf(child & ~accel::kLeaf, box_of(node, slot));
         }
         int depth = 1;
         for (std::size_t slot = 0; slot < accel::kWidth; ++slot)
-            if ((node.child[slot] & WideNode::kLeaf) == 0)
+            if ((node.child[slot] & accel::kLeaf) == 0)
                 depth = std::max(depth, 1 + check(node.child[slot], box_of(node, slot)));
         return depth;
     }
@@ -118,22 +128,24 @@ private:
     void check_leaf(std::uint32_t row, const accel::FloatBox& box) {
         REQUIRE(row == next_leaf_++);
         const accel::Leaf leaf = bvh_.leaves.at(row);
-        REQUIRE(leaf.first == next_id_);
         REQUIRE((leaf.count > 0 && leaf.count <= settings_.max_leaf));
-        next_id_ += leaf.count;
         for (std::uint32_t i = 0; i < leaf.count; ++i) {
-            const std::uint32_t id = bvh_.ids.at(leaf.first + i);
-            if (i > 0) REQUIRE(bvh_.ids[leaf.first + i - 1] < id);
-            REQUIRE((settings_.spatial_splits || contains(box, boxes_.at(id))));
-            ++seen_[id];
+            const std::uint32_t index = bvh_.indices.at(leaf.first + i);
+            if (i > 0) REQUIRE(bvh_.indices[leaf.first + i - 1] < index);
+            REQUIRE((is_cut_ || contains(box, boxes_.at(index))));
+            REQUIRE(!is_in_leaf_[leaf.first + i]);
+            is_in_leaf_[leaf.first + i] = true;
+            ++seen_[index];
         }
     }
 
     const accel::WideBvh& bvh_;
     const std::vector<accel::FloatBox>& boxes_;
     const accel::BuildSettings& settings_;
+    const bool is_cut_;
+    std::vector<bool> is_in_leaf_;  // by place in the indices
     std::vector<int> seen_;
-    std::uint32_t next_leaf_ = 0, next_id_ = 0;
+    std::uint32_t next_leaf_ = 0;
     std::size_t nodes_ = 0;
 };
 

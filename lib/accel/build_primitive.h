@@ -1,4 +1,4 @@
-// What the builder moves about: boxes with their numbers, in two vectors of four floats.
+// What the builder moves about: boxes with the indices of their primitives, in two vectors of four floats.
 #pragma once
 
 #include <bit>
@@ -31,36 +31,36 @@ inline constexpr Vec4 kEndless{std::numeric_limits<float>::infinity(), std::nume
                                std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 inline constexpr Bounds kEmpty{kEndless, -kEndless};
 
-// A box, or a cell that many boxes have their centres in. The fourth lane of `lower` holds its number, that of `upper`
+// A box, or a cell that many boxes have their centres in. The fourth lane of `lower` holds the index, that of `upper`
 // how many boxes it stands for; the bits of the first make up no subnormal float, for arithmetic is done on all lanes
 // and is slow on those.
-struct Reference {
+struct BuildPrimitive {
     static constexpr std::uint32_t kNormal = 0x40000000u;
 
     Vec4 lower, upper;
 
-    Reference() = default;
-    Reference(const Bounds& b, std::uint32_t id, std::uint32_t weight = 1) : lower(b.lower), upper(b.upper) {
-        lower[3] = std::bit_cast<float>(id ^ kNormal);
+    BuildPrimitive() = default;
+    BuildPrimitive(const Bounds& b, std::uint32_t index, std::uint32_t weight = 1) : lower(b.lower), upper(b.upper) {
+        lower[3] = std::bit_cast<float>(index ^ kNormal);
         upper[3] = std::bit_cast<float>(weight);
     }
 
-    std::uint32_t id() const { return std::bit_cast<std::uint32_t>(lower[3]) ^ kNormal; }
+    std::uint32_t index() const { return std::bit_cast<std::uint32_t>(lower[3]) ^ kNormal; }
     std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(upper[3]); }
     Bounds bounds() const { return {lower, upper}; }
     Vec4 center() const { return lower + upper; }  // twice the centre; bounded boxes are small enough for the sum
 };
-static_assert(sizeof(Reference) == 32);
+static_assert(sizeof(BuildPrimitive) == 32);
 
-// References that stand together, and what surrounds them and their centres.
+// Build primitives that stand together, and what surrounds them and their centres.
 struct Range {
     std::uint32_t begin = 0, end = 0, room = 0;  // room: for how many more, from the end on
     Bounds bounds = kEmpty, centers = kEmpty;
 
     std::uint32_t size() const { return end - begin; }
-    void extend(const Reference& r) {
-        bounds.extend(r.bounds());
-        centers.extend({r.center(), r.center()});
+    void extend(const BuildPrimitive& p) {
+        bounds.extend(p.bounds());
+        centers.extend({p.center(), p.center()});
     }
     void extend(const Range& r) {
         bounds.extend(r.bounds);
@@ -72,13 +72,17 @@ inline Bounds to_bounds(const FloatBox& b) {
     return {Vec4{b.lower[0], b.lower[1], b.lower[2]}, Vec4{b.upper[0], b.upper[1], b.upper[2]}};
 }
 
+inline bool is_empty(const Bounds& b) {
+    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
+}
+
 inline FloatBox to_box(const Bounds& b) {
     return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}};
 }
 
-inline Range range_over(const Reference* references, std::uint32_t begin, std::uint32_t end) {
+inline Range range_over(const BuildPrimitive* primitives, std::uint32_t begin, std::uint32_t end) {
     Range range{begin, end, 0};
-    for (std::uint32_t i = begin; i < end; ++i) range.extend(references[i]);
+    for (std::uint32_t i = begin; i < end; ++i) range.extend(primitives[i]);
     return range;
 }
 
