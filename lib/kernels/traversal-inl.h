@@ -279,8 +279,7 @@ private:
     }
 
     bool foreign(const flat::Foreign& shape, std::uint64_t number) {
-        const FrameScope scope(frame_);  // it may consist of limn's own shapes
-        Ray rest = frame_.ray;
+        Ray rest = frame_.with_frame();  // it may consist of limn's own shapes
         rest.t_max = query_.limit();
         ForeignHit hit;
         while (shape.hit(*shape.object, rest, hit)) {

@@ -10,8 +10,6 @@ namespace limn {
 
 namespace {
 
-thread_local const RayFrame* current_frame = nullptr;
-
 // Beside the rounding of products that underflow.
 constexpr double kTiny = 0x1p-1000;
 
@@ -63,17 +61,13 @@ RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const T
     direction_error = lost.error * max_abs(d) + 1.25 * lost.norm * outer_frame.direction_error + kTiny;
 }
 
-FrameScope::FrameScope(const RayFrame& frame) : previous_(current_frame) { current_frame = &frame; }
-FrameScope::~FrameScope() { current_frame = previous_; }
-
 RayFrame frame_of(const Ray& ray) {
-    if (current_frame != nullptr && current_frame->ray.origin == ray.origin &&
-        current_frame->ray.direction == ray.direction) {
-        RayFrame frame = *current_frame;
-        frame.ray = ray;
-        return frame;
-    }
-    return RayFrame(ray);
+    const RayFrame* const known = ray.frame;
+    if (known == nullptr || known->ray.origin != ray.origin || known->ray.direction != ray.direction)
+        return RayFrame(ray);
+    RayFrame frame = *known;
+    frame.ray = ray;
+    return frame;
 }
 
 ExactRay exact_ray(const RayFrame& frame) {

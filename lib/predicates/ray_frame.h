@@ -39,30 +39,24 @@ struct RayFrame {
     const RayFrame* outer = nullptr;
     const Transform* world_from_object = nullptr;  // the instance between `outer` and here
 
-    explicit RayFrame(const Ray& r) : ray(r) {}
+    explicit RayFrame(const Ray& r) : ray(r) {}  // whatever r.frame says
 
     // The ray of `outer_frame` inside an instance. Both frame and matrix are kept by reference.
     RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
              const InverseError& lost);
     RayFrame(const RayFrame& outer_frame, const Transform& matrix)
         : RayFrame(outer_frame, matrix, inverse(matrix), inverse_error(matrix)) {}
+
+    // `ray` as a hit() is given it: inside instances it points to this frame, which must outlive that call.
+    Ray with_frame() const {
+        Ray r = ray;
+        r.frame = outer != nullptr ? this : nullptr;
+        return r;
+    }
 };
 
-// Makes `frame` known to shapes whose hit() is called from within an instance: an interface that passes only a Ray
-// cannot carry it. For the calling thread, until the scope ends.
-class FrameScope {
-public:
-    explicit FrameScope(const RayFrame& frame);
-    ~FrameScope();
-    FrameScope(const FrameScope&) = delete;
-    FrameScope& operator=(const FrameScope&) = delete;
-
-private:
-    const RayFrame* previous_;
-};
-
-// What `ray`, as handed to a hit(), stands for: the frame of the scope if that is its ray, else the ray itself. t_min
-// and t_max are those of `ray`.
+// What `ray`, as handed to a hit(), stands for: ray.frame if that is of this ray, else the ray itself. t_min and t_max
+// are those of `ray`.
 RayFrame frame_of(const Ray& ray);
 
 // A ray in homogeneous coordinates, exactly: origin / unit and direction / unit.

@@ -42,10 +42,8 @@ void on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t ele
     s.uv = texture_coordinates(mesh.arrays, element, planar);
 }
 
-void on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t, SurfaceHit& out) {
+void on_foreign(const flat::Foreign& shape, Ray ray, double t, SurfaceHit& out) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
-    const FrameScope scope(frame);
-    Ray ray = frame.ray;
     ray.t_max = t;
     ForeignHit foreign;
     out = {};
@@ -60,9 +58,9 @@ void on_foreign(const flat::Foreign& shape, const RayFrame& frame, double t, Sur
     out.index_matched = foreign.index_matched;
 }
 
-// `found`: by the search, which works out u and v too. `frame`: what the ray stands for, where a foreign shape asks.
-void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const RayFrame* frame,
-                  const PlanarHit& found, bool with_uv, SurfaceHit& out) {
+// `found`: by the search, which works out u and v too.
+void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const PlanarHit& found,
+                  bool with_uv, SurfaceHit& out) {
     Surface& surface = out.surface;
     const PrimitiveRange& range = scene.ranges[place.range];
     const std::size_t row = range.first_row + place.element;
@@ -85,7 +83,7 @@ void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray&
         }
         case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found, surface);
         case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], *frame, found.t, out);
+            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], ray, found.t, out);
             break;
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
@@ -111,10 +109,8 @@ void leave_instance(const flat::Instance& instance, double time, Surface& hit) {
 }
 
 // What foreign shapes need to know of a ray, and what is enough for others.
-const Ray& ray_of(const RayFrame& frame) { return frame.ray; }
+Ray ray_of(const RayFrame& frame) { return frame.with_frame(); }
 const Ray& ray_of(const Ray& ray) { return ray; }
-const RayFrame* frame_in(const RayFrame& frame) { return &frame; }
-const RayFrame* frame_in(const Ray&) { return nullptr; }
 
 template <class Visit>
 void step_inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
@@ -140,7 +136,7 @@ void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_
         leave_instance(instance, ray.time, out.surface);
         return;
     }
-    on_primitive(scene, place, ray, frame_in(outside), found, with_uv, out);
+    on_primitive(scene, place, ray, found, with_uv, out);
     // Whether the ray meets the outward side is asked here, where the normal is not transformed.
     out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }

@@ -70,8 +70,7 @@ std::optional<Hit> Instance::hit(const Ray& ray) const {
     const Transform m = moving_ ? interpolate(world_from_object0_, world_from_object1_, ray.time) : world_from_object0_;
     const Transform inv = inverse(m);
     const RayFrame outside = frame_of(ray), inside(outside, m, inv, inverse_error(m));
-    const FrameScope scope(inside);
-    std::optional<Hit> hit = object_->hit(inside.ray);
+    std::optional<Hit> hit = object_->hit(inside.with_frame());
     if (!hit) return std::nullopt;
     const auto to_world = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
     hit->normal = to_world(hit->normal);

@@ -7,6 +7,8 @@
 
 namespace limn {
 
+struct RayFrame;  // limn's own
+
 /// The half-open segment origin + t direction, t in (t_min, t_max]. The direction need not have unit length; t is in
 /// units of it. `time` is in shutter units, 0 to 1; times outside are clamped by whatever moves.
 struct Ray {
@@ -15,6 +17,11 @@ struct Ray {
     double t_min = 0;          ///< open: a hit at t_min is none
     double t_max = kInfinity;  ///< closed: a hit at t_max is one
     double time = 0;           ///< in shutter units
+    /// limn's own, null in a ray that you make: inside instances, what the rounded origin and direction stand for, so
+    /// that decisions are exact. Valid during the call of hit() that receives the ray. A copy with another t_min or
+    /// t_max keeps it; one with another origin or direction is another ray and taken as it is. Queries of a
+    /// CompiledScene take every ray as it is.
+    const RayFrame* frame = nullptr;
 
     /// The point at t, rounded.
     constexpr Point3 at(double t) const { return origin + t * direction; }

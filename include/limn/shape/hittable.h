@@ -39,7 +39,8 @@ public:
 
     /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure: asked again with
     /// another interval that holds the hit, and no nearer one, it answers with the same bits. Shapes are closed sets: a
-    /// tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses.
+    /// tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses. Who asks other shapes hands them
+    /// the ray or a copy (see Ray::frame).
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
     /// Writes what the object consists of. By default one foreign record, through which the compiled scene calls `hit`:
