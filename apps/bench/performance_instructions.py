@@ -1,4 +1,5 @@
-"""Instructions a ray, by callgrind, in builds of limn without one feature each.
+"""Instructions a ray, by callgrind, in builds of limn without one feature each: copies of the sources out of which the
+patches in apps/bench/without take it.
 
 Valgrind knows no AVX-512, so that it counts the code for AVX2; what this processor runs is timed, the two programs by
 turns.
@@ -11,25 +12,34 @@ import statistics
 import subprocess
 import sys
 
+import patches
 from machine import ROOT
 
-# What LIMN_WITHOUT calls them (lib/flat/features.h).
-FEATURES = ("motion", "media", "instances", "foreign", "textures", "normals")
 FUNCTION = re.compile(r"^\s*([\d,]+) .*?[:\s]measure_(\w+)(?:\s|$)")
 
 
-def build_without(feature, folder, say):
-    say(f"building without {feature}")
-    tree = folder / f"without-{feature}"
-    steps = [["cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-              f"-DLIMN_WITHOUT={feature}", "-DLIMN_BUILD_TESTS=OFF", "-DLIMN_BUILD_EXAMPLES=OFF",
-              "-DLIMN_WITH_OPENIMAGEIO=OFF", *(["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] * bool(shutil.which("ccache")))],
+def build(source, tree):
+    steps = [["cmake", "-S", source, "-B", tree, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+              "-DLIMN_BUILD_TESTS=OFF", "-DLIMN_BUILD_EXAMPLES=OFF", "-DLIMN_WITH_OPENIMAGEIO=OFF",
+              *(["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] * bool(shutil.which("ccache")))],
              ["cmake", "--build", tree, "--target", "limn_count_instructions"]]
     for step in steps:
         run = subprocess.run(step, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if run.returncode != 0:
             sys.exit(f"bench: {' '.join(map(str, step))}:\n{run.stdout}")
     return tree / "bin/limn_count_instructions"
+
+
+def build_without_features(folder, say):
+    """A program for each feature, by its name."""
+    source, programs = folder / "without/source", {}
+    patches.copy_tree(source)
+    for patch in patches.load(ROOT / "apps/bench/without"):
+        feature = patch.name.replace("_", " ")
+        say(f"building without {feature}")
+        with patch.applied(source):
+            programs[feature] = build(source, folder / "without" / patch.name)
+    return programs
 
 
 def count(program, folder, rays, *options):
@@ -77,8 +87,7 @@ def measure(folder, programs, full, say):
     result = {"whole": whole, "without": {},
               "foreign": {"counts": count(program, folder, rays, "--foreign"),
                           "times": time_by_turns((program, "--foreign"), (program,), timed, turns)}}
-    for feature in FEATURES:
-        lean = build_without(feature, folder, say)
+    for feature, lean in build_without_features(folder, say).items():
         result["without"][feature] = {"counts": count(lean, folder, rays),
                                       "times": time_by_turns((program,), (lean,), timed, turns)}
     return result

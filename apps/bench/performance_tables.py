@@ -7,8 +7,6 @@ from reports import stamp
 GOAL_DEFAULT, GOAL_ROBUST, GOAL_BATCH, GOAL_BUILD = 1.0, 1.3, 1.3, 1.0
 GOAL_SCALING, GOAL_BYTES, GOAL_INSTRUCTIONS = 1.9, 64, 1.01
 RATIOS = (("single_to_default", GOAL_DEFAULT), ("single_to_robust", GOAL_ROBUST), ("batch_to_best", GOAL_BATCH))
-LEAN = {"motion": "moving shapes", "media": "media", "instances": "instances", "foreign": "foreign shapes",
-        "textures": "textures", "normals": "smooth normals"}
 
 
 def is_plain_mesh(scene):
@@ -199,7 +197,7 @@ def instruction_section(raw):
         for n in names:
             more = measured["whole"][n] / lean["counts"][n]
             cells.append(marked(percent(more), more <= GOAL_INSTRUCTIONS) + f" ({median_text(lean['times'].get(n))})")
-        lines.append(f"| with code for {LEAN[feature]} | " + " | ".join(cells) + " |")
+        lines.append(f"| with code for {feature} | " + " | ".join(cells) + " |")
     foreign = measured["foreign"]
     def with_foreign(n):
         more = foreign["counts"][n] / measured["whole"][n]

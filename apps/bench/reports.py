@@ -31,8 +31,8 @@ FIGURES = ("apps/common", "examples/figures")
 BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt")
 # The suite in other builds than the usual one.
 CHECKED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "tests", "-*.py",
-           "-tests/mutants", "tests/checks")
-ALL = ("CMakeLists.txt", "cmake", "include", "lib", "apps", "examples", "-*.py")
+           "-apps/bench/without", "-tests/mutants", "tests/checks")
+ALL = ("CMakeLists.txt", "cmake", "include", "lib", "apps", "examples", "-*.py", "-apps/bench/without")
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,8 @@ class Report:
 # In the order in which they are best renewed: what needs a quiet machine first.
 REPORTS = (
     Report("performance", "docs/performance.md", "./build.sh bench", 20,
-           CORE + BENCH + ("apps/limn/bench.cpp", "apps/bench/performance.py",
-                           "apps/bench/performance_instructions.py")),
+           CORE + BENCH + ("apps/limn/bench.cpp", "apps/bench/performance.py", "apps/bench/patches.py",
+                           "apps/bench/performance_instructions.py", "apps/bench/without")),
     Report("convergence", "docs/speed-against-error.md", "./build.sh convergence", 40,
            CORE + BENCH + FIGURES + ("apps/bench/convergence_measure.py", "apps/bench/convergence_pictures.py",
                                      "apps/bench/convergence_renderers.py", "apps/bench/peers")),
@@ -68,7 +68,7 @@ REPORTS = (
     Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, CHECKED),
     Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, CHECKED),
     Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, CHECKED),
-    Report("mutants", "docs/mutants.md", "./build.sh mutants", 120, ALL + ("tests",)),
+    Report("mutants", "docs/mutants.md", "./build.sh mutants", 120, ALL + ("tests", "apps/bench/patches.py")),
 )
 
 COMMENTS = re.compile(r'//[^\n]*|/\*.*?\*/|R"(?P<end>[^(\s]*)\(.*?\)(?P=end)"|"(?:\\.|[^"\\\n])*"'

@@ -8,7 +8,6 @@
 #include "compile/groups.h"
 #include "compile/lights.h"
 #include "core/require.h"
-#include "limn/core/error.h"
 #include "predicates/plane_normal.h"
 
 namespace limn::compiler {
@@ -107,19 +106,6 @@ void gather_features(flat::Scene& s) {
         if (!s.feature_names.empty()) s.feature_names += ' ';
         s.feature_names += name;
     }
-}
-
-// A build without a feature must not answer as if the scene had none of it.
-void require_built(const flat::Features& f) {
-    const auto require_one = [](bool is_built, bool is_used, const char* what) {
-        if (is_used && !is_built) throw ArgumentError(std::string("this build of limn is without ") + what);
-    };
-    require_one(flat::kHasMotion, f.moving_spheres || f.moving_instances, "motion");
-    require_one(flat::kHasMedia, f.media, "media");
-    require_one(flat::kHasInstances, f.instances, "instances");
-    require_one(flat::kHasForeignShapes, f.foreign_shapes, "foreign shapes");
-    require_one(flat::kHasTextures, f.textures, "textures");
-    require_one(flat::kHasSmoothNormals, f.smooth_normals, "smooth normals");
 }
 
 // Meshes whose vertices are all that there is of them get places, to be filled with the tree.
@@ -230,7 +216,6 @@ flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     place_media(out);
     collect_lights(out);
     gather_features(out);
-    require_built(out.features);
     release_arrays(out);
     count_unassigned(out);
     out.memory_bytes = memory_of(out);

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/huge_pages.h"
-#include "flat/features.h"
 #include "flat/lights.h"
 #include "flat/list.h"
 #include "flat/tree.h"
@@ -129,7 +127,7 @@ struct Scene {
 
     std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and foreign objects
     Features features;
-    unsigned kinds = 0;  // of primitives in the trees: bit 1 << PrimitiveKind
+    unsigned kinds = 0;  // of primitives in the trees: see bit()
     std::string feature_names;
     Hash128 digest{};       // of what was compiled
     bool untagged = false;  // it has user-defined objects that the digest does not know
@@ -156,11 +154,6 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::
 
 // Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
-
-// None where they are not built.
-inline std::span<const Medium> media_of(const Scene& s) {
-    return kHasMedia ? std::span<const Medium>(s.media) : std::span<const Medium>();
-}
 
 // Exactly as described.
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);

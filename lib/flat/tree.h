@@ -52,6 +52,12 @@ constexpr std::size_t words_of(PrimitiveKind kind, std::size_t count) {
     return (kHeaderWords + count * (1 + rows_of(kind)) + 1) / 2 * 2;
 }
 
+// Sets of kinds: a bit for each.
+constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
+
+inline constexpr unsigned kPlanarKinds =
+    bit(PrimitiveKind::triangle) | bit(PrimitiveKind::quad) | bit(PrimitiveKind::mesh);
+
 // A block where it lies among the words.
 struct BlockView {
     const std::uint32_t* words;

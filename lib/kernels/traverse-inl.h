@@ -27,12 +27,11 @@ constexpr unsigned kinds(Kinds... kind) {
 
 // The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
 constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
-constexpr unsigned kMeshesAndAsked =
-    kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign) & flat::kBuiltKinds;
-constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere) & flat::kBuiltKinds;
+constexpr unsigned kMeshesAndAsked = kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign);
+constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
-constexpr unsigned kAll = flat::kBuiltKinds;
+constexpr unsigned kAll = ~0u;
 
 // visit(the smallest of the sets that has all kinds of the scene).
 template <class Visit>

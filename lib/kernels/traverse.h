@@ -49,7 +49,7 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
 // visit(frame) with the ray as an instance's group sees it, and the answer of that.
 template <class Visit>
 auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
-    if (!flat::kHasMotion || !instance.moving)
+    if (!instance.moving)
         return visit(RayFrame(outside, instance.world_from_object0, instance.object_from_world, instance.lost));
     const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.ray.time);
     return visit(RayFrame(outside, m));

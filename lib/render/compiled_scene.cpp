@@ -18,7 +18,7 @@ namespace {
 
 // Puts the hit of a medium's boundary in place of `best` where it comes first.
 [[gnu::noinline]] void nearer_boundary(const flat::Scene& scene, const Ray& ray, kernels::Hit& best) {
-    for (const flat::Medium& medium : flat::media_of(scene)) {
+    for (const flat::Medium& medium : scene.media) {
         Ray rest = ray;
         rest.t_max = std::min(ray.t_max, best.t);
         kernels::Hit hit = kernels::closest_boundary(scene, medium, rest);
@@ -28,7 +28,7 @@ namespace {
 }
 
 [[gnu::noinline]] bool meets_boundary(const flat::Scene& scene, const Ray& ray) {
-    return std::ranges::any_of(flat::media_of(scene), [&](const flat::Medium& medium) {
+    return std::ranges::any_of(scene.media, [&](const flat::Medium& medium) {
         return kernels::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
     });
 }
@@ -60,13 +60,13 @@ bool is_fit(const Ray& r) {
 // \pre is_usable(ray), as below. Inlined although batches with media call it too.
 [[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
     kernels::Hit hit = kernels::closest_hit(scene, ray);
-    if (!flat::media_of(scene).empty()) nearer_boundary(scene, ray, hit);
+    if (!scene.media.empty()) nearer_boundary(scene, ray, hit);
     if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
     return complete(scene, hit);
 }
 
 bool find_any(const flat::Scene& scene, const Ray& ray) {
-    return kernels::any_hit(scene, ray) || (!flat::media_of(scene).empty() && meets_boundary(scene, ray));
+    return kernels::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
 }
 
 // answer(first, count) for every run of rays that can be used, at most kernels::kMostRays long, and refuse(i) for each
@@ -113,7 +113,7 @@ bool CompiledScene::any_hit(const Ray& ray) const {
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
     const auto refuse = [&](std::size_t i) { hits[i] = {}; };
-    if (!flat::media_of(*scene_).empty())
+    if (!scene_->media.empty())
         return answer_runs(
             rays,
             [&](std::size_t first, std::size_t count) {
@@ -137,8 +137,7 @@ std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uin
     return answer_runs(
         rays,
         [&](std::size_t first, std::size_t count) {
-            if (flat::media_of(*scene_).empty())
-                return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
+            if (scene_->media.empty()) return kernels::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
             for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
         },
         [&](std::size_t i) { occluded[i] = 0; });

@@ -40,7 +40,7 @@ double Equiangular::pdf(double t) const {
     return 1 / (angle() * height_ * (1 + slope * slope));
 }
 
-LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empty() && !flat::media_of(scene).empty()) {
+LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empty() && !scene.media.empty()) {
     if (!any_) return;
     Vec3 half;
     if (scene.lights.nodes.empty()) {

@@ -59,7 +59,7 @@ void PathTracer::trace(std::span<Path> paths) {
 
 // A new segment.
 void PathTracer::begin(std::uint32_t path, const Ray& ray) {
-    if (!flat::media_of(scene_).empty()) {
+    if (!scene_.media.empty()) {
         Head& head = heads_[path];
         Sampler& sampler = paths_[path].sampler;
         sampler.seek(head.segment, Use::flight);
@@ -80,7 +80,7 @@ void PathTracer::find_hits() {
 
 // To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
 void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit) {
-    if (!flat::media_of(scene_).empty()) {
+    if (!scene_.media.empty()) {
         Head& head = heads_[path];
         Ray flight = ray;
         flight.t_max = hit.t;
@@ -188,7 +188,7 @@ void PathTracer::add_direct_light() {
     for (std::size_t i = 0; i < occluded_.size(); ++i) {
         if (occluded_[i] != 0) continue;
         Color light = arriving_[i];
-        if (!flat::media_of(scene_).empty()) {
+        if (!scene_.media.empty()) {
             media_.trace(scene_, shadows_.rays[i]);
             light = light * media_.transmittance();
         }

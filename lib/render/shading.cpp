@@ -12,7 +12,6 @@ namespace limn::tracing {
 
 Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
-    if constexpr (!flat::kHasTextures) return t.color;
     switch (t.kind) {
         case TextureKind::solid: return t.color;
         case TextureKind::checker:

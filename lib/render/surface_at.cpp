@@ -38,7 +38,7 @@ void on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t ele
              Surface& s) {
     on_triangle(triangle_of(scene, mesh, element), planar, s);
     if (!mesh.places.empty()) return;
-    if constexpr (flat::kHasSmoothNormals) s.shading_normal = shading_normal(mesh.arrays, element, planar, s.normal);
+    s.shading_normal = shading_normal(mesh.arrays, element, planar, s.normal);
     s.uv = texture_coordinates(mesh.arrays, element, planar);
 }
 
@@ -82,9 +82,7 @@ void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray&
             return on_plane(q.corner, q.edge_u, q.edge_v, scene.quad_normals[row], found, surface);
         }
         case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found, surface);
-        case PrimitiveKind::foreign:
-            if constexpr (flat::kHasForeignShapes) return on_foreign(scene.foreign[row], ray, found.t, out);
-            break;
+        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], ray, found.t, out);
         case PrimitiveKind::instance:
         case PrimitiveKind::medium: break;  // locate() goes through them
     }
@@ -92,14 +90,13 @@ void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray&
 
 // From the space of an instanced group to that around it.
 void leave_instance(const flat::Instance& instance, double time, Surface& hit) {
-    const bool moving = flat::kHasMotion && instance.moving;
     Transform m_now, inv_now;
-    if (moving) {
+    if (instance.moving) {
         m_now = interpolate(instance.world_from_object0, instance.world_from_object1, time);
         inv_now = inverse(m_now);
     }
-    const Transform& m = moving ? m_now : instance.world_from_object0;
-    const Transform& inv = moving ? inv_now : instance.object_from_world;
+    const Transform& m = instance.moving ? m_now : instance.world_from_object0;
+    const Transform& inv = instance.moving ? inv_now : instance.object_from_world;
     const auto outward = [&](const Normal3& n) { return Normal3(normalize(Vec3(transform_normal(inv, n)))); };
     hit.position = transform_point(m, hit.position);
     hit.position_error = transformed_error(m, inv, hit.position, hit.position_error);
@@ -118,8 +115,7 @@ void step_inside(const flat::Instance& instance, const RayFrame& outside, const 
 }
 template <class Visit>
 void step_inside(const flat::Instance& instance, const Ray& outside, const Visit& visit) {
-    if (!flat::kHasMotion || !instance.moving)
-        return visit(ray_inside(outside, instance.world_from_object0, instance.object_from_world));
+    if (!instance.moving) return visit(ray_inside(outside, instance.world_from_object0, instance.object_from_world));
     const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.time);
     visit(ray_inside(outside, m, inverse(m)));
 }
@@ -129,7 +125,7 @@ template <class RayOrFrame>
 void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayOrFrame& outside,
                 const PlanarHit& found, bool with_uv, SurfaceHit& out) {
     const Ray& ray = ray_of(outside);
-    if (flat::kHasInstances && level < place.depth) {
+    if (level < place.depth) {
         const flat::Instance& instance = scene.instances[place.instances[level]];
         step_inside(instance, outside,
                     [&](const RayOrFrame& inner) { hit_within(scene, place, level + 1, inner, found, with_uv, out); });

@@ -10,7 +10,6 @@ are then tried anew.
 
 import argparse
 import contextlib
-import filecmp
 import functools
 import hashlib
 import json
@@ -24,10 +23,11 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from mutant import ROOT, MutantError, load_mutants
+from mutant import load_mutants  # which finds apps/bench, where the others are
 
-sys.path.append(str(ROOT / "apps/bench"))
 import reports
+from machine import ROOT
+from patches import PatchError, copy_tree
 
 WORK = ROOT / "build/mutants"
 SOURCE = WORK / "source"
@@ -55,28 +55,10 @@ def run(*command):
         return process.returncode, output
 
 
-def copy_tree():
-    """Makes the copy equal to the tree. Files that are equal keep their times, so that little is built again."""
-    kept = set()
-    for folder, folders, files in os.walk(ROOT):
-        folders[:] = [f for f in folders if f not in (".git", "build", "__pycache__")]
-        for file in files:
-            origin = Path(folder, file)
-            copy = SOURCE / origin.relative_to(ROOT)
-            kept.add(copy)
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            if not copy.exists() or not filecmp.cmp(origin, copy, shallow=False):
-                shutil.copy(origin, copy)
-    for folder, folders, files in os.walk(SOURCE):
-        folders[:] = [f for f in folders if f != "build"]
-        for file in {Path(folder, f) for f in files} - kept:
-            file.unlink()
-
-
 def build(*targets):
     status, output = run("cmake", "--build", "--preset", "release", "--target", *targets)
     if status != 0:
-        raise MutantError("it does not build:\n" + "\n".join(output.splitlines()[-30:]))
+        raise PatchError("it does not build:\n" + "\n".join(output.splitlines()[-30:]))
 
 
 def failing(*options):
@@ -87,7 +69,7 @@ def failing(*options):
     failed = re.findall(r"^\s+\d+ - (.+) \((.+)\)$", output.partition("The following tests FAILED:")[2], re.MULTILINE)
     tests = [name + (" (hangs)" if why == "Timeout" else "") for name, why in failed if why != "Not Run"]
     if status != 0 and not tests:
-        raise MutantError("the tests do not run:\n" + "\n".join(output.splitlines()[-10:]))
+        raise PatchError("the tests do not run:\n" + "\n".join(output.splitlines()[-10:]))
     return tests
 
 
@@ -100,7 +82,7 @@ def order_quick_tests_first():
 
 def prepare(mutants, full):
     """Builds what is needed without a fault, and makes sure that it passes."""
-    copy_tree()
+    copy_tree(SOURCE)
     QUICK_FIRST.unlink(missing_ok=True)
     if shutil.which("ccache"):  # what is restored need not be compiled again; cmake reads it, here and in the suite
         os.environ["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
@@ -108,11 +90,11 @@ def prepare(mutants, full):
         os.environ.pop(longer, None)  # the short forms of the tests, whatever our own
     status, output = run("cmake", "--preset", "release", *FLAGS)
     if status != 0:
-        raise MutantError("cmake fails:\n" + output)
+        raise PatchError("cmake fails:\n" + output)
     build(*(["all"] if full else sorted({m.target() for m in mutants})))
     tests = failing() if full else failing("--tests-regex", "|".join(sorted({m.tests() for m in mutants})))
     if tests:
-        raise MutantError("without a fault these tests fail already: " + ", ".join(tests))
+        raise PatchError("without a fault these tests fail already: " + ", ".join(tests))
     order_quick_tests_first()
 
 
@@ -195,7 +177,7 @@ def kill(mutants, full, kept):
         print(f"[{number:3}/{len(mutants)}] {mutant.name:48} ", end="", flush=True)
         try:
             tests = killers(mutant, full)
-        except MutantError as error:
+        except PatchError as error:
             broken.append(mutant.name)
             print(f"ERROR: {error}")
             continue
@@ -215,7 +197,7 @@ def main():
     mutants = load_mutants()
     unknown = set(arguments.names) - {m.name for m in mutants}
     if unknown:
-        raise MutantError("unknown: " + ", ".join(sorted(unknown)))
+        raise PatchError("unknown: " + ", ".join(sorted(unknown)))
     head = reports.origin("mutants", "./build.sh mutants" + " --full" * arguments.full)
     WORK.mkdir(parents=True, exist_ok=True)
     kept = load_kept(mutants, arguments.full)
@@ -233,7 +215,7 @@ def main():
 if __name__ == "__main__":
     try:
         sys.exit(main())
-    except (MutantError, OSError) as problem:
+    except (PatchError, OSError) as problem:
         sys.exit(f"mutants: {problem}")
     except KeyboardInterrupt:
         sys.exit(130)
