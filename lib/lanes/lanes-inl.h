@@ -13,6 +13,12 @@
 #include <cstdint>
 #include <utility>
 
+// Also where nothing is optimised, as HWY_INLINE is not: g++ forgets the instruction set of functions that are defined
+// as friends of class templates.
+#ifndef LIMN_ALWAYS_INLINE
+#define LIMN_ALWAYS_INLINE inline __attribute__((always_inline))
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
@@ -22,10 +28,10 @@ template <class D>
 struct WideMask {
     hn::Mask<D> m;
 
-    friend HWY_INLINE WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.m, b.m)}; }
-    friend HWY_INLINE WideMask operator|(WideMask a, WideMask b) { return {hn::Or(a.m, b.m)}; }
-    friend HWY_INLINE WideMask operator^(WideMask a, WideMask b) { return {hn::Xor(a.m, b.m)}; }
-    friend HWY_INLINE WideMask operator!(WideMask a) { return {hn::Not(a.m)}; }
+    friend LIMN_ALWAYS_INLINE WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.m, b.m)}; }
+    friend LIMN_ALWAYS_INLINE WideMask operator|(WideMask a, WideMask b) { return {hn::Or(a.m, b.m)}; }
+    friend LIMN_ALWAYS_INLINE WideMask operator^(WideMask a, WideMask b) { return {hn::Xor(a.m, b.m)}; }
+    friend LIMN_ALWAYS_INLINE WideMask operator!(WideMask a) { return {hn::Not(a.m)}; }
 };
 
 template <class D>
@@ -39,30 +45,30 @@ struct Wide {
     HWY_INLINE Wide(hn::Vec<D> lanes) : v(lanes) {}
     HWY_INLINE Wide(Scalar x) : v(hn::Set(D(), x)) {}
 
-    friend HWY_INLINE Wide operator+(Wide a, Wide b) { return hn::Add(a.v, b.v); }
-    friend HWY_INLINE Wide operator-(Wide a, Wide b) { return hn::Sub(a.v, b.v); }
-    friend HWY_INLINE Wide operator*(Wide a, Wide b) { return hn::Mul(a.v, b.v); }
-    friend HWY_INLINE Wide operator/(Wide a, Wide b) { return hn::Div(a.v, b.v); }
-    friend HWY_INLINE Wide operator^(Wide a, Wide b) { return hn::Xor(a.v, b.v); }  // of bits
-    friend HWY_INLINE Wide operator-(Wide a) { return hn::Neg(a.v); }
-    friend HWY_INLINE WideMask<D> operator<(Wide a, Wide b) { return {hn::Lt(a.v, b.v)}; }
-    friend HWY_INLINE WideMask<D> operator<=(Wide a, Wide b) { return {hn::Le(a.v, b.v)}; }
-    friend HWY_INLINE WideMask<D> operator>(Wide a, Wide b) { return {hn::Gt(a.v, b.v)}; }
-    friend HWY_INLINE WideMask<D> operator>=(Wide a, Wide b) { return {hn::Ge(a.v, b.v)}; }
-    friend HWY_INLINE WideMask<D> operator==(Wide a, Wide b) { return {hn::Eq(a.v, b.v)}; }
-    friend HWY_INLINE WideMask<D> operator!=(Wide a, Wide b) { return {hn::Ne(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE Wide operator+(Wide a, Wide b) { return hn::Add(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide operator-(Wide a, Wide b) { return hn::Sub(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide operator*(Wide a, Wide b) { return hn::Mul(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide operator/(Wide a, Wide b) { return hn::Div(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide operator^(Wide a, Wide b) { return hn::Xor(a.v, b.v); }  // of bits
+    friend LIMN_ALWAYS_INLINE Wide operator-(Wide a) { return hn::Neg(a.v); }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator<(Wide a, Wide b) { return {hn::Lt(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator<=(Wide a, Wide b) { return {hn::Le(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator>(Wide a, Wide b) { return {hn::Gt(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator>=(Wide a, Wide b) { return {hn::Ge(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator==(Wide a, Wide b) { return {hn::Eq(a.v, b.v)}; }
+    friend LIMN_ALWAYS_INLINE WideMask<D> operator!=(Wide a, Wide b) { return {hn::Ne(a.v, b.v)}; }
 
-    friend HWY_INLINE Wide abs(Wide a) { return hn::Abs(a.v); }
-    friend HWY_INLINE Wide sqrt(Wide a) { return hn::Sqrt(a.v); }
-    friend HWY_INLINE Wide min(Wide a, Wide b) { return hn::Min(a.v, b.v); }
-    friend HWY_INLINE Wide max(Wide a, Wide b) { return hn::Max(a.v, b.v); }
-    friend HWY_INLINE Wide copy_sign(Wide size, Wide sign) { return hn::CopySign(size.v, sign.v); }
-    friend HWY_INLINE Wide floor(Wide a) { return hn::Floor(a.v); }
-    friend HWY_INLINE Wide round(Wide a) { return hn::Round(a.v); }
+    friend LIMN_ALWAYS_INLINE Wide abs(Wide a) { return hn::Abs(a.v); }
+    friend LIMN_ALWAYS_INLINE Wide sqrt(Wide a) { return hn::Sqrt(a.v); }
+    friend LIMN_ALWAYS_INLINE Wide min(Wide a, Wide b) { return hn::Min(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide max(Wide a, Wide b) { return hn::Max(a.v, b.v); }
+    friend LIMN_ALWAYS_INLINE Wide copy_sign(Wide size, Wide sign) { return hn::CopySign(size.v, sign.v); }
+    friend LIMN_ALWAYS_INLINE Wide floor(Wide a) { return hn::Floor(a.v); }
+    friend LIMN_ALWAYS_INLINE Wide round(Wide a) { return hn::Round(a.v); }
     // a b + c, a b - c and c - a b, rounded once where the processor can: not where bits matter.
-    friend HWY_INLINE Wide mul_add(Wide a, Wide b, Wide c) { return hn::MulAdd(a.v, b.v, c.v); }
-    friend HWY_INLINE Wide mul_sub(Wide a, Wide b, Wide c) { return hn::MulSub(a.v, b.v, c.v); }
-    friend HWY_INLINE Wide neg_mul_add(Wide a, Wide b, Wide c) { return hn::NegMulAdd(a.v, b.v, c.v); }
+    friend LIMN_ALWAYS_INLINE Wide mul_add(Wide a, Wide b, Wide c) { return hn::MulAdd(a.v, b.v, c.v); }
+    friend LIMN_ALWAYS_INLINE Wide mul_sub(Wide a, Wide b, Wide c) { return hn::MulSub(a.v, b.v, c.v); }
+    friend LIMN_ALWAYS_INLINE Wide neg_mul_add(Wide a, Wide b, Wide c) { return hn::NegMulAdd(a.v, b.v, c.v); }
 };
 
 // The kinds of number.
@@ -145,16 +151,20 @@ template <class N>
 struct Vector {
     N x, y, z;
 
-    friend HWY_INLINE Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend HWY_INLINE Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend HWY_INLINE Vector operator*(const N& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
-    friend HWY_INLINE Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
-    friend HWY_INLINE N dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-    friend HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
+    friend LIMN_ALWAYS_INLINE Vector operator+(const Vector& a, const Vector& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend LIMN_ALWAYS_INLINE Vector operator-(const Vector& a, const Vector& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend LIMN_ALWAYS_INLINE Vector operator*(const N& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend LIMN_ALWAYS_INLINE Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
+    friend LIMN_ALWAYS_INLINE N dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    friend LIMN_ALWAYS_INLINE Vector cross(const Vector& a, const Vector& b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
-    friend HWY_INLINE N max_abs(const Vector& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
-    friend HWY_INLINE N sum_abs(const Vector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+    friend LIMN_ALWAYS_INLINE N max_abs(const Vector& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+    friend LIMN_ALWAYS_INLINE N sum_abs(const Vector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
 // Of a point, direction or normal: the same in all lanes.
