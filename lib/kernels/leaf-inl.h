@@ -94,12 +94,12 @@ HWY_INLINE RayNumbers<Floats> in_all_lanes(const RayNumbers<float>& ray) {
 
 // Primitives of a block that the ray may hit, or hits for sure, by bit, and bounds on the t of each.
 struct Candidates {
-    std::uint32_t open = 0, certain = 0;
+    std::uint32_t possible = 0, certain = 0;
     HWY_ALIGN float near[flat::kMaxBlock], far[flat::kMaxBlock];
 
     HWY_INLINE void add(const FloatHits<Floats>& hits, std::size_t at) {
-        open |= bits(hits.open) << at;
-        certain |= bits(hits.certain & hits.open) << at;
+        possible |= bits(hits.possible) << at;
+        certain |= bits(hits.certain & hits.possible) << at;
         store(hits.near, near + at), store(hits.far, far + at);
     }
 };
@@ -121,7 +121,7 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
             return Vector<Floats>{load_row(x + at), load_row(y + at), load_row(z + at)};
         };
         const auto hits = test_planar<kQuad>(vertex, numbers, first_lanes<Floats>(count - i), leaving, {t_min, t_max});
-        if (any(hits.open)) found.add(hits, i);
+        if (any(hits.possible)) found.add(hits, i);
     }
     return found;
 }
@@ -141,7 +141,7 @@ HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t cou
         };
         const auto roots = float_roots(three<Floats>(coordinate, 0), row(kMoving ? 6 : 3), numbers);
         auto hits = first_root(roots, Floats(surely_after), {t_min, t_max});
-        hits.open = hits.open & first_lanes<Floats>(count - i);
+        hits.possible = hits.possible & first_lanes<Floats>(count - i);
         found.add(hits, i);
     }
     return found;

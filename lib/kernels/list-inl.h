@@ -1,4 +1,5 @@
-// All primitives of a small scene, rays side by side. Per-target include guard, as Highway has it.
+// Rays against listed primitives: in float, sixteen rays or primitives at once, and exactly. Per-target include guard,
+// as Highway has it.
 #if defined(LIMN_KERNELS_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_KERNELS_LIST_INL_H
 #undef LIMN_KERNELS_LIST_INL_H
@@ -6,14 +7,20 @@
 #define LIMN_KERNELS_LIST_INL_H
 #endif
 
+#include <limits>
+
 #include "flat/list.h"
-#include "kernels/leaf-inl.h"
-#include "predicates/filter.h"
+#include "kernels/shapes-inl.h"
+#include "kernels/traverse.h"
+#include "predicates/sphere_float-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
 using flat::PrimitiveList;
+
+using RayFloats = Wide<hn::CappedTag<float, 16>>;
+inline constexpr std::size_t kPacket = kLanes<RayFloats>;
 
 // A ray, or one in each lane, in float. With u = 2^-24 and coordinates no larger than R = |origin| + extent:
 //
@@ -22,65 +29,137 @@ using flat::PrimitiveList;
 // of its own, of D that is at most u T (17 s + 2), T = R + |t| D, s = D / |b|. The point o + t d is off by that and 3 u
 // T, the weights u.x - k' by what the point is off and 8 u T, times the sum of the magnitudes of u: by that sum times G
 // = u T (17 s + 11).
-template <class D, class T = hn::Vec<D>>
-struct LaneRay {
-    T ox, oy, oz, dx, dy, dz;
-    T reach, size, inverse_size;  // R, D, 1 / D
-    T inverse_squared;            // of the length: of scenes with spheres
+struct ListRay {
+    Vector<RayFloats> origin, direction;
+    RayFloats reach, size, inverse_size;  // R, D, 1 / D
+    Mask<RayFloats> is_ordinary;          // float can hold it
+
+    HWY_INLINE ListRay(const Vector<RayFloats>& o, const Vector<RayFloats>& d, float extent)
+        : origin(o), direction(d), reach(max_abs(o) + extent), size(max_abs(d)), inverse_size(1.0f / size) {
+        is_ordinary = (size > 0x1p-10f) & (size < 0x1p10f) & (reach < 8 * extent);
+    }
 };
 
-// Where planes are met.
-template <class D, class T = hn::Vec<D>>
-struct ListedPlane {
-    hn::Mask<D> missed, certain, known;  // beside, or inside whatever t is; whether anything is known of t
-    T near, far, along;                  // bounds on t; n.d
+// Of the t that count, and of the nearest hit so far, what rounding may make of them.
+struct ListLimits {
+    RayFloats possible_after, certain_after, certain_before, bound;
+
+    HWY_INLINE ListLimits(RayFloats t_min, RayFloats t_max)
+        : possible_after(below(t_min)),
+          certain_after(above(t_min)),
+          certain_before(below(t_max)),
+          bound(above(t_max)) {}
+};
+// No t that is met comes near this.
+inline constexpr float kMostListed = 0x1p120f;
+
+// Where nothing is known of t, its bounds are infinite.
+struct ListedHits : FloatHits<RayFloats> {
+    Mask<RayFloats> inside;  // for sure, whatever t is
+    RayFloats along;         // n.d
+
+    HWY_INLINE Mask<RayFloats> may_be_behind() const {
+        return (near < 0.0f) & (near > -std::numeric_limits<float>::infinity());
+    }
 };
 
 // `row(r)`: a row of PrimitiveList, of one primitive or of one in each lane.
-template <class D, class Row>
-HWY_INLINE ListedPlane<D> meet_listed(D d, const Row& row, hn::Mask<D> is_triangle, const LaneRay<D>& ray) {
+template <class Row>
+HWY_INLINE ListedHits test_listed_plane(const Row& row, Mask<RayFloats> is_triangle, const ListRay& ray,
+                                        const ListLimits& limits) {
     using List = PrimitiveList;
-    constexpr float kUlp = 0x1p-24f;
-    const auto nx = row(List::kNormal), ny = row(List::kNormal + 1), nz = row(List::kNormal + 2);
-    const auto a = hn::NegMulAdd(nx, ray.ox, hn::NegMulAdd(ny, ray.oy, hn::NegMulAdd(nz, ray.oz, row(List::kOffset))));
-    ListedPlane<D> m;
-    m.along = hn::MulAdd(nx, ray.dx, hn::MulAdd(ny, ray.dy, hn::Mul(nz, ray.dz)));
-    const auto inverse = hn::Div(hn::Set(d, 1.0f), m.along);
-    const auto t = hn::Mul(a, inverse);
-    const auto px = hn::MulAdd(t, ray.dx, ray.ox), py = hn::MulAdd(t, ray.dy, ray.oy),
-               pz = hn::MulAdd(t, ray.dz, ray.oz);
-    const auto weight = [&](std::size_t first, std::size_t offset) HWY_ATTR {
-        return hn::MulAdd(row(first), px, hn::MulAdd(row(first + 1), py, hn::MulSub(row(first + 2), pz, row(offset))));
+    constexpr float kUlp = 0x1p-24f, kEndless = std::numeric_limits<float>::infinity();
+    const Vector<RayFloats>&o = ray.origin, &d = ray.direction;
+    // That of the rows from `first` on at a point.
+    const auto weight = [&](const Vector<RayFloats>& p, std::size_t first, std::size_t offset) HWY_ATTR {
+        return mul_add(row(first), p.x, mul_add(row(first + 1), p.y, mul_sub(row(first + 2), p.z, row(offset))));
     };
-    const auto u = weight(List::kU, List::kUOffset), v = weight(List::kV, List::kVOffset);
-    const auto steep = hn::Mul(hn::Abs(inverse), ray.size);
-    const auto error = hn::Mul(hn::MulAdd(hn::Abs(t), ray.size, ray.reach),
-                               hn::MulAdd(steep, hn::Set(d, 17 * kUlp), hn::Set(d, 11 * kUlp)));
-    const auto weight_error = hn::MulAdd(row(List::kSpread), error, hn::Set(d, 8 * kUlp));
-    const auto sum = hn::IfThenElse(is_triangle, hn::Add(u, v), hn::Max(u, v));
-    const auto outside = hn::Max(hn::Neg(hn::Min(u, v)), hn::Sub(sum, hn::Set(d, 1.0f)));
-    m.known = hn::Gt(hn::Abs(m.along), hn::Mul(hn::Set(d, 0x1p-15f), ray.size));
-    m.missed = hn::And(m.known, hn::Gt(outside, weight_error));
-    m.certain = hn::And(m.known, hn::Lt(outside, hn::Neg(weight_error)));
-    const auto t_error = hn::Mul(error, ray.inverse_size);
-    m.near = hn::Sub(t, t_error), m.far = hn::Add(t, t_error);
-    return m;
+    ListedHits hits;
+    hits.along = mul_add(row(List::kNormal), d.x, mul_add(row(List::kNormal + 1), d.y, row(List::kNormal + 2) * d.z));
+    const RayFloats inverse = 1.0f / hits.along, t = -weight(o, List::kNormal, List::kOffset) * inverse;
+    const Vector<RayFloats> p{mul_add(t, d.x, o.x), mul_add(t, d.y, o.y), mul_add(t, d.z, o.z)};
+    const RayFloats u = weight(p, List::kU, List::kUOffset), v = weight(p, List::kV, List::kVOffset);
+    const RayFloats error =
+        mul_add(abs(t), ray.size, ray.reach) * mul_add(abs(inverse) * ray.size, 17 * kUlp, 11 * kUlp);
+    const RayFloats weight_error = mul_add(row(List::kSpread), error, 8 * kUlp), t_error = error * ray.inverse_size;
+    const RayFloats outside = max(-min(u, v), select(is_triangle, u + v, max(u, v)) - 1.0f);
+    const auto known = abs(hits.along) > 0x1p-15f * ray.size;
+    hits.near = select(known, t - t_error, RayFloats(-kEndless));
+    hits.far = select(known, t + t_error, RayFloats(kEndless));
+    hits.inside = known & (outside < -weight_error);
+    hits.certain = hits.inside & (hits.near > limits.certain_after) & (hits.far < limits.certain_before);
+    hits.possible =
+        !((known & (outside > weight_error)) | (hits.near > limits.bound) | (hits.far < limits.possible_after));
+    return hits;
 }
 
 // The ray as listed spheres see it: see float_roots. A centre seen from the origin is off by u R, R as above, and u of
 // itself.
-template <class D>
-HWY_INLINE SphereFloatRay<Wide<D>> sphere_ray(const LaneRay<D>& ray) {
-    using N = Wide<D>;
+HWY_INLINE SphereFloatRay<RayFloats> sphere_ray(const ListRay& ray) {
     constexpr float kUlp = 0x1p-24f;
-    return {.high = {ray.ox, ray.oy, ray.oz},
-            .low = {N(0.0f), N(0.0f), N(0.0f)},
-            .direction = {ray.dx, ray.dy, ray.dz},
-            .inverse_squared = ray.inverse_squared,
-            .inverse_length = N(ray.inverse_size) * (1 + 0x1p-20f),
+    const Vector<RayFloats>& d = ray.direction;
+    return {.high = ray.origin,
+            .low = {0.0f, 0.0f, 0.0f},
+            .direction = d,
+            .inverse_squared = 1.0f / mul_add(d.x, d.x, mul_add(d.y, d.y, d.z * d.z)),
+            .inverse_length = ray.inverse_size * (1 + 0x1p-20f),
             .relative = 48 * kUlp,
-            .absolute = 4.01f * kUlp * N(ray.reach),
+            .absolute = 4.01f * kUlp * ray.reach,
             .t_scale = 1.0f};
+}
+template <class Row>
+HWY_INLINE FloatRoots<RayFloats> listed_roots(const Row& row, const SphereFloatRay<RayFloats>& ray) {
+    return float_roots(three<RayFloats>(row, PrimitiveList::kCenter), row(PrimitiveList::kRadius), ray);
+}
+HWY_INLINE FloatHits<RayFloats> first_listed(const FloatRoots<RayFloats>& roots, const ListLimits& limits) {
+    FloatHits<RayFloats> hits =
+        first_root<RayFloats>(roots, limits.certain_after, {limits.possible_after, limits.bound});
+    hits.certain = hits.certain & (hits.far < limits.certain_before);
+    return hits;
+}
+
+inline constexpr unsigned kListedKinds = flat::bit(PrimitiveKind::quad) | flat::bit(PrimitiveKind::triangle) |
+                                         flat::bit(PrimitiveKind::mesh) | flat::bit(PrimitiveKind::sphere);
+
+template <class Visit>
+HWY_INLINE bool with_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const Visit& visit) {
+    return with_shape<kListedKinds>(scene, e.kind, e.row, e.element, 0, visit);
+}
+
+// Of flat ones: whether the plane lies behind an origin. `against`: where the direction goes against the normal.
+template <class N>
+HWY_INLINE Mask<N> is_behind(const PrimitiveList::Entry& e, const Vector<N>& origin, Mask<N> against) {
+    const double edge = larger(max_abs(e.edge_u), max_abs(e.edge_v));
+    const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
+    return is_behind(broadcast<N>(e.edge_u), broadcast<N>(e.edge_v), broadcast<N>(e.corner) - origin, N(edge_error),
+                     N(e.error), against);
+}
+
+// One primitive, exactly; a hit is reported to the query. `frame`: of the world.
+template <class Query>
+HWY_NOINLINE void intersect_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
+                                   Query& query) {
+    const auto intersect_seen = [&](const RayFrame& seen) HWY_ATTR {
+        return with_listed(scene, e, [&](const auto& shape) HWY_ATTR {
+            PlanarHit hit;
+            return intersect(shape, seen, {seen.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
+        });
+    };
+    if (HWY_LIKELY(!e.is_instanced))
+        intersect_seen(frame);
+    else
+        inside(scene.instances[e.instance], frame,
+               [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && intersect_seen(inner); });
+}
+
+// Each in turn, until the query has its answer: for rays that float cannot hold. Whether it has.
+template <class Query>
+bool intersect_all_listed(const flat::Scene& scene, const RayFrame& frame, Query& query) {
+    for (const PrimitiveList::Entry& e : scene.list.entries) {
+        intersect_listed(scene, e, frame, query);
+        if (query.ended()) return true;
+    }
+    return false;
 }
 
 }  // namespace limn::kernels::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// Rays of any directions against all primitives of a small scene, a lane each. Per-target include guard, as Highway has
+// Rays of any directions against all listed primitives, a ray in each lane. Per-target include guard, as Highway has
 // it.
 #if defined(LIMN_KERNELS_LIST_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_KERNELS_LIST_PACKET_INL_H
@@ -9,30 +9,22 @@
 
 #include "kernels/box_ray.h"
 #include "kernels/list-inl.h"
-#include "kernels/list_exact-inl.h"
 #include "kernels/queries.h"
 #include "predicates/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-using RayLanes = hn::CappedTag<float, 16>;
-using RV = hn::Vec<RayLanes>;
-using RM = hn::Mask<RayLanes>;
-using RayFloats = Wide<RayLanes>;
-inline constexpr std::size_t kPacket = hn::MaxLanes(RayLanes());
-
-// Query: Closest or Any<false>, one for each ray. As in Traversal, sure hits wait, the nearest alone is to be asked
-// exactly: it is left in `winners`, by entry.
+// Query: Closest or Any, one for each ray. As in Traversal, sure hits wait, and the nearest alone is left to be
+// intersected exactly: in `candidates`, by entry.
 template <class Query>
 class ListPacket {
 public:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-    // All is kept by reference. \pre 0 < count <= kPacket; `winners` has room for kPacket
-    ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* winners)
-        : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), winners_(winners), count_(count) {
-        const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
+    // All is kept by reference. \pre 0 < count <= kPacket; `candidates` has room for as many
+    ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* candidates)
+        : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), candidates_(candidates), count_(count) {
         for (std::size_t i = 0; i < kPacket; ++i) {
             const Ray& ray = rays[i < count ? i : 0];
             for (std::size_t a = 0; a < 3; ++a) {
@@ -41,217 +33,156 @@ public:
             }
             t_min_[i] = ray.t_min, t_max_[i] = i < count ? queries[i].limit() : -kInfinity;
         }
-        set_up(extent);
     }
 
     // Returns the lanes that may still meet what is not listed.
     std::uint32_t run() {
-        const RayLanes d;
-        LaneRay<RayLanes> ray{hn::Load(d, o_[0]),         hn::Load(d, o_[1]), hn::Load(d, o_[2]),  hn::Load(d, d_[0]),
-                              hn::Load(d, d_[1]),         hn::Load(d, d_[2]), hn::Load(d, reach_), hn::Load(d, size_),
-                              hn::Load(d, inverse_size_), hn::Zero(d)};
-        if (list_.spheres != 0)
-            ray.inverse_squared = hn::Div(
-                hn::Set(d, 1.0f), hn::MulAdd(ray.dx, ray.dx, hn::MulAdd(ray.dy, ray.dy, hn::Mul(ray.dz, ray.dz))));
-        hn::Store(hn::Set(hn::RebindToUnsigned<RayLanes>(), kNone), hn::RebindToUnsigned<RayLanes>(), winners_);
-        const auto all = hn::FirstN(d, hn::Lanes(d)), none = hn::FirstN(d, 0);
-        for (std::uint32_t i = 0; i < list_.quads; ++i) {
-            planar(i, none, ray);
-            if (Query::kFirstHit && active_ == 0) break;
-        }
-        for (std::uint32_t i = list_.quads; i < list_.planars(); ++i) {
-            planar(i, all, ray);
-            if (Query::kFirstHit && active_ == 0) break;
-        }
-        for (std::uint32_t i = 0; i < list_.spheres; ++i) {
-            if (Query::kFirstHit && active_ == 0) break;
-            sphere(i, ray);
+        const auto limited = [](const double* t)
+                                 HWY_ATTR { return max(-kMostListed, min(load_rounded<RayFloats>(t), kMostListed)); };
+        const auto in_float = [](const double(&v)[3][kPacket]) HWY_ATTR {
+            return three<RayFloats>([&](std::size_t a) HWY_ATTR { return load_rounded<RayFloats>(v[a]); }, 0);
+        };
+        const RayFloats t_min = limited(t_min_);
+        const ListLimits limits(t_min, limited(t_max_));
+        const auto extent = static_cast<float>(flat::group_at(scene_, GroupId::root).extent);
+        const ListRay ray(in_float(origin_), in_float(direction_), extent);
+        store(limits.bound, bound_);
+        const std::uint32_t there = (1u << count_) - 1;
+        active_ = bits(ray.is_ordinary) & there;
+        const std::uint32_t unusual = there & ~active_;
+        leaving_ = bits(t_min >= 0.0f);
+
+        const auto none = first_lanes<RayFloats>(0);
+        for (std::uint32_t i = 0; i < list_.quads && active_ != 0; ++i) planar(i, none, ray, limits);
+        for (std::uint32_t i = list_.quads; i < list_.planars() && active_ != 0; ++i) planar(i, !none, ray, limits);
+        if (list_.spheres != 0) {
+            const auto ray_of_spheres = sphere_ray(ray);
+            for (std::uint32_t i = 0; i < list_.spheres && active_ != 0; ++i) sphere(i, ray_of_spheres, limits);
         }
         for (std::size_t r = 0; r < count_; ++r)
-            if ((odd_ >> r & 1) != 0 && ask_all_listed(scene_, RayFrame(rays_[r]), queries_[r])) odd_ &= ~(1u << r);
-        if (list_.is_all) return 0;
-        std::uint32_t rest = active_ & meets_rest(ray);
+            candidates_[r] = (waiting_ >> r & 1) != 0 ? static_cast<std::uint32_t>(candidate_[r]) : kNone;
+        std::uint32_t rest = list_.is_all ? 0 : active_ & meets_rest(ray, limits);
         const bool is_planar = (scene_.kinds & ~flat::kPlanarKinds) == 0;  // what stands in trees, and in no instance
         if (Query::kFirstHit && rest != 0 && is_planar) rest &= ~ends_before_rest(rest);
-        return odd_ | rest;
+        for (std::size_t r = 0; r < count_; ++r)
+            if ((unusual >> r & 1) != 0 && !intersect_all_listed(scene_, RayFrame(rays_[r]), queries_[r]))
+                rest |= 1u << r;
+        return list_.is_all ? 0 : rest;
     }
 
 private:
     // As BoxRay has it, but for the order.
-    HWY_INLINE std::uint32_t meets_rest(const LaneRay<RayLanes>& ray) const {
-        const RayLanes d;
-        auto enter = hn::Load(d, possible_after_), leave = hn::Load(d, bound_);
-        const auto wider = hn::Mul(hn::Set(d, BoxRay::kWider), ray.reach);
-        const auto cut = [&](RV o, RV direction, std::size_t a) HWY_ATTR {
-            const auto inverse = hn::Div(
-                hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), hn::Set(d, BoxRay::kLeast)), direction));
-            const auto shift = hn::Neg(hn::Mul(o, inverse)), widening = hn::Mul(wider, hn::Abs(inverse));
-            const auto lower = hn::MulAdd(hn::Set(d, list_.rest_lower[a]), inverse, shift),
-                       upper = hn::MulAdd(hn::Set(d, list_.rest_upper[a]), inverse, shift);
-            enter = hn::Max(enter, hn::Sub(hn::Min(lower, upper), widening));
-            leave = hn::Min(leave, hn::Add(hn::Max(lower, upper), widening));
+    HWY_INLINE std::uint32_t meets_rest(const ListRay& ray, const ListLimits& limits) const {
+        RayFloats enter = limits.possible_after, leave = load<RayFloats>(bound_);
+        const RayFloats wider = BoxRay::kWider * ray.reach;
+        const auto cut = [&](RayFloats o, RayFloats direction, std::size_t a) HWY_ATTR {
+            const RayFloats inverse = 1.0f / copy_sign(max(abs(direction), BoxRay::kLeast), direction);
+            const RayFloats shift = -(o * inverse), widening = wider * abs(inverse);
+            const RayFloats lower = mul_add(list_.rest_lower[a], inverse, shift);
+            const RayFloats upper = mul_add(list_.rest_upper[a], inverse, shift);
+            enter = max(enter, min(lower, upper) - widening);
+            leave = min(leave, max(lower, upper) + widening);
         };
-        cut(ray.ox, ray.dx, 0), cut(ray.oy, ray.dy, 1), cut(ray.oz, ray.dz, 2);
-        return bits(d, hn::Le(enter, leave));
+        cut(ray.origin.x, ray.direction.x, 0);
+        cut(ray.origin.y, ray.direction.y, 1);
+        cut(ray.origin.z, ray.direction.z, 2);
+        return bits(enter <= leave);
     }
 
-    void set_up(float extent) {
-        const RayLanes d;
-        const auto ox = demoted(origin_[0]), oy = demoted(origin_[1]), oz = demoted(origin_[2]);
-        const auto dx = demoted(direction_[0]), dy = demoted(direction_[1]), dz = demoted(direction_[2]);
-        hn::Store(ox, d, o_[0]), hn::Store(oy, d, o_[1]), hn::Store(oz, d, o_[2]);
-        hn::Store(dx, d, d_[0]), hn::Store(dy, d, d_[1]), hn::Store(dz, d, d_[2]);
-        const auto start = max_abs(Vector<RayFloats>{ox, oy, oz}).v, size = max_abs(Vector<RayFloats>{dx, dy, dz}).v;
-        const auto reach = hn::Add(start, hn::Set(d, extent));
-        hn::Store(reach, d, reach_);
-        hn::Store(size, d, size_);
-        hn::Store(hn::Div(hn::Set(d, 1.0f), size), d, inverse_size_);
-        // No t that is met comes near these limits.
-        const auto most = hn::Set(d, 0x1p120f), least = hn::Neg(most);
-        const auto low = hn::Max(least, hn::Min(most, demoted(t_min_))),
-                   high = hn::Max(least, hn::Min(most, demoted(t_max_)));
-        const auto slack = hn::Set(d, 0x1p-22f);
-        const auto low_slack = hn::Mul(hn::Abs(low), slack), high_slack = hn::Mul(hn::Abs(high), slack);
-        hn::Store(hn::Sub(low, low_slack), d, possible_after_);
-        hn::Store(hn::Add(low, low_slack), d, certain_after_);
-        hn::Store(hn::Sub(high, high_slack), d, certain_before_);
-        hn::Store(hn::Add(high, high_slack), d, bound_);
-        const auto ordinary = hn::And(hn::And(hn::Gt(size, hn::Set(d, 0x1p-10f)), hn::Lt(size, hn::Set(d, 0x1p10f))),
-                                      hn::Lt(reach, hn::Set(d, 8 * extent)));
-        const std::uint32_t there = (1u << count_) - 1;
-        active_ = bits(d, ordinary) & there;
-        odd_ = there & ~active_;
-        leaving_ = bits(d, hn::Ge(low, hn::Zero(d)));
-    }
-
-    static RV demoted(const double* from) {
-        const RayLanes d;
-#if HWY_TARGET == HWY_SCALAR
-        return hn::Set(d, static_cast<float>(from[0]));
-#else
-        const hn::Half<RayLanes> dh;
-        const hn::Rebind<double, hn::Half<RayLanes> > dd;
-        return hn::Combine(d, hn::DemoteTo(dh, hn::Load(dd, from + kPacket / 2)), hn::DemoteTo(dh, hn::Load(dd, from)));
-#endif
-    }
-
-    HWY_INLINE void planar(std::uint32_t i, RM is_triangle, const LaneRay<RayLanes>& ray) {
-        const RayLanes d;
+    HWY_INLINE void planar(std::uint32_t i, Mask<RayFloats> is_triangle, const ListRay& ray, ListLimits limits) {
         const float* rows = list_.planar.data() + i;
         const std::size_t stride = list_.planar_stride;
-        const auto met = meet_listed(
-            d, [&](std::size_t r) HWY_ATTR { return hn::Set(d, rows[r * stride]); }, is_triangle, ray);
-        const auto bound = hn::Load(d, bound_);
-        const auto outside =
-            hn::And(met.known, hn::Or(hn::Gt(met.near, bound), hn::Lt(met.far, hn::Load(d, possible_after_))));
-        std::uint32_t open = bits(d, hn::Not(hn::Or(met.missed, outside))) & active_;
-        if (open == 0) return;
-        const auto certainly = hn::And(met.certain, hn::And(hn::Gt(met.near, hn::Load(d, certain_after_)),
-                                                            hn::Lt(met.far, hn::Load(d, certain_before_))));
-        std::uint32_t certain = bits(d, certainly) & open;
-        if (certain != open) {
-            std::uint32_t unsure = open & ~certain;
+        limits.bound = load<RayFloats>(bound_);
+        const auto hits = test_listed_plane([&](std::size_t r) HWY_ATTR { return RayFloats(rows[r * stride]); },
+                                            is_triangle, ray, limits);
+        const std::uint32_t possible = bits(hits.possible) & active_;
+        if (possible == 0) return;
+        std::uint32_t certain = bits(hits.certain) & possible;
+        if (certain != possible) {
+            std::uint32_t undecided = possible & ~certain;
             // A ray leaves the surface that it starts on, and a shadow ray ends just before the light.
-            const std::uint32_t leaving =
-                unsure & leaving_ & bits(d, hn::And(met.known, hn::Lt(met.near, hn::Zero(d))));
-            if (leaving != 0) unsure &= ~behind(list_.entries[i], leaving, bits(d, hn::Lt(met.along, hn::Zero(d))));
-            const std::uint32_t inside = unsure & bits(d, met.certain);
-            if (inside != 0 && !list_.entries[i].is_instanced) unsure &= ~decide(i, inside);
-            for (; unsure != 0; unsure &= unsure - 1) ask(static_cast<std::size_t>(std::countr_zero(unsure)), i);
+            const std::uint32_t leaving = undecided & leaving_ & bits(hits.may_be_behind());
+            if (leaving != 0) undecided &= ~behind(list_.entries[i], leaving, bits(hits.along < 0.0f));
+            const std::uint32_t within = undecided & bits(hits.inside);
+            if (within != 0 && !list_.entries[i].is_instanced) undecided &= ~decide(i, within);
+            for (; undecided != 0; undecided &= undecided - 1)
+                intersect(static_cast<std::size_t>(std::countr_zero(undecided)), i);
             certain &= active_;
         }
-        take(i, certain, met.near, met.far);
+        if (certain != 0) take(i, certain, hits.near, hits.far);
     }
 
-    HWY_INLINE void sphere(std::uint32_t i, const LaneRay<RayLanes>& ray) {
+    HWY_INLINE void sphere(std::uint32_t i, const SphereFloatRay<RayFloats>& ray, ListLimits limits) {
         const float* rows = list_.round.data() + i;
         const std::size_t stride = list_.sphere_stride;
-        const auto row = [&](std::size_t r) HWY_ATTR { return RayFloats(rows[r * stride]); };
-        const auto met = float_roots(three<RayFloats>(row, 0), row(PrimitiveList::kRadius), sphere_ray(ray));
-        const auto certain_before = load<RayFloats>(certain_before_), certain_after = load<RayFloats>(certain_after_);
-        auto root =
-            first_root<RayFloats>(met, certain_after, {load<RayFloats>(possible_after_), load<RayFloats>(bound_)});
-        const std::uint32_t open = bits(root.open) & active_;
-        if (open == 0) return;
-        std::uint32_t certain = bits(root.certain & (root.far < certain_before)) & open;
-        if (certain != open) {
-            const std::uint32_t number = list_.planars() + i;
-            const std::uint32_t ahead =
-                bits(met.certain & (met.near_last > certain_after) & (met.far_last < certain_before));
-            std::uint32_t inside = 0;
-            for (std::uint32_t unsure = open & ~certain; unsure != 0; unsure &= unsure - 1) {
-                const auto r = static_cast<std::size_t>(std::countr_zero(unsure));
-                const PrimitiveList::Entry& e = list_.entries[number];
+        limits.bound = load<RayFloats>(bound_);
+        const auto roots = listed_roots([&](std::size_t r) HWY_ATTR { return RayFloats(rows[r * stride]); }, ray);
+        auto hits = first_listed(roots, limits);
+        const std::uint32_t possible = bits(hits.possible) & active_, index = list_.planars() + i;
+        if (possible == 0) return;
+        std::uint32_t certain = bits(hits.certain) & possible;
+        if (certain != possible) {
+            const PrimitiveList::Entry& e = list_.entries[index];
+            const std::uint32_t ahead = bits(roots.certain & (roots.near_last > limits.certain_after) &
+                                             (roots.far_last < limits.certain_before));
+            std::uint32_t within = 0;
+            for (std::uint32_t rest = possible & ~certain; rest != 0; rest &= rest - 1) {
+                const auto r = static_cast<std::size_t>(std::countr_zero(rest));
                 const Side side = (leaving_ >> r & 1) != 0 ? side_of(e.corner, e.radius, rays_[r]) : Side::unknown;
                 if (side == Side::inside && (ahead >> r & 1) != 0)
-                    inside |= 1u << r;
+                    within |= 1u << r;
                 else if (side != Side::missed)
-                    ask(r, number);
+                    intersect(r, index);
             }
-            const auto within = mask_of<RayFloats>(inside);
-            root.near = select(within, met.near_last, root.near);
-            root.far = select(within, met.far_last, root.far);
-            certain = (certain | inside) & active_;
+            hits.near = select(mask_of<RayFloats>(within), roots.near_last, hits.near);
+            hits.far = select(mask_of<RayFloats>(within), roots.far_last, hits.far);
+            certain = (certain | within) & active_;
         }
-        take(list_.planars() + i, certain, root.near.v, root.far.v);
+        if (certain != 0) take(index, certain, hits.near, hits.far);
     }
 
     // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along
     // some axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a
     // filter that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact fallback
-    // (is_accurate). The point as computed is off by 2 u of its terms at most.
+    // (judge). The point as computed is off by 2 u of its terms at most.
     HWY_INLINE std::uint32_t ends_before_rest(std::uint32_t lanes) const {
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
-            const Doubles d;
-            auto apart = hn::FirstN(d, 0);
+            auto apart = first_lanes<Doubles>(0);
             for (std::size_t a = 0; a < 3; ++a) {
-                const auto o = hn::Load(d, origin_[a] + h), way = hn::Load(d, direction_[a] + h), end = hn::Add(o, way);
-                const auto error = hn::Mul(hn::Add(hn::Abs(o), hn::Abs(way)), hn::Set(d, 4 * kRoundoff));
-                const auto below = hn::Add(hn::Max(o, end), error), above = hn::Sub(hn::Min(o, end), error);
-                apart = hn::Or(apart, hn::Or(hn::Lt(below, hn::Set(d, double{list_.rest_lower[a]})),
-                                             hn::Gt(above, hn::Set(d, double{list_.rest_upper[a]}))));
+                const auto o = load<Doubles>(origin_[a] + h), way = load<Doubles>(direction_[a] + h), end = o + way;
+                const Doubles error = (abs(o) + abs(way)) * (4 * kRoundoff);
+                apart = apart | (max(o, end) + error < double{list_.rest_lower[a]}) |
+                        (min(o, end) - error > double{list_.rest_upper[a]});
             }
-            return bits(d, hn::And(apart, hn::Lt(hn::Load(d, t_max_ + h), hn::Set(d, 1.0))));
+            return bits(apart & (load<Doubles>(t_max_ + h) < 1.0));
         });
     }
 
     // The sure hits of some lanes.
-    HWY_INLINE void take(std::uint32_t i, std::uint32_t certain, RV near, RV far) {
-        const RayLanes d;
-        if (certain == 0) return;
+    HWY_INLINE void take(std::uint32_t i, std::uint32_t certain, RayFloats near, RayFloats far) {
         if constexpr (Query::kFirstHit) {
             active_ &= ~certain;
             for (; certain != 0; certain &= certain - 1) queries_[std::countr_zero(certain)].report({}, 0, false);
         } else {
-            const auto new_bound = hn::Min(hn::Load(d, bound_), hn::MulAdd(hn::Abs(far), hn::Set(d, 0x1p-22f), far));
-            // Where the one before may still be the nearest it is asked now.
-            const auto has_winner = hn::Ne(hn::Load(hn::RebindToUnsigned<RayLanes>(), winners_),
-                                           hn::Set(hn::RebindToUnsigned<RayLanes>(), kNone));
-            const std::uint32_t waiting = bits(hn::RebindToUnsigned<RayLanes>(), has_winner);
-            const std::uint32_t both = certain & waiting & bits(d, hn::Le(hn::Load(d, near_), new_bound));
+            const auto bound = load<RayFloats>(bound_), new_bound = min(bound, above(far));
+            // Where the one before may still be the nearest it is intersected now.
+            const std::uint32_t both = certain & waiting_ & bits(load<RayFloats>(near_) <= new_bound);
             for (std::uint32_t lanes = both; lanes != 0; lanes &= lanes - 1) {
                 const auto r = static_cast<std::size_t>(std::countr_zero(lanes));
-                ask(r, winners_[r]);
+                intersect(r, static_cast<std::uint32_t>(candidate_[r]));
             }
-            const hn::RebindToUnsigned<RayLanes> du;
-            const auto taken = rays_mask(certain);
-            hn::Store(hn::Min(hn::Load(d, bound_), hn::IfThenElse(taken, new_bound, hn::Load(d, bound_))), d, bound_);
-            hn::Store(hn::IfThenElse(taken, near, hn::Load(d, near_)), d, near_);
-            hn::Store(hn::IfThenElse(hn::RebindMask(du, taken), hn::Set(du, i), hn::Load(du, winners_)), du, winners_);
+            const auto taken = mask_of<RayFloats>(certain);
+            store(min(load<RayFloats>(bound_), select(taken, new_bound, bound)), bound_);
+            store(select(taken, near, load<RayFloats>(near_)), near_);
+            store(select(taken, RayFloats(static_cast<float>(i)), load<RayFloats>(candidate_)), candidate_);
+            waiting_ |= certain;
         }
     }
-
-    static RM rays_mask(std::uint32_t lanes) {
-        const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes), static_cast<std::uint8_t>(lanes >> 8)};
-        return hn::LoadMaskBits(RayLanes(), bytes);
-    }
-
-    using Doubles = hn::CappedTag<double, 8>;
 
     // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its answers together.
     template <class Visit>
     HWY_INLINE static std::uint32_t by_halves(std::uint32_t lanes, const Visit& visit) {
-        constexpr std::size_t kSome = hn::MaxLanes(Doubles());
+        constexpr std::size_t kSome = kLanes<Doubles>;
         std::uint32_t result = 0;
         for (std::size_t h = 0; h < kPacket; h += kSome) {
             const std::uint32_t here = lanes >> h & ((1u << kSome) - 1);
@@ -260,13 +191,14 @@ private:
         return result;
     }
 
+    HWY_INLINE static Vector<Doubles> doubles(const double (&v)[3][kPacket], std::size_t h) {
+        return {load<Doubles>(v[0] + h), load<Doubles>(v[1] + h), load<Doubles>(v[2] + h)};
+    }
+
     // Those of the lanes whose origin the plane lies behind.
     HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
-        using N = limn::HWY_NAMESPACE::Doubles;
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
-            const auto at = [&](const double* row) HWY_ATTR { return load<N>(row + h); };
-            return bits(
-                is_behind(e, Vector<N>{at(origin_[0]), at(origin_[1]), at(origin_[2])}, mask_of<N>(against >> h)));
+            return bits(is_behind(e, doubles(origin_, h), mask_of<Doubles>(against >> h)));
         });
     }
 
@@ -275,23 +207,18 @@ private:
         const PrimitiveList::Entry& e = list_.entries[i];
         std::uint32_t decided = 0;
         with_listed(scene_, e, [&]<template <class> class Predicate>(const Predicate<double>& shape) HWY_ATTR {
-            const auto broadcast = in_lanes<limn::HWY_NAMESPACE::Doubles>(shape);
+            const auto broadcast = in_lanes<Doubles>(shape);
             decided = by_halves(lanes, [&](std::size_t h, std::uint32_t here)
                                            HWY_ATTR { return decide(broadcast, e.number, h, here); });
             return false;
         });
         return decided;
     }
-
     template <class Shape>
     HWY_INLINE std::uint32_t decide(const Shape& shape, std::uint64_t number, std::size_t h, std::uint32_t lanes) {
-        using N = limn::HWY_NAMESPACE::Doubles;
-        const auto at = [&](const double* row) HWY_ATTR { return load<N>(row + h); };
-        const RayOf<N> ray{{at(origin_[0]), at(origin_[1]), at(origin_[2])},
-                           {at(direction_[0]), at(direction_[1]), at(direction_[2])},
-                           N(0.0),
-                           N(0.0)};
-        const FilterResult<N> r = shape.filter(typename Shape::Ray(ray), {at(t_min_), at(t_max_)});
+        const RayOf<Doubles> ray{doubles(origin_, h), doubles(direction_, h), 0.0, 0.0};
+        const FilterResult<Doubles> r =
+            shape.filter(typename Shape::Ray(ray), {load<Doubles>(t_min_ + h), load<Doubles>(t_max_ + h)});
         HWY_ALIGN double t[8], u[8], v[8];
         store(r.t, t), store(r.u, u), store(r.v, v);
         const std::uint32_t hits = bits(r.hit);
@@ -312,8 +239,8 @@ private:
         if (queries_[r].ended()) active_ &= ~(1u << r);
     }
 
-    HWY_NOINLINE void ask(std::size_t r, std::uint32_t i) {
-        ask_listed(scene_, list_.entries[i], RayFrame(rays_[r]), queries_[r]);
+    HWY_NOINLINE void intersect(std::size_t r, std::uint32_t i) {
+        intersect_listed(scene_, list_.entries[i], RayFrame(rays_[r]), queries_[r]);
         note_limit(r);
     }
 
@@ -321,13 +248,11 @@ private:
     const PrimitiveList& list_;
     const Ray* rays_;
     Query* queries_;
-    std::uint32_t* winners_;
+    std::uint32_t* candidates_;
     std::size_t count_;
-    std::uint32_t active_ = 0, odd_ = 0, leaving_ = 0;  // by lane
+    std::uint32_t active_ = 0, leaving_ = 0, waiting_ = 0;  // by lane
     HWY_ALIGN double origin_[3][kPacket], direction_[3][kPacket], t_min_[kPacket], t_max_[kPacket];
-    HWY_ALIGN float o_[3][kPacket], d_[3][kPacket], reach_[kPacket], size_[kPacket], inverse_size_[kPacket];
-    HWY_ALIGN float possible_after_[kPacket], certain_after_[kPacket], certain_before_[kPacket], bound_[kPacket],
-        near_[kPacket];
+    HWY_ALIGN float bound_[kPacket], near_[kPacket], candidate_[kPacket];
 };
 
 }  // namespace limn::kernels::HWY_NAMESPACE

@@ -6,7 +6,7 @@
 #define LIMN_KERNELS_PACKET_INL_H
 #endif
 
-#include "kernels/list_packet-inl.h"
+#include "kernels/list-inl.h"
 #include "kernels/node-inl.h"
 #include "kernels/queries.h"
 
@@ -65,7 +65,7 @@ private:
     unsigned octant_;
 };
 
-// Query: Closest or Any<false>, one for each ray. Mesh triangles alone: what is large and met by bundles of rays.
+// Query: Closest or Any, one for each ray. Mesh triangles alone: what is large and met by bundles of rays.
 template <class Query>
 class PacketTraversal {
 public:
@@ -116,10 +116,7 @@ private:
         float near;
     };
 
-    float farthest_bound() const {
-        const RayLanes d;
-        return hn::GetLane(hn::MaxOfLanes(d, hn::Load(d, bound_)));
-    }
+    float farthest_bound() const { return max_of_lanes(load<RayFloats>(bound_)); }
 
     // Whether a bound has changed.
     bool leaf(flat::Child child) {
@@ -145,10 +142,10 @@ private:
         const auto hits = test_planar<false>(vertex, ray, first_lanes<RayFloats>(kPacket),
                                              first_lanes<RayFloats>(leaves_ ? kPacket : 0),
                                              {load<RayFloats>(possible_after_), above(load<RayFloats>(bound_))});
-        if (!any(hits.open)) return false;
+        if (!any(hits.possible)) return false;
         HWY_ALIGN float near[kPacket], far[kPacket];
         store(hits.near, near), store(hits.far, far);
-        return take(block, i, bits(hits.open), bits(hits.certain), near, far);
+        return take(block, i, bits(hits.possible), bits(hits.certain), near, far);
     }
 
     bool take(const flat::BlockView& block, std::uint32_t i, std::uint32_t open, std::uint32_t certain,

@@ -11,11 +11,12 @@
 namespace limn::kernels {
 
 struct Closest {
-    static constexpr bool kEveryHit = false, kThroughBoundaries = false, kFirstHit = false;
+    static constexpr bool kEveryHit = false, kFirstHit = false;
     Hit best;  // index_matched as a foreign shape says
 
     double limit() const { return best.t; }
     bool ended() const { return false; }
+    bool passes(const ForeignHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
         if (hit.t < best.t || number < best.primitive) best = {{hit.t, number}, hit.u, hit.v, matched};
         return false;
@@ -23,23 +24,25 @@ struct Closest {
     Hit hit() const { return best.primitive == flat::RawHit::kMiss ? Hit{} : best; }
 };
 
-template <bool kThrough>
 struct Any {
-    static constexpr bool kEveryHit = false, kThroughBoundaries = kThrough, kFirstHit = true;
+    static constexpr bool kEveryHit = false, kFirstHit = true;
     double t_max;
+    bool passes_boundaries = false;  // index-matched ones
     bool found = false;
 
     double limit() const { return t_max; }
     bool ended() const { return found; }
+    bool passes(const ForeignHit& hit) const { return passes_boundaries && hit.index_matched; }
     bool report(const PlanarHit&, std::uint64_t, bool, bool = false) { return found = true; }
 };
 
 struct Every {
-    static constexpr bool kEveryHit = true, kThroughBoundaries = false, kFirstHit = false;
+    static constexpr bool kEveryHit = true, kFirstHit = false;
     double t_max;
     std::vector<Crossing>& crossings;
 
     double limit() const { return t_max; }
+    bool passes(const ForeignHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t, bool inward, bool = false) {
         crossings.push_back({hit.t, inward});
         return false;

@@ -18,15 +18,13 @@ namespace limn::kernels::HWY_NAMESPACE {
 void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
                     Closest& query);
 void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                Any<false>& query);
-void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                     Any<true>& query);
+                Any& query);
 void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
                   Every& query);
 
 // The whole scene against up to kMostRays rays.
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries);
-void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any<false>* queries);
+void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries);
 
 }  // namespace limn::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

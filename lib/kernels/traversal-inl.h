@@ -155,7 +155,7 @@ private:
     float time() const { return static_cast<float>(std::clamp(frame_.ray.time, 0.0, 1.0)); }
 
     HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block, const flat::Block& header) {
-        for (std::uint32_t open = found.open; open != 0; open &= open - 1) {
+        for (std::uint32_t open = found.possible; open != 0; open &= open - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(open));
             const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
                                  found.far[lane] < certain_before_;
@@ -174,7 +174,7 @@ private:
     // One by one, the nearest box first.
     bool ask_boxes(const flat::BlockView& block, const flat::Block& header) {
         const Candidates found = node_test_.test_boxes(block, header.count, bound_);
-        for (std::uint32_t open = found.open; open != 0;) {
+        for (std::uint32_t open = found.possible; open != 0;) {
             auto next = static_cast<std::uint32_t>(std::countr_zero(open));
             for (std::uint32_t rest = open & (open - 1); rest != 0; rest &= rest - 1) {
                 const auto other = static_cast<std::uint32_t>(std::countr_zero(rest));
@@ -284,7 +284,7 @@ private:
         ForeignHit hit;
         while (shape.hit(*shape.object, rest, hit)) {
             if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
-            const bool passes = Query::kThroughBoundaries && hit.index_matched;
+            const bool passes = query_.passes(hit);
             const bool inward = Query::kEveryHit && dot(Vec3(hit.normal), frame_.ray.direction) < 0;
             if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward, hit.index_matched)) return true;
             if (!passes && !Query::kEveryHit) return false;

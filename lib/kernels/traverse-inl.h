@@ -148,7 +148,7 @@ void answer_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
                 queries[r].report(hit, scene.list.entries[candidates[r]].number, false);
             },
             [&](std::uint32_t r) {
-                ask_listed(scene, scene.list.entries[candidates[r]], RayFrame(rays[r]), queries[r]);
+                intersect_listed(scene, scene.list.entries[candidates[r]], RayFrame(rays[r]), queries[r]);
             });
     };
     for (std::uint32_t r = 0; r < count; ++r) {
@@ -172,17 +172,17 @@ void answer_listed(const flat::Scene& scene, const Ray* rays, std::size_t count,
     }
     std::apply([&](auto&... queue) HWY_ATTR { (flush(queue), ...); }, queues);
 }
-void answer_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any<false>*) {}
+void answer_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any*) {}
 
 // `rest`: by packets, those that may still meet what is not listed.
 template <class Query>
 void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* rest) {
-    HWY_ALIGN std::uint32_t winners[kMostRays + kPacket];
+    HWY_ALIGN std::uint32_t candidates[kMostRays];
     for (std::size_t first = 0; first < count; first += kPacket)
-        rest[first / kPacket] =
-            ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first), queries + first, winners + first)
-                .run();
-    answer_listed(scene, rays, count, winners, queries);
+        rest[first / kPacket] = ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first),
+                                                  queries + first, candidates + first)
+                                    .run();
+    answer_listed(scene, rays, count, candidates, queries);
 }
 
 // False if the rays cannot be traced as a packet.
@@ -250,7 +250,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {
     search_many(scene, rays, count, queries);
 }
-void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any<false>* queries) {
+void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries) {
     search_many(scene, rays, count, queries);
 }
 
@@ -259,11 +259,7 @@ void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const 
     search(scene, id, ray, frame, first, query);
 }
 void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                Any<false>& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_occluder(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                     Any<true>& query) {
+                Any& query) {
     search(scene, id, ray, frame, first, query);
 }
 void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,

@@ -21,7 +21,6 @@ namespace {
 
 HWY_EXPORT(search_closest);
 HWY_EXPORT(search_any);
-HWY_EXPORT(search_occluder);
 HWY_EXPORT(search_every);
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
@@ -45,6 +44,13 @@ void inside_medium(const flat::Scene& scene, const flat::Medium& medium, const R
     if (is_usable(frame.ray)) visit(frame);
 }
 
+void find_any(const flat::Scene& scene, std::span<const Ray> rays, bool passes_boundaries, std::uint8_t* found) {
+    std::array<Any, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max, passes_boundaries};
+    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
+}
+
 GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
     return scene.medium_shapes[medium.shape].boundary;
 }
@@ -61,7 +67,7 @@ Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
 }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
-    Any<false> query{ray.t_max};
+    Any query{ray.t_max};
     HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     return query.found;
 }
@@ -74,21 +80,11 @@ void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits
 }
 
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
-    std::array<Any<false>, kMostRays> queries;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max};
-    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.data());
-    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
-}
-
-bool is_occluded(const flat::Scene& scene, const Ray& ray) {
-    Any<true> query{ray.t_max};
-    HWY_DYNAMIC_DISPATCH(search_occluder)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
-    return query.found;
+    find_any(scene, rays, false, found);
 }
 
 void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
-    if (!scene.features.foreign_shapes) return any_hits(scene, rays, found);
-    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = is_occluded(scene, rays[i]) ? 1 : 0;
+    find_any(scene, rays, true, found);
 }
 
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray) {

@@ -25,10 +25,7 @@ bool any_hit(const flat::Scene& scene, const Ray& ray);
 inline constexpr std::size_t kMostRays = 256;  // so that what is kept for each stays in the cache
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits);
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
-
-// Whether something stops light on the way: a foreign shape that says its boundary is index-matched does not.
-bool is_occluded(const flat::Scene& scene, const Ray& ray);
-// The same for each of up to kMostRays rays.
+// Whether something stops light on the way: user-defined shapes that say their boundary is index-matched do not.
 void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
 
 // The same for the boundary of a medium.

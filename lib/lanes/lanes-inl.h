@@ -113,6 +113,19 @@ template <class N>
 HWY_INLINE N load(const typename N::Scalar* from) {
     return hn::LoadU(typename N::Tag(), from);
 }
+// Of doubles, rounded to float: of a kind of number that is floats.
+template <class N>
+HWY_INLINE N load_rounded(const double* from) {
+#if HWY_TARGET == HWY_SCALAR
+    return N(static_cast<float>(*from));
+#else
+    const typename N::Tag d;
+    const hn::Half<typename N::Tag> half;
+    const hn::Rebind<double, hn::Half<typename N::Tag>> doubles;
+    return hn::Combine(d, hn::DemoteTo(half, hn::LoadU(doubles, from + kLanes<N> / 2)),
+                       hn::DemoteTo(half, hn::LoadU(doubles, from)));
+#endif
+}
 template <class D>
 HWY_INLINE void store(Wide<D> x, hn::TFromD<D>* to) {
     hn::StoreU(x.v, D(), to);

@@ -14,7 +14,7 @@ namespace limn::HWY_NAMESPACE {
 // Where a shape may be hit within the search; where it surely is, whatever t; and bounds on t.
 template <class N>
 struct FloatHits {
-    Mask<N> open, certain;
+    Mask<N> possible, certain;
     N near, far;
 };
 
@@ -24,6 +24,10 @@ HWY_INLINE float below(float t) { return t * (t > 0 ? 1 - 0x1p-22f : 1 + 0x1p-22
 template <class N>
 HWY_INLINE N above(N t) {
     return mul_add(0x1p-22f, abs(t), t);
+}
+template <class N>
+HWY_INLINE N below(N t) {
+    return neg_mul_add(0x1p-22f, abs(t), t);
 }
 
 }  // namespace limn::HWY_NAMESPACE

@@ -120,8 +120,8 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     const EdgeValues<N> w = edge_values<kQuad>(p);
     FloatHits<N> hits;
     // The bound for vertices as far away as there are any tells most misses, sooner.
-    hits.open = there & !w.are_missed(mul_add(ray.coarse_slope, w.across, ray.coarse));
-    if (HWY_LIKELY(!any(hits.open))) return hits;
+    hits.possible = there & !w.are_missed(mul_add(ray.coarse_slope, w.across, ray.coarse));
+    if (HWY_LIKELY(!any(hits.possible))) return hits;
 
     const N largest_z = max(abs(p.a.z), max(abs(p.b.z), abs(p.c.z)));
     const N coordinate_error = mul_add(ray.relative, w.across + largest_z, ray.absolute);
@@ -137,9 +137,9 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     const N t2 = ray.t_from_z * select(hits.certain, mean + z_error, highest + around);
     hits.near = min(t1, t2), hits.far = max(t1, t2);
     // Where nothing is known there is a NaN, and no comparison drops it.
-    hits.open = hits.open & !(w.are_missed(e) | (hits.near > within.t_max) | (hits.far < within.t_min));
-    const auto is_close = hits.open & leaving & (hits.near < 0.0f);
-    if (any(is_close)) hits.open = hits.open & !(hits.certain & leaving & is_surely_behind(vertex, ray, det));
+    hits.possible = hits.possible & !(w.are_missed(e) | (hits.near > within.t_max) | (hits.far < within.t_min));
+    const auto is_close = hits.possible & leaving & (hits.near < 0.0f);
+    if (any(is_close)) hits.possible = hits.possible & !(hits.certain & leaving & is_surely_behind(vertex, ray, det));
     return hits;
 }
 

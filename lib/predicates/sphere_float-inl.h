@@ -79,7 +79,7 @@ HWY_INLINE FloatHits<N> first_root(const FloatRoots<N>& r, N surely_after, const
     hits.near = select(is_behind, r.near_last, r.near_first);
     hits.far = select(is_first, r.far_first, r.far_last);
     hits.certain = is_first | is_last;
-    hits.open = !(r.missed | (hits.near > within.t_max) | (hits.far < within.t_min));
+    hits.possible = !(r.missed | (hits.near > within.t_max) | (hits.far < within.t_min));
     return hits;
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("Crossings: each medium of a scene has its own, wherever instances put
     CHECK((number(0, 20) == 2 && number(1, 0) == 3));
 }
 
-TEST_CASE("is_occluded: boundaries that light passes straight through stop nothing, all else does",
+TEST_CASE("are_occluded: boundaries that light passes straight through stop nothing, all else does",
           "[compile][crossings]") {
     // Somebody else's boundary, of a medium of their own.
     class Boundary final : public Hittable {
@@ -173,7 +173,9 @@ TEST_CASE("is_occluded: boundaries that light passes straight through stop nothi
     const Object boundary = std::make_shared<Boundary>();
     const Ray ray{.origin = {0, 0, 9}, .direction = {0, 0, -1}};
     const auto occluded = [&](const std::vector<Object>& objects, const Ray& r) {
-        return kernels::is_occluded(flatten(objects), r);
+        std::uint8_t found = 0;
+        kernels::are_occluded(flatten(objects), std::span(&r, 1), &found);
+        return found != 0;
     };
     const auto any = [&](const std::vector<Object>& objects) { return kernels::any_hit(flatten(objects), ray); };
     CHECK_FALSE(occluded({boundary}, ray));
