@@ -135,21 +135,28 @@ HWY_INLINE Mask<N> is_behind(const PrimitiveList::Entry& e, const Vector<N>& ori
                      N(e.error), against);
 }
 
+// visit(shape, frame) with a primitive and a ray as it sees it. `frame`: of the world.
+template <class Visit>
+HWY_INLINE void as_seen(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
+                        const Visit& visit) {
+    const auto visit_shape = [&](const RayFrame& seen) HWY_ATTR {
+        return with_listed(scene, e, [&](const auto& shape) HWY_ATTR { return visit(shape, seen); });
+    };
+    if (HWY_LIKELY(!e.is_instanced))
+        visit_shape(frame);
+    else
+        inside(scene.instances[e.instance], frame,
+               [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && visit_shape(inner); });
+}
+
 // One primitive, exactly; a hit is reported to the query. `frame`: of the world.
 template <class Query>
 HWY_NOINLINE void intersect_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
                                    Query& query) {
-    const auto intersect_seen = [&](const RayFrame& seen) HWY_ATTR {
-        return with_listed(scene, e, [&](const auto& shape) HWY_ATTR {
-            PlanarHit hit;
-            return intersect(shape, seen, {seen.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
-        });
-    };
-    if (HWY_LIKELY(!e.is_instanced))
-        intersect_seen(frame);
-    else
-        inside(scene.instances[e.instance], frame,
-               [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && intersect_seen(inner); });
+    as_seen(scene, e, frame, [&](const auto& shape, const RayFrame& seen) HWY_ATTR {
+        PlanarHit hit;
+        return intersect(shape, seen, {seen.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
+    });
 }
 
 // Each in turn, until the query has its answer: for rays that float cannot hold. Whether it has.

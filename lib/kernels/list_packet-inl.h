@@ -8,6 +8,7 @@
 #endif
 
 #include "kernels/box_ray.h"
+#include "kernels/deferred_hits-inl.h"
 #include "kernels/list-inl.h"
 #include "kernels/queries.h"
 #include "predicates/sphere_side.h"
@@ -15,16 +16,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-// Query: Closest or Any, one for each ray. As in Traversal, sure hits wait, and the nearest alone is left to be
-// intersected exactly: in `candidates`, by entry.
+// Query: Closest or Any, one for each ray. As in Traversal, sure hits wait, of which the nearest alone is to be
+// intersected exactly.
 template <class Query>
 class ListPacket {
 public:
-    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-    // All is kept by reference. \pre 0 < count <= kPacket; `candidates` has room for as many
-    ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* candidates)
-        : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), candidates_(candidates), count_(count) {
+    // All is kept by reference. \pre 0 < count <= kPacket
+    ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries)
+        : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), count_(count) {
         for (std::size_t i = 0; i < kPacket; ++i) {
             const Ray& ray = rays[i < count ? i : 0];
             for (std::size_t a = 0; a < 3; ++a) {
@@ -59,8 +58,6 @@ public:
             const auto ray_of_spheres = sphere_ray(ray);
             for (std::uint32_t i = 0; i < list_.spheres && active_ != 0; ++i) sphere(i, ray_of_spheres, limits);
         }
-        for (std::size_t r = 0; r < count_; ++r)
-            candidates_[r] = (waiting_ >> r & 1) != 0 ? static_cast<std::uint32_t>(candidate_[r]) : kNone;
         std::uint32_t rest = list_.is_all ? 0 : active_ & meets_rest(ray, limits);
         const bool is_planar = (scene_.kinds & ~flat::kPlanarKinds) == 0;  // what stands in trees, and in no instance
         if (Query::kFirstHit && rest != 0 && is_planar) rest &= ~ends_before_rest(rest);
@@ -68,6 +65,20 @@ public:
             if ((unusual >> r & 1) != 0 && !intersect_all_listed(scene_, RayFrame(rays_[r]), queries_[r]))
                 rest |= 1u << r;
         return list_.is_all ? 0 : rest;
+    }
+
+    // Once, after run().
+    void defer_candidates(DeferredHits& deferred) {
+        for (std::uint32_t lanes = waiting_; lanes != 0; lanes &= lanes - 1) {
+            const auto r = static_cast<std::size_t>(std::countr_zero(lanes));
+            const PrimitiveList::Entry& e = list_.entries[static_cast<std::size_t>(candidate_[r])];
+            Query& query = queries_[r];
+            query.lower_limit(double{bound_[r]});
+            as_seen(scene_, e, RayFrame(rays_[r]), [&](const auto& shape, const RayFrame& frame) HWY_ATTR {
+                deferred.add(shape, frame, query, e.number);
+                return false;
+            });
+        }
     }
 
 private:
@@ -248,7 +259,6 @@ private:
     const PrimitiveList& list_;
     const Ray* rays_;
     Query* queries_;
-    std::uint32_t* candidates_;
     std::size_t count_;
     std::uint32_t active_ = 0, leaving_ = 0, waiting_ = 0;  // by lane
     HWY_ALIGN double origin_[3][kPacket], direction_[3][kPacket], t_min_[kPacket], t_max_[kPacket];

@@ -6,6 +6,7 @@
 #define LIMN_KERNELS_PACKET_INL_H
 #endif
 
+#include "kernels/deferred_hits-inl.h"
 #include "kernels/list-inl.h"
 #include "kernels/node-inl.h"
 #include "kernels/queries.h"
@@ -71,8 +72,14 @@ class PacketTraversal {
 public:
     // All is kept by reference. \pre the rays are ordinary, of one octant and one longest axis; 0 < count <= kPacket
     PacketTraversal(const flat::Scene& scene, const flat::Group& group, const BoxRay* rays, const RayFrame* frames,
-                    std::size_t count, Query* queries)
-        : scene_(scene), group_(group), rays_(rays), frames_(frames), queries_(queries), count_(count) {
+                    std::size_t count, Query* queries, DeferredHits* deferred)
+        : scene_(scene),
+          group_(group),
+          rays_(rays),
+          frames_(frames),
+          queries_(queries),
+          deferred_(deferred),
+          count_(count) {
         for (std::size_t i = 0; i < kPacket; ++i) {
             const BoxRay& ray = rays[i < count ? i : 0];
             const PlanarRay planar(ray, 0);
@@ -99,7 +106,7 @@ public:
             while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack_);
             if (next != flat::kNothing && leaf(next)) farthest = farthest_bound();
             do {
-                if (stack_.size == 0) return ask_pending();
+                if (stack_.size == 0) return defer_pending();
                 --stack_.size;
             } while (stack_.near[stack_.size] > farthest);
             next = stack_.child[stack_.size];
@@ -124,14 +131,14 @@ private:
         bool changed = false;
         for (;;) {
             const flat::Block header = block.header();
-            for (std::uint32_t i = 0; i < header.count; ++i) changed |= triangle(block, header, i);
+            for (std::uint32_t i = 0; i < header.count; ++i) changed |= test(block, header, i);
             if (header.last) return changed;
             block.words += flat::words_of(header.kind, header.count);
         }
     }
 
     // A triangle for all lanes, a ray in each.
-    HWY_INLINE bool triangle(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) {
+    HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) {
         const auto vertex = [&](std::size_t k) HWY_ATTR {
             const auto coordinate = [&](std::size_t a)
                                         HWY_ATTR { return RayFloats(block.number(header.count, 3 * k + axes_[a], i)); };
@@ -177,20 +184,35 @@ private:
 
     bool has_pending(std::size_t r) const { return (pending_mask_ >> r & 1) != 0; }
 
-    void ask_pending() {
-        for (std::size_t r = 0; r < count_; ++r)
-            if (has_pending(r) && pending_[r].near <= above(bound_[r])) ask(r, pending_[r].block, pending_[r].lane);
+    void defer_pending() {
+        if constexpr (Query::kNearest)
+            for (std::uint32_t rest = pending_mask_; rest != 0; rest &= rest - 1) {
+                const auto r = static_cast<std::size_t>(std::countr_zero(rest));
+                const Pending& hit = pending_[r];
+                const flat::Block header = hit.block.header();
+                if (hit.near <= above(bound_[r]))
+                    deferred_->add(triangle(hit.block, header, hit.lane), frames_[r], queries_[r],
+                                   number(hit.block, header, hit.lane));
+            }
+    }
+
+    static TrianglePredicate<double> triangle(const flat::BlockView& block, const flat::Block& header,
+                                              std::uint32_t i) {
+        const TriangleVertices v = flat::packed_triangle(block, header.count, i);
+        return triangle_of<double>(v.a, v.b, v.c);
+    }
+    std::uint64_t number(const flat::BlockView& block, const flat::Block& header, std::uint32_t i) const {
+        return scene_.ranges[header.range].first_number + block.id(i);
     }
 
     // Exactly.
     void ask(std::size_t r, const flat::BlockView& block, std::uint32_t i) {
         const flat::Block header = block.header();
-        const TriangleVertices v = flat::packed_triangle(block, header.count, i);
         Query& query = queries_[r];
         PlanarHit hit;
         const Search search{frames_[r].ray.t_min, query.limit()};
-        if (!intersect(triangle_of<double>(v.a, v.b, v.c), frames_[r], search, hit)) return;
-        const bool ended = query.report(hit, scene_.ranges[header.range].first_number + block.id(i), false);
+        if (!intersect(triangle(block, header, i), frames_[r], search, hit)) return;
+        const bool ended = query.report(hit, number(block, header, i), false);
         const float bound = ended ? kNever : rays_[r].upper(query.limit());
         if (bound < bound_[r]) bound_[r] = bound;
     }
@@ -200,6 +222,7 @@ private:
     const BoxRay* rays_;
     const RayFrame* frames_;
     Query* queries_;
+    DeferredHits* deferred_;
     std::size_t count_;
     unsigned axes_[3];
     bool leaves_ = false;  // all of them: nothing behind their origins counts

@@ -11,21 +11,24 @@
 namespace limn::kernels {
 
 struct Closest {
-    static constexpr bool kEveryHit = false, kFirstHit = false;
-    Hit best;  // index_matched as a foreign shape says
+    static constexpr bool kNearest = true, kEveryHit = false, kFirstHit = false;
+    double t_max;  // lowered as hits are known, be it by their bounds
+    Hit best = {};
 
-    double limit() const { return best.t; }
+    double limit() const { return t_max; }
+    void lower_limit(double t) { t_max = smaller(t_max, t); }
     bool ended() const { return false; }
     bool passes(const ForeignHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
-        if (hit.t < best.t || number < best.primitive) best = {{hit.t, number}, hit.u, hit.v, matched};
+        if (hit.t < best.t || (hit.t == best.t && number < best.primitive))
+            best = {{hit.t, number}, hit.u, hit.v, matched};
+        lower_limit(hit.t);
         return false;
     }
-    Hit hit() const { return best.primitive == flat::RawHit::kMiss ? Hit{} : best; }
 };
 
 struct Any {
-    static constexpr bool kEveryHit = false, kFirstHit = true;
+    static constexpr bool kNearest = false, kEveryHit = false, kFirstHit = true;
     double t_max;
     bool passes_boundaries = false;  // index-matched ones
     bool found = false;
@@ -37,7 +40,7 @@ struct Any {
 };
 
 struct Every {
-    static constexpr bool kEveryHit = true, kFirstHit = false;
+    static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false;
     double t_max;
     std::vector<Crossing>& crossings;
 

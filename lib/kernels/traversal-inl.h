@@ -10,9 +10,9 @@
 
 #include "core/sphere_uv.h"
 #include "kernels/box_ray-inl.h"
+#include "kernels/deferred_hits-inl.h"
 #include "kernels/node-inl.h"
 #include "kernels/queries.h"
-#include "kernels/shapes-inl.h"
 #include "predicates/sphere_side.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,15 +26,17 @@ namespace limn::kernels::HWY_NAMESPACE {
 template <unsigned kKinds, class Query>
 class Traversal {
 public:
-    // `ray`, which is the frame's, `frame` and `query` are kept by reference.
+    // `ray`, which is the frame's, `frame` and `query` are kept by reference. `deferred` takes the sure hits of a
+    // batch, and is null for single rays.
     HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const BoxRay& ray, const RayFrame& frame,
-                         std::uint64_t first_number, Query& query)
+                         std::uint64_t first_number, Query& query, DeferredHits* deferred)
         : scene_(scene),
           group_(group),
           frame_(frame),
           box_ray_(ray),
           first_number_(first_number),
           query_(query),
+          deferred_(deferred),
           node_test_(ray),
           bound_(box_ray_.upper(query.limit())),
           possible_after_(below(box_ray_.t_min)),
@@ -59,7 +61,7 @@ public:
             }
             do {
                 if (stack_.size == 0) {
-                    ask_pending();
+                    finish();
                     return false;
                 }
                 --stack_.size;
@@ -76,7 +78,10 @@ public:
             while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
             if (next != flat::kNothing && leaf(next)) return true;
             do {
-                if (stack_.size == 0) return ask_pending();
+                if (stack_.size == 0) {
+                    finish();
+                    return false;
+                }
                 --stack_.size;
             } while (stack_.near[stack_.size] > bound_);
             next = stack_.child[stack_.size];
@@ -160,7 +165,7 @@ private:
             const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
                                  found.far[lane] < certain_before_;
             if (certain && Query::kFirstHit) return query_.report({}, 0, false);
-            if (certain && !Query::kEveryHit) {
+            if (certain && Query::kNearest) {
                 if (found.near[lane] > above(bound_)) continue;  // another lane's hit is nearer
                 bound_ = smaller(bound_, above(found.far[lane] + box_ray_.t_error));
                 postpone({block, lane, found.near[lane]});
@@ -194,13 +199,31 @@ private:
         pending_[pending_count_++] = hit;
     }
 
-    bool ask_pending() {
+    // Makes the query's limit say all that is known.
+    void update_limit() {
+        if constexpr (Query::kNearest) {
+            if (box_ray_.is_taken_as_it_is)
+                query_.lower_limit(double{above(bound_)});
+            else
+                ask_pending();
+        }
+    }
+
+    // Nothing is left to be visited.
+    void finish() {
+        if constexpr (Query::kNearest) {
+            is_deferring_ = deferred_ != nullptr && box_ray_.is_taken_as_it_is;
+            if (is_deferring_) query_.lower_limit(double{above(bound_)});
+            ask_pending();
+        }
+    }
+
+    void ask_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
             const Pending& hit = pending_[i];
-            if (hit.near <= above(bound_) && ask(hit.block, hit.block.header(), hit.lane)) return true;
+            if (hit.near <= above(bound_)) ask(hit.block, hit.block.header(), hit.lane);
         }
         pending_count_ = 0;
-        return false;
     }
 
     // Exactly.
@@ -228,7 +251,7 @@ private:
         if constexpr (has(PrimitiveKind::instance)) {
             if (range.kind == PrimitiveKind::instance) {
                 const flat::Instance& instance = scene_.instances[range.first_row];
-                if (ask_pending()) return true;  // so that the limit says all there is to say
+                update_limit();
                 return inside(instance, frame_, [&](const RayFrame& frame) {
                     return is_usable(frame.ray) && run_inside(flat::group_at(scene_, instance.group), frame, number);
                 });
@@ -236,7 +259,7 @@ private:
         }
         if constexpr (has(PrimitiveKind::foreign)) {
             if (range.kind == PrimitiveKind::foreign) {
-                if (ask_pending()) return true;
+                update_limit();
                 return foreign(scene_.foreign[row], number);
             }
         }
@@ -248,13 +271,23 @@ private:
     bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
         BoxRay ray;
         set_up(frame.ray, frame, group, ray);
-        return Traversal(scene_, group, ray, frame, number, query_).run();
+        return Traversal(scene_, group, ray, frame, number, query_, deferred_).run();
+    }
+
+    template <class Shape>
+    HWY_INLINE bool defer(const Shape& shape, std::uint64_t number) {
+        if constexpr (Query::kNearest) {
+            if (is_deferring_) deferred_->add(shape, frame_, query_, number);
+            return is_deferring_;
+        }
+        return false;
     }
 
     Search search() const { return {frame_.ray.t_min, query_.limit()}; }
 
     template <class Shape>
     HWY_NOINLINE bool ask(const Shape& shape, std::uint64_t number) {
+        if (defer(shape, number)) return false;
         PlanarHit hit;
         if (!intersect(shape, frame_, search(), hit)) return false;
         bool inward = false;
@@ -268,6 +301,7 @@ private:
             return (hits.near_found && query_.report({hits.near, 0, 0}, number, sphere.radius > 0)) ||
                    (hits.far_found && query_.report({hits.far, 0, 0}, number, sphere.radius < 0));
         } else {
+            if (defer(sphere, number)) return false;
             const Ray& ray = frame_.ray;
             const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
             if (frame_.outer == nullptr && ray.t_min >= 0 &&
@@ -301,11 +335,13 @@ private:
     std::optional<SphereFloatRay<float>> round_;
     const std::uint64_t first_number_;
     Query& query_;
+    DeferredHits* const deferred_;
     const NodeTest node_test_;
     float bound_;  // in BoxRay's t: no hit of interest is beyond
     // By t_min and t_max: hits before the first do not count, those that lie between the others do.
     const float possible_after_, certain_after_, certain_before_;
     std::size_t pending_count_ = 0;
+    bool is_deferring_ = false;  // what is asked from now on
     Pending pending_[kMaxPending];
     Stack stack_;
 };

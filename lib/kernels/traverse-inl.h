@@ -47,10 +47,10 @@ HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
 
 template <unsigned kKinds, class Query>
 HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
-                             std::uint64_t first_number, Query& query) {
+                             std::uint64_t first_number, Query& query, DeferredHits* deferred) {
     BoxRay box;
     set_up(ray, frame, group, box);
-    Traversal<kKinds, Query>(scene, group, box, frame, first_number, query).run();
+    Traversal<kKinds, Query>(scene, group, box, frame, first_number, query, deferred).run();
 }
 
 template <class Query>
@@ -64,7 +64,7 @@ void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame
     }
     const flat::Group& group = flat::group_at(scene, id);
     with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
-                          HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query); });
+                          HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query, nullptr); });
 }
 
 constexpr float kPacketTriangles = 4;
@@ -90,7 +90,8 @@ bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Gro
 template <class Query>
 class Interleaved {
 public:
-    explicit Interleaved(const flat::Scene& scene) : scene_(scene), root_(flat::group_at(scene, GroupId::root)) {}
+    Interleaved(const flat::Scene& scene, DeferredHits* deferred)
+        : scene_(scene), root_(flat::group_at(scene, GroupId::root)), deferred_(deferred) {}
 
     HWY_INLINE void add(const Ray& ray, Query& query) {
         if (root_.root == flat::kNothing) return;
@@ -98,7 +99,7 @@ public:
         Slot& slot = slots_[order_[active_++]];
         slot.frame.emplace(ray);
         set_up(ray, *slot.frame, root_, slot.box);
-        slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query);
+        slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query, deferred_);
         slot.next = root_.root;
     }
 
@@ -129,6 +130,7 @@ private:
 
     const flat::Scene& scene_;
     const flat::Group& root_;
+    DeferredHits* const deferred_;
     std::size_t active_ = 0;
     std::array<std::uint8_t, kSlots> order_ = [] {
         std::array<std::uint8_t, kSlots> all{};
@@ -138,56 +140,21 @@ private:
     std::array<Slot, kSlots> slots_;
 };
 
-// The exact answers for the candidates of a list.
-void answer_listed(const flat::Scene& scene, const Ray* rays, std::size_t count, const std::uint32_t* candidates,
-                   Closest* queries) {
-    std::tuple<ExactQueue<QuadPredicate>, ExactQueue<TrianglePredicate>, ExactQueue<SpherePredicate>> queues;
-    const auto flush = [&](auto& queue) HWY_ATTR {
-        queue.flush(
-            [&](std::uint32_t r, const PlanarHit& hit) {
-                queries[r].report(hit, scene.list.entries[candidates[r]].number, false);
-            },
-            [&](std::uint32_t r) {
-                intersect_listed(scene, scene.list.entries[candidates[r]], RayFrame(rays[r]), queries[r]);
-            });
-    };
-    for (std::uint32_t r = 0; r < count; ++r) {
-        if (candidates[r] == ListPacket<Closest>::kNone) continue;
-        const PrimitiveList::Entry& e = scene.list.entries[candidates[r]];
-        const auto add = [&](const RayFrame& frame) HWY_ATTR {
-            with_listed(scene, e, [&]<template <class> class Predicate>(const Predicate<double>& shape) HWY_ATTR {
-                auto& queue = std::get<ExactQueue<Predicate>>(queues);
-                queue.add(shape, frame, {frame.ray.t_min, queries[r].limit()}, r);
-                if (queue.is_full()) flush(queue);
-                return false;
-            });
-        };
-        const RayFrame frame(rays[r]);
-        if (!e.is_instanced)
-            add(frame);
-        else
-            inside(scene.instances[e.instance], frame, [&](const RayFrame& inner) HWY_ATTR {
-                if (is_usable(inner.ray)) add(inner);
-            });
-    }
-    std::apply([&](auto&... queue) HWY_ATTR { (flush(queue), ...); }, queues);
-}
-void answer_listed(const flat::Scene&, const Ray*, std::size_t, const std::uint32_t*, Any*) {}
-
 // `rest`: by packets, those that may still meet what is not listed.
 template <class Query>
-void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, std::uint32_t* rest) {
-    HWY_ALIGN std::uint32_t candidates[kMostRays];
-    for (std::size_t first = 0; first < count; first += kPacket)
-        rest[first / kPacket] = ListPacket<Query>(scene, rays + first, std::min(kPacket, count - first),
-                                                  queries + first, candidates + first)
-                                    .run();
-    answer_listed(scene, rays, count, candidates, queries);
+void search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, DeferredHits* deferred,
+                 std::uint32_t* rest) {
+    for (std::size_t first = 0; first < count; first += kPacket) {
+        ListPacket<Query> packet(scene, rays + first, std::min(kPacket, count - first), queries + first);
+        rest[first / kPacket] = packet.run();
+        if constexpr (Query::kNearest) packet.defer_candidates(*deferred);
+    }
 }
 
 // False if the rays cannot be traced as a packet.
 template <class Query>
-bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries,
+                   DeferredHits* deferred) {
     const flat::Group& root = flat::group_at(scene, GroupId::root);
     std::array<BoxRay, kPacket> boxes;
     std::vector<RayFrame> frames;
@@ -199,18 +166,18 @@ bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count,
             longest_axis(boxes[i].direction) != longest_axis(boxes[0].direction))
             return false;
     }
-    PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), count, queries).run();
+    PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), count, queries, deferred).run();
     return true;
 }
 
 template <class Query>
-void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries) {
+void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, DeferredHits* deferred) {
     const auto lanes_from = [&](std::size_t first) {
         return (std::uint32_t{1} << std::min(kPacket, count - first)) - 1;
     };
     std::uint32_t open[kMostRays / kPacket + 1];  // by packets
     if (!scene.list.empty()) {
-        search_list(scene, rays, count, queries, open);
+        search_list(scene, rays, count, queries, deferred, open);
         if (scene.list.is_all) return;
     } else {
         for (std::size_t first = 0; first < count; first += kPacket) open[first / kPacket] = lanes_from(first);
@@ -225,33 +192,38 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
         return with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
             for (std::size_t first = 0; first < count; first += kPacket)
                 for_open(first, [&](std::size_t i) HWY_ATTR {
-                    search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+                    search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i], deferred);
                 });
         });
     }
     const float spread = packet_spread(scene);
-    HWY_ALIGN Interleaved<Query> interleaved(scene);
+    HWY_ALIGN Interleaved<Query> interleaved(scene, deferred);
     for (std::size_t first = 0; first < count; first += kPacket) {
         const std::size_t some = std::min(kPacket, count - first);
         const bool are_all_open = open[first / kPacket] == lanes_from(first);
         if (some > 1 && are_all_open && are_alike(rays + first, some, spread, root) &&
-            search_packet(scene, rays + first, some, queries + first))
+            search_packet(scene, rays + first, some, queries + first, deferred))
             continue;
         for_open(first, [&](std::size_t i) HWY_ATTR {
             if (scene.is_larger_than_cache)
                 interleaved.add(rays[i], queries[i]);
             else
-                search_group<kMeshes>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+                search_group<kMeshes>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i], deferred);
         });
     }
     interleaved.finish();
 }
 
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {
-    search_many(scene, rays, count, queries);
+    DeferredHits deferred(queries);
+    search_many(scene, rays, count, queries, &deferred);
+    deferred.finish(count, [&](std::size_t i) HWY_ATTR {
+        queries[i] = {rays[i].t_max};
+        search(scene, GroupId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+    });
 }
 void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries) {
-    search_many(scene, rays, count, queries);
+    search_many(scene, rays, count, queries, nullptr);
 }
 
 void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,

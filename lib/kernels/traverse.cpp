@@ -26,9 +26,9 @@ HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
 Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
-    Closest query{{{frame.ray.t_max, flat::RawHit::kMiss}}};
+    Closest query{frame.ray.t_max};
     HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
-    return query.hit();
+    return query.best;
 }
 
 // visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
@@ -74,9 +74,9 @@ bool any_hit(const flat::Scene& scene, const Ray& ray) {
 
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
     std::array<Closest, kMostRays> queries;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {{{rays[i].t_max, flat::RawHit::kMiss}}};
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max};
     HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.data());
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].hit();
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].best;
 }
 
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
