@@ -10,8 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::kernels::HWY_NAMESPACE {
 
-using Words = hn::Rebind<std::uint32_t, Doubles>;
-using LongWords = hn::Rebind<std::uint64_t, Doubles>;
+using Words = hn::Rebind<std::uint32_t, Doubles::Tag>;
+using LongWords = hn::Rebind<std::uint64_t, Doubles::Tag>;
 using Word = hn::Vec<Words>;
 using LongWord = hn::Vec<LongWords>;
 
@@ -55,13 +55,12 @@ HWY_INLINE LongWord mixed(LongWord z) {
 }
 
 // sobol::number.
-HWY_INLINE W number(Word reversed_coordinate, Word seed) {
+HWY_INLINE Doubles number(Word reversed_coordinate, Word seed) {
     const Word digits = scrambled_upward(reversed_coordinate, seed);
     const Word rest = hn::ShiftRight<11>(hn::Xor(digits, seed) * word(sobol::kRestFactor));
     const LongWords d;
     const LongWord all = hn::Or(hn::ShiftLeft<21>(hn::PromoteTo(d, reversed(digits))), hn::PromoteTo(d, rest));
-    return hn::ConvertTo(Doubles(), hn::BitCast(hn::Rebind<std::int64_t, Doubles>(), all)) *
-           hn::Set(Doubles(), 0x1p-53);
+    return 0x1p-53 * Doubles(hn::ConvertTo(Doubles::Tag(), hn::BitCast(hn::Rebind<std::int64_t, Doubles::Tag>(), all)));
 }
 
 // Reversed columns of the generator matrices: a bit of the index, highest first, stands for one.
@@ -85,7 +84,7 @@ HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Lane* numbers) 
         const LongWord seeds = mixed(hn::Load(LongWords(), lanes.base + i) + times(group, sobol::kStep));
         Word index = scrambled_upward(hn::LoadU(w, lanes.index + i), hn::TruncateTo(w, seeds));
         const Word seed0 = hn::TruncateTo(w, hn::ShiftRight<32>(times(seeds, sobol::kSeedFactors[0])));
-        StoreLane(number(reversed(hn::And(index, word(0xffffff00U))), seed0), numbers[0] + i);
+        store(number(reversed(hn::And(index, word(0xffffff00U))), seed0), numbers[0] + i);
         Word coordinate[sobol::kDimensions];
         for (std::size_t d = 1; d < n; ++d) coordinate[d] = hn::Zero(w);
         const hn::RebindToSigned<Words> bits;
@@ -97,7 +96,7 @@ HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Lane* numbers) 
         }
         for (std::size_t d = 1; d < n; ++d) {
             const Word seed = hn::TruncateTo(w, hn::ShiftRight<32>(times(seeds, sobol::kSeedFactors[d])));
-            StoreLane(number(coordinate[d], seed), numbers[d] + i);
+            store(number(coordinate[d], seed), numbers[d] + i);
         }
     }
 }

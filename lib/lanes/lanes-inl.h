@@ -25,8 +25,18 @@ namespace limn::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
+struct Wide;
+
+template <class D>
 struct WideMask {
     hn::Mask<D> m;
+
+    friend LIMN_ALWAYS_INLINE Wide<D> select(WideMask mask, Wide<D> yes, Wide<D> no) {
+        return hn::IfThenElse(mask.m, yes.v, no.v);
+    }
+    friend LIMN_ALWAYS_INLINE WideMask select(WideMask mask, WideMask yes, WideMask no) {
+        return (mask & yes) | ((!mask) & no);
+    }
 
     friend LIMN_ALWAYS_INLINE WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.m, b.m)}; }
     friend LIMN_ALWAYS_INLINE WideMask operator|(WideMask a, WideMask b) { return {hn::Or(a.m, b.m)}; }
@@ -81,14 +91,6 @@ inline constexpr std::size_t kLanes = hn::MaxLanes(typename N::Tag());
 template <>
 inline constexpr std::size_t kLanes<double> = 1;
 
-template <class D>
-HWY_INLINE Wide<D> select(WideMask<D> mask, Wide<D> yes, Wide<D> no) {
-    return hn::IfThenElse(mask.m, yes.v, no.v);
-}
-template <class D>
-HWY_INLINE WideMask<D> select(WideMask<D> mask, WideMask<D> yes, WideMask<D> no) {
-    return (mask & yes) | (!mask & no);
-}
 template <class D>
 HWY_INLINE bool any(WideMask<D> mask) {
     return !hn::AllFalse(D(), mask.m);
@@ -171,7 +173,17 @@ struct Vector {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
     friend LIMN_ALWAYS_INLINE Vector operator*(const N& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend LIMN_ALWAYS_INLINE Vector operator*(const Vector& a, const Vector& b) {
+        return {a.x * b.x, a.y * b.y, a.z * b.z};
+    }
+    friend LIMN_ALWAYS_INLINE Vector operator/(const Vector& a, const N& s) { return {a.x / s, a.y / s, a.z / s}; }
     friend LIMN_ALWAYS_INLINE Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
+    friend LIMN_ALWAYS_INLINE Vector abs(const Vector& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
+    friend LIMN_ALWAYS_INLINE N length_squared(const Vector& a) { return dot(a, a); }
+    friend LIMN_ALWAYS_INLINE Vector normalize(const Vector& a) { return a / sqrt(length_squared(a)); }
+    friend LIMN_ALWAYS_INLINE Vector select(const Mask<N>& mask, const Vector& yes, const Vector& no) {
+        return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+    }
     friend LIMN_ALWAYS_INLINE N dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
     friend LIMN_ALWAYS_INLINE Vector cross(const Vector& a, const Vector& b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
