@@ -93,10 +93,9 @@ private:
     }
 
     Leaf leaf(const SplitNode& node) {
-        const auto first = bvh_.indices.begin() + node.begin, last = first + node.size();
-        std::sort(first, last);
-        // The halves of a box that was cut may meet again.
-        return {node.begin, static_cast<std::uint32_t>(std::unique(first, last) - first)};
+        const auto first = bvh_.indices.begin() + node.begin;
+        std::sort(first, first + node.size());
+        return {node.begin, node.size()};
     }
 
     WideBvh bvh_;

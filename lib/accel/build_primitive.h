@@ -54,7 +54,7 @@ static_assert(sizeof(BuildPrimitive) == 32);
 
 // Build primitives that stand together, and what surrounds them and their centres.
 struct Range {
-    std::uint32_t begin = 0, end = 0, room = 0;  // room: for how many more, from the end on
+    std::uint32_t begin = 0, end = 0;
     Bounds bounds = kEmpty, centers = kEmpty;
 
     std::uint32_t size() const { return end - begin; }
@@ -81,7 +81,7 @@ inline FloatBox to_box(const Bounds& b) {
 }
 
 inline Range range_over(const BuildPrimitive* primitives, std::uint32_t begin, std::uint32_t end) {
-    Range range{begin, end, 0};
+    Range range{begin, end};
     for (std::uint32_t i = begin; i < end; ++i) range.extend(primitives[i]);
     return range;
 }

@@ -35,13 +35,13 @@ Range fill(std::span<const FloatBox> boxes, const Range& chunk, BuildPrimitive* 
         primitives[at++] = p;
         range.extend(p);
     }
-    return {chunk.begin, at, 0, range.bounds, range.centers};
+    return {chunk.begin, at, range.bounds, range.centers};
 }
 
 }  // namespace
 
-Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
-    Gathered all{allocate_primitives(boxes.size() + room), {}, {}};
+Gathered gather(std::span<const FloatBox> boxes) {
+    Gathered all{allocate_primitives(boxes.size()), {}, {}};
     BuildPrimitive* primitives = all.primitives.get();
     std::vector<Range> chunks = chunks_of(0, static_cast<std::uint32_t>(boxes.size()));
     std::vector<std::vector<std::uint32_t>> unbounded(chunks.size());
@@ -54,7 +54,6 @@ Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room) {
         all.range.extend(chunk);
         all.unbounded.insert(all.unbounded.end(), unbounded[i].begin(), unbounded[i].end());
     }
-    all.range.room = room;
     return all;
 }
 

@@ -23,9 +23,8 @@ struct Gathered {
     std::vector<std::uint32_t> unbounded;  // indices of the others
 };
 
-// Leaves out empty boxes. Counts boxes as unbounded too whose sides' sums or differences could overflow. There is room
-// for so many more build primitives.
-Gathered gather(std::span<const FloatBox> boxes, std::uint32_t room);
+// Leaves out empty boxes. Counts boxes as unbounded too whose sides' sums or differences could overflow.
+Gathered gather(std::span<const FloatBox> boxes);
 
 // As range_over, in parallel.
 Range range_over_many(const BuildPrimitive* primitives, std::uint32_t begin, std::uint32_t end);

@@ -15,14 +15,11 @@ namespace {
 
 constexpr std::uint32_t kSubtree = 4096;  // build primitives that one thread sorts, in its second-level cache
 
-// Stich, Friedrich and Dietrich found this good for all their scenes, as a part of the root's area.
-constexpr double kLeastOverlap = 1e-5;
-
 // The binary tree over all bounded boxes.
 class TreeBuilder {
 public:
     // `indices` gets those of the primitives, at their places in the tree.
-    TreeBuilder(const Splitting& splitting, std::uint32_t* indices) : splitting_(splitting), indices_(indices) {}
+    TreeBuilder(const BuildSettings& settings, std::uint32_t* indices) : settings_(settings), indices_(indices) {}
 
     ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& root) {
         split(primitives, spare, {&root, 1, range.begin, range.end}, range);
@@ -41,13 +38,11 @@ private:
     };
 
     void split(BuildPrimitive* primitives, BuildPrimitive* spare, const OpenRange& open, const Range& range) {
-        const bool has_cells = splitting_.clip == nullptr;  // which cannot be cut
-        if (!has_cells || open.size() <= kSubtree || !has_extent(range) || !may_split(open.size(), open.depth)) {
-            jobs_.push_back({primitives, spare, open, range, {splitting_, indices_}, {}});
+        if (open.size() <= kSubtree || !has_extent(range) || !may_split(open.size(), open.depth)) {
+            jobs_.push_back({primitives, spare, open, range, {settings_, indices_}, {}});
             return;
         }
-        for (const OpenRange& part :
-             split_by_grid(primitives, spare, open, range, kSubtree, splitting_.settings, nodes_))
+        for (const OpenRange& part : split_by_grid(primitives, spare, open, range, kSubtree, settings_, nodes_))
             split(spare, primitives, part,
                   part.size() > kSubtree ? range_over_many(spare, part.begin, part.end) : Range());
     }
@@ -61,10 +56,10 @@ private:
     ForestCosts plan(SplitNode& node, std::size_t& next_job) {
         if (next_job < jobs_.size() && jobs_[next_job].open.node == &node) return jobs_[next_job++].costs;
         const ForestCosts left = plan(*node.left, next_job), right = plan(*node.right, next_job);
-        return plan_node(node, left, right, splitting_.settings);
+        return plan_node(node, left, right, settings_);
     }
 
-    const Splitting& splitting_;
+    const BuildSettings& settings_;
     std::uint32_t* indices_;
     std::deque<SplitNode> nodes_;  // at the top
     std::deque<Job> jobs_;
@@ -101,29 +96,25 @@ struct UnboundedTree {
 
 }  // namespace
 
-WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings, const Clip* clip) {
-    const auto room =
-        clip == nullptr ? 0 : static_cast<std::uint32_t>(settings.room * static_cast<double>(boxes.size()));
-    const Gathered gathered = gather(boxes, room);
+WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings) {
+    const Gathered gathered = gather(boxes);
     const Range& range = gathered.range;
-    const std::uint32_t bounded_end = range.size() + room;
-    HugeVector<std::uint32_t> indices(bounded_end + gathered.unbounded.size());
-    std::ranges::copy(gathered.unbounded, indices.begin() + bounded_end);
+    HugeVector<std::uint32_t> indices(range.size() + gathered.unbounded.size());
+    std::ranges::copy(gathered.unbounded, indices.begin() + range.size());
 
-    const Splitting splitting{settings, clip, kLeastOverlap * half_area(to_box(range.bounds))};
-    TreeBuilder builder(splitting, indices.data());
+    TreeBuilder builder(settings, indices.data());
     UnboundedTree unbounded{boxes, indices, settings};
     const bool has_unbounded = !gathered.unbounded.empty();
     SplitNode root;
     Slots top;  // of the wide root
     double cost = 0;
     if (range.size() > 0) {
-        const PrimitiveArray spare = allocate_primitives(range.size() + room);
+        const PrimitiveArray spare = allocate_primitives(range.size());
         const ForestCosts costs = builder.build(gathered.primitives.get(), spare.get(), range, root);
         fill_slots(root, has_unbounded ? kWidth - 1 : kWidth, top);
         cost = costs[has_unbounded ? kWidth - 2 : 0] / half_area(root.box);
     }
-    if (has_unbounded) top.add(*unbounded.build(bounded_end, static_cast<std::uint32_t>(indices.size())));
+    if (has_unbounded) top.add(*unbounded.build(range.size(), static_cast<std::uint32_t>(indices.size())));
     if (top.count == 0) return {};
     if (root.is_leaf || has_unbounded) cost += settings.node_cost + unbounded.cost;
     WideBvh bvh = assemble(top, std::move(indices));

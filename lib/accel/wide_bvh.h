@@ -28,28 +28,12 @@ struct BuildSettings {
     std::uint32_t max_leaf = 8;    // boxes
     std::uint32_t leaf_width = 8;  // boxes tested at once
     double node_cost = 1, leaf_cost = 1;
-    double room = 0.3;  // where boxes are cut: for how many more, as a part of their number
-};
-
-// What is in a box, to one who would cut it.
-class Clip {
-public:
-    struct Parts {
-        FloatBox lower, upper;  // empty where nothing is
-    };
-
-    virtual ~Clip() = default;
-    // The bounds, rounded outward, of what of a primitive lies in `box`, on either side of the plane where coordinate
-    // `axis` is `position`; the plane belongs to both sides. `box` lies within the primitive's own. Many threads call
-    // it.
-    virtual Parts cut(std::uint32_t primitive, const FloatBox& box, int axis, float position) const = 0;
 };
 
 // No path from the root to a leaf has more nodes.
 inline constexpr int kMaxWideDepth = 64;
 
-// Parallel in the caller's arena, the same to the bit on any number of threads. With a clip, boxes may be cut, so that
-// a primitive stands in several leaves. \pre fewer than 2^31 boxes
-WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings = {}, const Clip* clip = nullptr);
+// Parallel in the caller's arena, the same to the bit on any number of threads. \pre fewer than 2^31 boxes
+WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings = {});
 
 }  // namespace limn::accel

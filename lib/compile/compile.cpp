@@ -190,7 +190,7 @@ std::size_t memory_of(const flat::Scene& s) {
 
 }  // namespace
 
-flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
+flat::Scene flatten(const limn::Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
     require(is_radiance(scene.background.bottom), "compile: Scene::background.bottom must be finite and not negative");
     require(is_radiance(scene.background.top), "compile: Scene::background.top must be finite and not negative");
@@ -209,8 +209,7 @@ flat::Scene flatten(const limn::Scene& scene, bool cut_triangles) {
     out.background_bottom = scene.background.bottom;
     out.background_top = scene.background.top;
     reserve_places(out);
-    // A boundary that is met twice by the same triangle would be left when it is entered.
-    build_trees(out, cut_triangles && out.medium_shapes.empty());
+    build_trees(out);
     judge_memory(out);
     name_objects(out);
     place_media(out);

@@ -6,8 +6,8 @@
 
 namespace limn::compiler {
 
-// Pure. `cut_triangles`: between boxes, where that makes rays meet fewer of them. \throws ArgumentError if an object
-// contains itself, instances nest too deep, a medium's boundary contains a medium, or there are too many primitives
-flat::Scene flatten(const limn::Scene& scene, bool cut_triangles = false);
+// Pure. \throws ArgumentError if an object contains itself, instances nest too deep, a medium's boundary contains a
+// medium, or there are too many primitives
+flat::Scene flatten(const limn::Scene& scene);
 
 }  // namespace limn::compiler

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
-#include "accel/clip_triangle.h"
 #include "accel/float_box.h"
 #include "accel/parallel.h"
 #include "accel/slab.h"
@@ -20,32 +18,6 @@
 namespace limn::compiler {
 
 namespace {
-
-// Cuts triangles of meshes, and the boxes of everything else. \pre boxes are not scaled: vertices are as they are
-class TriangleClip final : public accel::Clip {
-public:
-    TriangleClip(const flat::Scene& scene, std::span<const flat::Reference> references)
-        : scene_(scene), references_(references) {}
-
-    Parts cut(std::uint32_t primitive, const accel::FloatBox& box, int axis, float position) const override {
-        const flat::Reference& reference = references_[primitive];
-        const PrimitiveRange& range = scene_.ranges[reference.range];
-        if (range.kind != PrimitiveKind::mesh) {
-            Parts parts{box, box};
-            parts.lower.upper[axis] = std::min(box.upper[axis], position);
-            parts.upper.lower[axis] = std::max(box.lower[axis], position);
-            return parts;
-        }
-        const MeshView& mesh = scene_.meshes[range.first_row].arrays;
-        const Index3 corner = mesh.triangles[reference.element];
-        const Float3 a = mesh.vertices[corner.a], b = mesh.vertices[corner.b], c = mesh.vertices[corner.c];
-        return accel::clip_triangle({{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}, box, axis, position);
-    }
-
-private:
-    const flat::Scene& scene_;
-    std::span<const flat::Reference> references_;
-};
 
 // How far a number moves when it is packed as float.
 double lost(double x) { return std::abs(x - static_cast<double>(static_cast<float>(x))); }
@@ -189,7 +161,7 @@ double GroupTree::note_what_is_left() {
     return packed_error;
 }
 
-void GroupTree::finish(flat::Group& group, bool cut_triangles) {
+void GroupTree::finish(flat::Group& group) {
     group.bounds = bounds_;
     group.extent = extent_;
     // Where float serves, boxes stay as they are.
@@ -198,10 +170,7 @@ void GroupTree::finish(flat::Group& group, bool cut_triangles) {
     group.packed_error = accel::round_up(note_what_is_left());
     scale_boxes(group.scale);
     // A leaf takes two to three times as long as a node (docs/performance.md).
-    const TriangleClip clip(scene_, references_);
-    const bool may_cut = cut_triangles && group.scale == 1;
-    accel::WideBvh bvh =
-        accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2}, may_cut ? &clip : nullptr);
+    accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
     group.cost = bvh.cost;
     group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
 }

@@ -17,7 +17,7 @@ public:
     void add(const PrimitiveRange& range, std::uint32_t row);
 
     // Sets the group's root, bounds, extent and scale; of the scene itself Scene::list, too.
-    void finish(flat::Group& group, bool cut_triangles);
+    void finish(flat::Group& group);
 
 private:
     void measure_mesh(const PrimitiveRange& range, std::size_t first);

@@ -19,11 +19,8 @@ std::vector<bool> groups_with_media(const flat::Scene& scene) {
 
 class TreeBuilder {
 public:
-    TreeBuilder(flat::Scene& scene, bool cut_triangles)
-        : scene_(scene),
-          cut_triangles_(cut_triangles),
-          height_(scene.groups.size(), kUnbuilt),
-          holds_media_(groups_with_media(scene)) {}
+    explicit TreeBuilder(flat::Scene& scene)
+        : scene_(scene), height_(scene.groups.size(), kUnbuilt), holds_media_(groups_with_media(scene)) {}
 
     // A BLAS before those above it: an instance needs the bounds of its own. Returns how many instances nest below.
     std::uint32_t build(GroupId id) {
@@ -47,7 +44,7 @@ public:
         if (height > flat::kMaxNesting)
             throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
         height_[index] = height;
-        tree.finish(scene_.groups[index], cut_triangles_);
+        tree.finish(scene_.groups[index]);
         return height;
     }
 
@@ -55,7 +52,6 @@ private:
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;
-    const bool cut_triangles_;
     std::vector<std::uint32_t> height_;  // by group
     std::vector<bool> holds_media_;      // by group
 };
@@ -113,7 +109,7 @@ private:
 
 }  // namespace
 
-void build_trees(flat::Scene& scene, bool cut_triangles) { TreeBuilder(scene, cut_triangles).build(GroupId::root); }
+void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(GroupId::root); }
 
 void place_media(flat::Scene& scene) { MediumPlacer{scene}; }
 

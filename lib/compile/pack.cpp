@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 
 #include "accel/parallel.h"
@@ -118,15 +117,11 @@ private:
         });
     }
 
-    // A triangle that was cut by the builder stands in several leaves, with all its vertices: the first one is noted.
+    // Each triangle stands in one leaf, so that no two threads write the same place.
     void note_places(std::uint32_t range, const std::uint32_t* ids, std::uint32_t count, std::size_t at) {
         std::vector<std::uint32_t>& places = scene_.meshes[scene_.ranges[range].first_row].places;
-        for (std::uint32_t i = 0; i < count && !places.empty(); ++i) {
-            const auto here = static_cast<std::uint32_t>(at / 2 * flat::kMaxBlock + i);
-            const std::atomic_ref<std::uint32_t> place(places[ids[i]]);
-            std::uint32_t seen = place.load(std::memory_order_relaxed);
-            while (here < seen && !place.compare_exchange_weak(seen, here, std::memory_order_relaxed)) {}
-        }
+        for (std::uint32_t i = 0; i < count && !places.empty(); ++i)
+            places[ids[i]] = static_cast<std::uint32_t>(at / 2 * flat::kMaxBlock + i);
     }
 
     // Rounded to the nearest float, but for mesh vertices, which are floats.

@@ -153,10 +153,9 @@ const std::string& CompiledScene::name() const { return scene_->name; }
 const Hash128& CompiledScene::digest() const { return scene_->digest; }
 bool CompiledScene::has_untagged() const { return scene_->untagged; }
 
-CompiledScene compile(const Scene& scene, const CompileSettings& settings) {
+CompiledScene compile(const Scene& scene, const CompileSettings& /*settings*/) {
     const FloatEnvironment environment;
-    const bool cut_triangles = settings.quality == BuildQuality::high;
-    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene, cut_triangles)));
+    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
 }
 
 }  // namespace limn

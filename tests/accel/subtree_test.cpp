@@ -31,8 +31,7 @@ TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the re
             std::vector<std::uint32_t> indices(size);
             std::vector<BuildPrimitive> spare(size);
             SplitNode root;
-            const accel::Splitting splitting{settings};
-            accel::SubtreeBuilder builder(splitting, indices.data());
+            accel::SubtreeBuilder builder(settings, indices.data());
             builder.build(primitives.data(), spare.data(), accel::range_over(primitives.data(), 0, size), above, root);
             const int depth = above - 1 + depth_of(root);
             CHECK(depth <= accel::kMaxSplitDepth);

@@ -81,11 +81,10 @@ inline bool same_bits(const accel::WideBvh& a, const accel::WideBvh& b) {
 class TreeCheck {
 public:
     TreeCheck(const accel::WideBvh& bvh, const std::vector<accel::FloatBox>& boxes,
-              const accel::BuildSettings& settings, bool is_cut = false)
+              const accel::BuildSettings& settings)
         : bvh_(bvh),
           boxes_(boxes),
           settings_(settings),
-          is_cut_(is_cut),
           is_in_leaf_(bvh.indices.size(), false),
           seen_(boxes.size(), 0) {}
 
@@ -95,8 +94,7 @@ public:
         CHECK(depth <= accel::kMaxWideDepth);
         CHECK(next_leaf_ == bvh_.leaves.size());
         CHECK(nodes_ == bvh_.nodes.size());
-        for (std::size_t i = 0; i < boxes_.size(); ++i)
-            REQUIRE((seen_[i] == (is_empty(boxes_[i]) ? 0 : 1) || (is_cut_ && seen_[i] > 1)));
+        for (std::size_t i = 0; i < boxes_.size(); ++i) REQUIRE(seen_[i] == (is_empty(boxes_[i]) ? 0 : 1));
         return depth;
     }
 
@@ -132,7 +130,7 @@ private:
         for (std::uint32_t i = 0; i < leaf.count; ++i) {
             const std::uint32_t index = bvh_.indices.at(leaf.first + i);
             if (i > 0) REQUIRE(bvh_.indices[leaf.first + i - 1] < index);
-            REQUIRE((is_cut_ || contains(box, boxes_.at(index))));
+            REQUIRE(contains(box, boxes_.at(index)));
             REQUIRE(!is_in_leaf_[leaf.first + i]);
             is_in_leaf_[leaf.first + i] = true;
             ++seen_[index];
@@ -142,7 +140,6 @@ private:
     const accel::WideBvh& bvh_;
     const std::vector<accel::FloatBox>& boxes_;
     const accel::BuildSettings& settings_;
-    const bool is_cut_;
     std::vector<bool> is_in_leaf_;  // by place in the indices
     std::vector<int> seen_;
     std::uint32_t next_leaf_ = 0;

@@ -125,12 +125,6 @@ TEST_CASE("Trees: in a node the boxes are those of the shapes, rounded outward t
     }
 }
 
-TEST_CASE("Trees: no triangle of a scene with media is cut, as its crossings count", "[compile][tables]") {
-    const Object ball = std::make_shared<Mesh>(icosphere(3), nullptr);
-    Scene scene = zoo_of("fog", {std::make_shared<ConstantMedium>(ball, 1, Color{})}).scene;
-    CHECK(compiler::flatten(scene, true).blocks == compiler::flatten(scene).blocks);
-}
-
 TEST_CASE("locate: each number leads to its range, element and instances, outermost first", "[compile][tables]") {
     const Object mesh = std::make_shared<Mesh>(cube_mesh(), nullptr);
     const Object quad = std::make_shared<Quad>(Point3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, nullptr);

@@ -88,15 +88,12 @@ private:
     SceneStats stats_;
 };
 
-/// How much work to put into the trees. `medium` serves most. `high` cuts triangles between boxes where that makes rays
-/// meet fewer of them (Stich, Friedrich, Dietrich, Spatial Splits in Bounding Volume Hierarchies, HPG 2009), for those
-/// who trace far more than they compile: it takes about three times as long and up to a third more memory, and pays for
-/// long thin triangles. Hits are the same.
+/// Deprecated, and without effect: all trees are built alike. It leaves with the next version.
 enum class BuildQuality : std::uint8_t { medium, high };
 
 /// What `compile` may be told.
 struct CompileSettings {
-    BuildQuality quality = BuildQuality::medium;  ///< of the trees of meshes; scenes with media are built as medium
+    BuildQuality quality = BuildQuality::medium;  ///< deprecated, without effect
 };
 
 /// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene and settings give the same
