@@ -15,8 +15,10 @@ namespace {
 
 using Rows = std::array<float, 9>;
 
-void put(Rows& rows, std::size_t at, const Point3& p) {
-    for (std::size_t a = 0; a < 3; ++a) rows[at + a] = static_cast<float>(p[a]);
+// Three points, rounded to the nearest float.
+Rows rows_of(const Point3& a, const Point3& b, const Point3& c = {}) {
+    const auto round = [](double x) { return static_cast<float>(x); };
+    return {round(a.x), round(a.y), round(a.z), round(b.x), round(b.y), round(b.z), round(c.x), round(c.y), round(c.z)};
 }
 
 class Packer {
@@ -129,43 +131,36 @@ private:
         }
     }
 
-    // Rounded to the nearest float, but for mesh vertices, which are floats.
+    // See flat::rows_of. A radius stands where another point's x would.
     Rows rows_for(const PrimitiveRange& range, std::uint32_t element, const accel::FloatBox& box) const {
-        Rows rows{};
         const std::uint32_t row = range.first_row + element;
         switch (range.kind) {
             case PrimitiveKind::mesh: {
                 const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
-                put(rows, 0, v.a), put(rows, 3, v.b), put(rows, 6, v.c);
-                break;
+                return rows_of(v.a, v.b, v.c);
             }
             case PrimitiveKind::triangle: {
                 const flat::Triangle& t = scene_.triangles[row];
-                put(rows, 0, t.a), put(rows, 3, t.b), put(rows, 6, t.c);
-                break;
+                return rows_of(t.a, t.b, t.c);
             }
             case PrimitiveKind::quad: {
                 const flat::Quad& q = scene_.quads[row];
-                put(rows, 0, q.corner), put(rows, 3, q.corner + q.edge_u), put(rows, 6, q.corner + q.edge_v);
-                break;
+                return rows_of(q.corner, q.corner + q.edge_u, q.corner + q.edge_v);
             }
             case PrimitiveKind::sphere: {
                 const flat::Sphere& s = scene_.spheres[row];
-                put(rows, 0, s.center), rows[3] = static_cast<float>(std::abs(s.radius));
-                break;
+                return rows_of(s.center, {std::abs(s.radius), 0, 0});
             }
             case PrimitiveKind::moving_sphere: {
                 const flat::MovingSphere& s = scene_.moving_spheres[row];
-                put(rows, 0, s.center0), put(rows, 3, s.center1), rows[6] = static_cast<float>(std::abs(s.radius));
-                break;
+                return rows_of(s.center0, s.center1, {std::abs(s.radius), 0, 0});
             }
             case PrimitiveKind::instance:
             case PrimitiveKind::foreign:
-                for (std::size_t a = 0; a < 3; ++a) rows[a] = box.lower[a], rows[3 + a] = box.upper[a];
-                break;
+                return {box.lower[0], box.lower[1], box.lower[2], box.upper[0], box.upper[1], box.upper[2]};
             case PrimitiveKind::medium: break;
         }
-        return rows;
+        return {};
     }
 
     // Returns where they begin.
