@@ -13,14 +13,6 @@ namespace limn::compiler {
 
 namespace {
 
-using Rows = std::array<float, 9>;
-
-// Three points, rounded to the nearest float.
-Rows rows_of(const Point3& a, const Point3& b, const Point3& c = {}) {
-    const auto round = [](double x) { return static_cast<float>(x); };
-    return {round(a.x), round(a.y), round(a.z), round(b.x), round(b.y), round(b.z), round(c.x), round(c.y), round(c.z)};
-}
-
 class Packer {
 public:
     Packer(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes, std::span<const flat::Reference> references,
@@ -111,7 +103,12 @@ private:
                 const flat::Reference& r = references_[bvh_.indices[first + i]];
                 ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
                 if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
-                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.indices[first + i]]);
+                const accel::FloatBox& box = boxes_[bvh_.indices[first + i]];
+                std::array<float, flat::kMostRows> rows{box.lower[0], box.lower[1], box.lower[2],
+                                                        box.upper[0], box.upper[1], box.upper[2]};
+                flat::with_primitive(scene_, scene_.ranges[r.range], r.element, [&](const auto& primitive) {
+                    if constexpr (requires { primitive.pack(); }) std::ranges::copy(primitive.pack(), rows.begin());
+                });
                 for (std::size_t row = 0; row < row_count; ++row)
                     ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
             }
@@ -129,38 +126,6 @@ private:
             std::uint32_t seen = place.load(std::memory_order_relaxed);
             while (here < seen && !place.compare_exchange_weak(seen, here, std::memory_order_relaxed)) {}
         }
-    }
-
-    // See flat::rows_of. A radius stands where another point's x would.
-    Rows rows_for(const PrimitiveRange& range, std::uint32_t element, const accel::FloatBox& box) const {
-        const std::uint32_t row = range.first_row + element;
-        switch (range.kind) {
-            case PrimitiveKind::mesh: {
-                const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
-                return rows_of(v.a, v.b, v.c);
-            }
-            case PrimitiveKind::triangle: {
-                const flat::Triangle& t = scene_.triangles[row];
-                return rows_of(t.a, t.b, t.c);
-            }
-            case PrimitiveKind::quad: {
-                const flat::Quad& q = scene_.quads[row];
-                return rows_of(q.corner, q.corner + q.edge_u, q.corner + q.edge_v);
-            }
-            case PrimitiveKind::sphere: {
-                const flat::Sphere& s = scene_.spheres[row];
-                return rows_of(s.center, {std::abs(s.radius), 0, 0});
-            }
-            case PrimitiveKind::moving_sphere: {
-                const flat::MovingSphere& s = scene_.moving_spheres[row];
-                return rows_of(s.center0, s.center1, {std::abs(s.radius), 0, 0});
-            }
-            case PrimitiveKind::instance:
-            case PrimitiveKind::foreign:
-                return {box.lower[0], box.lower[1], box.lower[2], box.upper[0], box.upper[1], box.upper[2]};
-            case PrimitiveKind::medium: break;
-        }
-        return {};
     }
 
     // Returns where they begin.
