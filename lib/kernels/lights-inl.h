@@ -17,7 +17,7 @@ namespace limn::kernels::HWY_NAMESPACE {
 struct LightLanes {
     W3 origin, edge_u, edge_v, position_error;
     W radius;
-    Where sphere, triangle, rectangle;
+    Where sphere, triangle, rectangle, patch;
 
     // \param lights as many as there are lanes
     HWY_INLINE explicit LightLanes(const flat::Light* const* lights) {
@@ -55,7 +55,7 @@ private:
     HWY_INLINE void set_kinds(W kind) {
         const auto is = [kind](flat::LightKind k) HWY_ATTR { return hn::Eq(kind, all(static_cast<double>(k))); };
         sphere = is(flat::LightKind::sphere), triangle = is(flat::LightKind::triangle);
-        rectangle = is(flat::LightKind::rectangle);
+        rectangle = is(flat::LightKind::rectangle), patch = is(flat::LightKind::patch);
     }
 };
 
@@ -149,7 +149,7 @@ HWY_INLINE LightPoints sample_planar(const LightLanes& light, const W3& from, W 
     const W by_area = choose(hn::Gt(projected, zero), distance2 * hn::Sqrt(distance2) / projected, zero);
     s.pdf = choose(hn::Gt(solid_angle, zero), all(1.0) / solid_angle, by_area);
     s.drawn = hn::And(hn::Gt(s.pdf, zero), hn::Ne(dot(normal, light.origin - from), zero));
-    s.open = hn::Or(hn::AndNot(light.rectangle, near),
+    s.open = hn::Or(hn::Or(light.patch, hn::AndNot(light.rectangle, near)),
                     hn::Not(hn::And(is_ordinary(distance2), is_ordinary(length_squared(normal)))));
     s.direction = normalize(way);
     const W3 unit = normalize(normal);

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <functional>
 
 #include "core/sphere_uv.h"
 #include "flat/scene.h"
@@ -25,6 +26,12 @@ HWY_INLINE auto shape_of(const primitives::Sphere& s, double) { return sphere_of
 HWY_INLINE auto shape_of(const primitives::MovingSphere& s, double time) { return shape_of(s.at(time), time); }
 HWY_INLINE auto shape_of(const primitives::Quad& q, double) { return quad_of<double>(q.corner, q.edge_u, q.edge_v); }
 HWY_INLINE auto shape_of(const primitives::Triangle& t, double) { return triangle_of<double>(t.a, t.b, t.c); }
+
+// Others know for themselves.
+template <class Kind>
+HWY_INLINE auto shape_of(const Kind& row, double) {
+    return std::cref(row);
+}
 
 template <unsigned kKinds, class Kind, class Visit>
 HWY_INLINE bool visit_row(const std::vector<Kind>& rows, PrimitiveKind kind, std::uint32_t row, double time,
