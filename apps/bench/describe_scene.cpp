@@ -50,9 +50,7 @@ private:
                 if (instance.moving) refuse("moving instances");
                 return add_group(instance.group, place * instance.world_from_object0, shapes);
             }
-            case PrimitiveKind::moving_sphere: refuse("moving spheres");
-            case PrimitiveKind::triangle: refuse("single triangles");
-            case PrimitiveKind::foreign: refuse("shapes of other classes");
+            default: refuse("shapes of other kinds");
         }
     }
 

@@ -33,14 +33,25 @@ public:
     /// mesh's arrays as long as `owner`; a foreign shape as long as the scene, which does so for what was added to it
     /// and for what groups hold. \throws ArgumentError if there are too many primitives
     ///@{
-    void sphere(const SphereRecord& record);
-    void triangle(const TriangleRecord& record);
-    void quad(const QuadRecord& record);
+    void sphere(const SphereRecord& record) {
+        shape(record.center0 == record.center1 ? PrimitiveKind::sphere : PrimitiveKind::moving_sphere,
+              &SceneRecords::spheres, record);
+    }
+    void triangle(const TriangleRecord& record) { shape(PrimitiveKind::triangle, &SceneRecords::triangles, record); }
+    void quad(const QuadRecord& record) { shape(PrimitiveKind::quad, &SceneRecords::quads, record); }
+    void foreign(const ForeignRecord& record) { shape(PrimitiveKind::foreign, &SceneRecords::foreign, record); }
     void mesh(MeshRecord record, const std::shared_ptr<const void>& owner);
-    void foreign(const ForeignRecord& record);
     void instance(const InstanceRecord& record);
     void medium(const MediumRecord& record);
     ///@}
+
+    /// The same for any kind. `table`: where its records stand; `count`: of primitives.
+    template <class Record>
+    void shape(PrimitiveKind kind, std::vector<Record> SceneRecords::*table, const Record& record,
+               std::uint64_t count = 1) {
+        append(kind, (records_.*table).size(), count);
+        (records_.*table).push_back(record);
+    }
 
     /// A group that instances and media refer to: `fill` writes its shapes, the first time only.
     /// \throws ArgumentError if an object contains itself

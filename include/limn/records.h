@@ -163,8 +163,8 @@ static_assert(sizeof(ForeignRecord) == 64);
 
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
-/// `count` primitives of one kind, in the order of description. For spheres, triangles, quads, foreign shapes: rows
-/// first_row, first_row + 1, ... of their table. For a mesh, an instance or a medium: one row with `count` primitives.
+/// `count` primitives of one kind, in the order of description. For a mesh, an instance or a medium: one row with
+/// `count` primitives. For the others: rows first_row, first_row + 1, ... of their table.
 /// `first_number` is the number of the first of them within the group.
 struct PrimitiveRange {
     /// As said above.

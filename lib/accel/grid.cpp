@@ -11,8 +11,8 @@ namespace limn::accel {
 namespace {
 
 constexpr int kMaxBits = 15;               // of a cell's number: the table of cells stays in the second-level cache
-constexpr std::uint32_t kGroup = 1 << 18;  // primitives that share a table of cells; the tree does not depend on it
-constexpr std::uint32_t kMaxGroups = 64;
+constexpr std::uint32_t kChunk = 1 << 18;  // primitives that share a table of cells; the tree does not depend on it
+constexpr std::uint32_t kMaxChunks = 64;
 constexpr float kMinExtent = 0x1p-110f;  // its reciprocal, times a number of cells, is finite
 constexpr std::uint32_t kMinCells = 8;   // with fewer a range gets a grid of its own
 
@@ -44,7 +44,7 @@ private:
     Vec4 origin_, scale_, last_{};
 };
 
-struct Group {
+struct Chunk {
     std::uint32_t begin, end;
     std::vector<Bounds> bounds;        // by cell
     std::vector<std::uint32_t> count;  // by cell, then by range: where its next reference goes
@@ -110,19 +110,19 @@ std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive*
     const std::size_t cells = std::size_t{1} << bits;
     const Grid grid(range, bits);
 
-    std::vector<Group> groups(std::clamp(range.size() / kGroup, 1u, kMaxGroups));
-    for_all(0, groups.size(), 1, [&](std::size_t g) {
-        Group& group = groups[g];
+    std::vector<Chunk> chunks(std::clamp(range.size() / kChunk, 1u, kMaxChunks));
+    for_all(0, chunks.size(), 1, [&](std::size_t c) {
+        Chunk& chunk = chunks[c];
         const auto bound = [&](std::size_t i) {
-            return static_cast<std::uint32_t>(range.begin + std::uint64_t{range.size()} * i / groups.size());
+            return static_cast<std::uint32_t>(range.begin + std::uint64_t{range.size()} * i / chunks.size());
         };
-        group.begin = bound(g), group.end = bound(g + 1);
-        group.bounds.assign(cells, kEmpty);
-        group.count.assign(cells, 0);
-        for (std::uint32_t i = group.begin; i < group.end; ++i) {
+        chunk.begin = bound(c), chunk.end = bound(c + 1);
+        chunk.bounds.assign(cells, kEmpty);
+        chunk.count.assign(cells, 0);
+        for (std::uint32_t i = chunk.begin; i < chunk.end; ++i) {
             const std::uint32_t cell = grid.cell_of(from[i]);
-            group.bounds[cell].extend(from[i].bounds());
-            ++group.count[cell];
+            chunk.bounds[cell].extend(from[i].bounds());
+            ++chunk.count[cell];
         }
     });
 
@@ -130,9 +130,9 @@ std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive*
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
         Bounds bounds = kEmpty;
         std::uint32_t count = 0;
-        for (const Group& group : groups) {
-            bounds.extend(group.bounds[cell]);
-            count += group.count[cell];
+        for (const Chunk& chunk : chunks) {
+            bounds.extend(chunk.bounds[cell]);
+            count += chunk.count[cell];
         }
         if (count > 0) filled.emplace_back(bounds, cell, count);
     }
@@ -142,15 +142,15 @@ std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive*
     // Within a range the primitives keep their order.
     std::vector<std::uint32_t> next;
     for (const OpenRange& r : ranges) next.push_back(r.begin);
-    for (Group& group : groups) {
+    for (Chunk& chunk : chunks) {
         std::vector<std::uint32_t> first = next;
-        for (std::size_t cell = 0; cell < cells; ++cell) next[range_of_cell[cell]] += group.count[cell];
-        group.count = std::move(first);
+        for (std::size_t cell = 0; cell < cells; ++cell) next[range_of_cell[cell]] += chunk.count[cell];
+        chunk.count = std::move(first);
     }
-    for_all(0, groups.size(), 1, [&](std::size_t g) {
-        Group& group = groups[g];
-        for (std::uint32_t i = group.begin; i < group.end; ++i)
-            to[group.count[range_of_cell[grid.cell_of(from[i])]]++] = from[i];
+    for_all(0, chunks.size(), 1, [&](std::size_t c) {
+        Chunk& chunk = chunks[c];
+        for (std::uint32_t i = chunk.begin; i < chunk.end; ++i)
+            to[chunk.count[range_of_cell[grid.cell_of(from[i])]]++] = from[i];
     });
     return ranges;
 }

@@ -8,28 +8,22 @@
 #include "compile/groups.h"
 #include "compile/lights.h"
 #include "core/require.h"
-#include "predicates/plane_normal.h"
 
 namespace limn::compiler {
 
 namespace {
 
-// Still spheres lose their second centre; each kind keeps its order, so that a range stays a range.
-void split_spheres(const std::vector<SphereRecord>& spheres, std::vector<PrimitiveRange>& ranges, flat::Scene& out) {
-    std::vector<std::uint32_t> row(spheres.size());
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const SphereRecord& s = spheres[i];
-        if (s.center0 == s.center1) {
-            row[i] = static_cast<std::uint32_t>(out.spheres.size());
-            out.spheres.push_back({s.center0, s.radius, s.material});
-        } else {
-            row[i] = static_cast<std::uint32_t>(out.moving_spheres.size());
-            out.moving_spheres.push_back(s);
+// Every record of such a kind is in one range, which stays a range.
+void fill_rows(const SceneRecords& records, flat::Scene& out) {
+    primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
+        std::vector<Kind>& rows = std::get<std::vector<Kind>>(out.rows);
+        for (PrimitiveRange& range : out.ranges) {
+            if (range.kind != Kind::kKind) continue;
+            const auto first = (records.*Kind::kRecords).begin() + range.first_row;
+            range.first_row = static_cast<std::uint32_t>(rows.size());
+            std::for_each_n(first, range.count, [&](const auto& record) { rows.emplace_back(record); });
         }
-    }
-    for (PrimitiveRange& range : ranges)
-        if (range.kind == PrimitiveKind::sphere || range.kind == PrimitiveKind::moving_sphere)
-            range.first_row = row[range.first_row];
+    });
 }
 
 flat::Instance pack(const InstanceRecord& record) {
@@ -48,11 +42,8 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
         out.groups.push_back(packed);
         out.ranges.insert(out.ranges.end(), group.ranges.begin(), group.ranges.end());
     }
-    split_spheres(records.spheres, out.ranges, out);
+    fill_rows(records, out);
     out.primitives = records.groups.front().primitives;
-    out.triangles = std::move(records.triangles);
-    out.quads = std::move(records.quads);
-    for (const flat::Quad& q : out.quads) out.quad_normals.push_back(quad_normal(q.edge_u, q.edge_v));
     for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
     out.foreign = std::move(records.foreign);
     out.medium_shapes = std::move(records.media);
@@ -66,46 +57,37 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
 
 void gather_features(flat::Scene& s) {
     flat::Features& f = s.features;
-    f.spheres = !s.spheres.empty();
-    f.moving_spheres = !s.moving_spheres.empty();
-    f.triangles = !s.triangles.empty();
-    f.quads = !s.quads.empty();
-    f.meshes = !s.meshes.empty();
     f.foreign_shapes = !s.foreign.empty();
-    f.instances = !s.instances.empty();
     for (const flat::Instance& instance : s.instances) f.moving_instances |= instance.moving;
-    f.media = !s.media.empty();
-    for (const flat::Mesh& mesh : s.meshes) f.smooth_normals |= !mesh.arrays.normals.empty();
+    bool smooth_normals = false, textures = false;
+    for (const flat::Mesh& mesh : s.meshes) smooth_normals |= !mesh.arrays.normals.empty();
     for (const TextureRecord& t : s.textures) {
-        f.textures |= t.kind != TextureKind::solid;
+        textures |= t.kind != TextureKind::solid;
         f.foreign_textures |= t.kind == TextureKind::foreign;
         f.texture_coordinates |= t.kind == TextureKind::image;
     }
     for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == MaterialKind::foreign;
     f.texture_coordinates |= f.foreign_textures || f.foreign_materials || f.foreign_shapes;
-    f.lights = !s.lights.empty();
     f.background = !is_black(s.background_bottom) || !is_black(s.background_top);
 
-    const std::pair<bool, const char*> names[] = {{f.spheres, "sphere"},
-                                                  {f.moving_spheres, "moving-sphere"},
-                                                  {f.triangles, "triangle"},
-                                                  {f.quads, "quad"},
-                                                  {f.meshes, "mesh"},
-                                                  {f.smooth_normals, "smooth-normals"},
-                                                  {f.instances, "instance"},
-                                                  {f.moving_instances, "moving-instance"},
-                                                  {f.foreign_shapes, "foreign-shape"},
-                                                  {f.media, "medium"},
-                                                  {f.textures, "texture"},
-                                                  {f.foreign_textures, "foreign-texture"},
-                                                  {f.foreign_materials, "foreign-material"},
-                                                  {f.lights, "light"},
-                                                  {f.background, "background"}};
-    for (const auto& [present, name] : names) {
-        if (!present) continue;
+    const auto name = [&](bool present, const char* feature) {
+        if (!present) return;
         if (!s.feature_names.empty()) s.feature_names += ' ';
-        s.feature_names += name;
-    }
+        s.feature_names += feature;
+    };
+    std::apply([&]<class... Kind>(const std::vector<Kind>&... rows) { (name(!rows.empty(), Kind::kName), ...); },
+               s.rows);
+    name(!s.meshes.empty(), "mesh");
+    name(smooth_normals, "smooth-normals");
+    name(!s.instances.empty(), "instance");
+    name(f.moving_instances, "moving-instance");
+    name(f.foreign_shapes, "foreign-shape");
+    name(!s.media.empty(), "medium");
+    name(textures, "texture");
+    name(f.foreign_textures, "foreign-texture");
+    name(f.foreign_materials, "foreign-material");
+    name(!s.lights.empty(), "light");
+    name(f.background, "background");
 }
 
 // Meshes whose vertices are all that there is of them get places, to be filled with the tree.
@@ -172,14 +154,14 @@ void count_unassigned(flat::Scene& s) {
 
 std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-    std::size_t sum = sizeof(s) + bytes(s.spheres) + bytes(s.moving_spheres) + bytes(s.triangles) + bytes(s.quads) +
-                      bytes(s.quad_normals) + bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) +
-                      bytes(s.groups) + bytes(s.ranges) + bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) +
+    std::size_t sum = sizeof(s) + bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) +
+                      bytes(s.ranges) + bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) +
                       bytes(s.first_of_object) + bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) +
                       bytes(s.lights.own) + bytes(s.lights.places) + bytes(s.lights.refs) + bytes(s.lights.nodes) +
                       bytes(s.lights.by_number) + bytes(s.lights.strength_before) + bytes(s.lights.guide) +
                       bytes(s.lights.instances) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept) +
                       bytes(s.list.entries) + bytes(s.list.planar) + bytes(s.list.round);
+    std::apply([&](const auto&... rows) { sum += (bytes(rows) + ...); }, s.rows);
     for (const flat::Mesh& mesh : s.meshes)
         sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
                mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +

@@ -1,6 +1,7 @@
 #include "compile/digest.h"
 
 #include "core/checksum.h"
+#include "primitives/registry.h"
 
 namespace limn::compiler {
 
@@ -80,9 +81,15 @@ Hash128 digest(const SceneRecords& r, const Background& background) {
     sum.add(background.bottom, background.top);
     add_textures(r, sum);
     add_meshes(r, sum);
-    sum.table(r.spheres, [&](const SphereRecord& s) { sum.add(s.center0, s.center1, s.radius, s.material); });
-    sum.table(r.triangles, [&](const TriangleRecord& t) { sum.add(t.a, t.b, t.c, t.material); });
-    sum.table(r.quads, [&](const QuadRecord& q) { sum.add(q.corner, q.edge_u, q.edge_v, q.material); });
+    primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
+        const auto& records = r.*Kind::kRecords;
+        // What came later says nothing where there is none, so that older scenes keep their digest.
+        if constexpr (requires { Kind::fields(records[0]); })
+            if (Kind::kKind <= PrimitiveKind::quad || !records.empty())
+                sum.table(records, [&](const auto& record) {
+                    std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
+                });
+    });
     sum.table(r.instances,
               [&](const InstanceRecord& i) { sum.add(i.world_from_object0, i.world_from_object1, i.group, i.moving); });
     sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });

@@ -19,21 +19,6 @@ namespace limn::compiler {
 
 namespace {
 
-// How far a number moves when it is packed as float.
-double lost(double x) { return std::abs(x - static_cast<double>(static_cast<float>(x))); }
-
-double lost(const Point3& p) { return std::max({lost(p.x), lost(p.y), lost(p.z)}); }
-
-// The same for a sum, whose own rounding is exact in double (difference_up).
-double lost(const Point3& p, const Vec3& edge) {
-    double most = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const double sum = p[a] + edge[a], added = sum - p[a], rounding = (p[a] - (sum - added)) + (edge[a] - added);
-        most = std::max(most, lost(sum) + std::abs(rounding));
-    }
-    return most;
-}
-
 constexpr std::size_t kGrain = 4096;
 
 }  // namespace
@@ -90,36 +75,17 @@ void GroupTree::measure_mesh(const PrimitiveRange& range, std::size_t first) {
 
 Candidate GroupTree::measure(const PrimitiveRange& range, const flat::Reference& reference) const {
     const std::uint32_t row = range.first_row + reference.element;
-    switch (range.kind) {
-        case PrimitiveKind::sphere: {
-            const flat::Sphere& s = scene_.spheres[row];
-            return {reference, sphere_bounds(s.center, s.center, s.radius), lost(s.center)};
-        }
-        case PrimitiveKind::moving_sphere: {  // whose way between two floats is rounded three times
-            const flat::MovingSphere& s = scene_.moving_spheres[row];
-            const double largest = std::max(max_abs(s.center0), max_abs(s.center1));
-            return {reference, sphere_bounds(s.center0, s.center1, s.radius),
-                    std::max(lost(s.center0), lost(s.center1)) + 0x1p-22 * largest};
-        }
-        case PrimitiveKind::triangle: {
-            const flat::Triangle& t = scene_.triangles[row];
-            return {reference, triangle_bounds({t.a, t.b, t.c}), std::max({lost(t.a), lost(t.b), lost(t.c)})};
-        }
-        case PrimitiveKind::quad: {
-            const flat::Quad& q = scene_.quads[row];
-            return {reference, quad_bounds(q.corner, q.edge_u, q.edge_v),
-                    std::max({lost(q.corner), lost(q.corner, q.edge_u), lost(q.corner, q.edge_v)})};
-        }
-        case PrimitiveKind::instance: {
-            const flat::Instance& instance = scene_.instances[row];
-            return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                               flat::group_at(scene_, instance.group).bounds)};
-        }
-        case PrimitiveKind::foreign: return {reference, scene_.foreign[row].bounds};
-        case PrimitiveKind::mesh:
-        case PrimitiveKind::medium: break;
+    if (range.kind == PrimitiveKind::foreign) return {reference, scene_.foreign[row].bounds};
+    if (range.kind == PrimitiveKind::instance) {
+        const flat::Instance& instance = scene_.instances[row];
+        return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
+                                           flat::group_at(scene_, instance.group).bounds)};
     }
-    return {};
+    Candidate measured{reference, {}};
+    primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
+        measured.box = primitive.bounds(), measured.packed_error = primitive.packed_error();
+    });
+    return measured;
 }
 
 // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.

@@ -128,8 +128,7 @@ private:
     // The lights of one range, seen through instances.
     void add(std::uint32_t row, std::uint64_t number, const Seen& seen) {
         const PrimitiveRange& range = scene_.ranges[row];
-        const bool planar = range.kind == PrimitiveKind::mesh || range.kind == PrimitiveKind::triangle ||
-                            range.kind == PrimitiveKind::quad;
+        const bool planar = range.kind != PrimitiveKind::sphere && range.kind != PrimitiveKind::moving_sphere;
         const Transform inv = inverse(seen.at0);
         const bool are_many = scene_.lights.own.size() + range.count > kMostOwn;
         const bool placed = planar && (seen.moving > 0 || (range.kind == PrimitiveKind::mesh && are_many));
@@ -186,14 +185,10 @@ private:
     // Nothing where the instances bend it, or turn it while it moves.
     std::optional<flat::Light> sphere(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number,
                                       const Seen& seen, const Transform& inv) const {
-        const auto row = range.first_row + element;
         SphereRecord s;
-        if (range.kind == PrimitiveKind::sphere) {
-            const flat::Sphere& still = scene_.spheres[row];
-            s = {still.center, still.center, still.radius, still.material};
-        } else {
-            s = scene_.moving_spheres[row];
-        }
+        primitives::with_row(scene_.rows, range.kind, range.first_row + element, [&](const auto& primitive) {
+            if constexpr (requires { primitive.ball(); }) s = primitive.ball();
+        });
         const std::optional<double> scale = uniform_scale(seen.at0);
         // Texture coordinates belong to the object's own axes and side.
         const bool plain = flat::is_plain(scene_, s.material);
@@ -229,8 +224,7 @@ private:
         const Vec3 normal = cross(light.edge_u, light.edge_v);
         bounds.axis = normalize(normal);
         bounds.cos_spread = is_finite(bounds.axis) ? 1 : 0;
-        bounds.strength =
-            brightness(light.material) * length(normal) * (light.kind == flat::LightKind::triangle ? 0.5 : 1);
+        bounds.strength = brightness(light.material) * length(normal) * flat::share_of(light);
         return bounds;
     }
 

@@ -109,40 +109,24 @@ private:
 
     bool add(const PrimitiveRange& range, std::uint32_t element, std::uint64_t number,
              std::optional<std::uint32_t> instance) {
-        if (entries_.size() == PrimitiveList::kMost) return false;
+        const unsigned listed = flat::kPlanarKinds | (instance ? 0 : flat::bit(PrimitiveKind::sphere));
+        if (entries_.size() == PrimitiveList::kMost || (flat::bit(range.kind) & listed) == 0) return false;
         PrimitiveList::Entry e;
         e.kind = range.kind, e.number = number, e.row = range.first_row + element;
         e.is_instanced = instance.has_value(), e.instance = instance.value_or(0);
-        switch (range.kind) {
-            case PrimitiveKind::quad: {
-                const flat::Quad& q = scene_.quads[e.row];
-                e.corner = q.corner, e.edge_u = q.edge_u, e.edge_v = q.edge_v;
-                break;
+        if (range.kind == PrimitiveKind::mesh) e.row = range.first_row, e.element = element;
+        bool has_area = true;
+        flat::with_primitive(scene_, range, element, [&]<class Kind>(const Kind& primitive) {
+            if constexpr (Kind::kKind == PrimitiveKind::sphere)
+                e.corner = primitive.center, e.radius = std::abs(primitive.radius);
+            if constexpr (Kind::kKind == PrimitiveKind::triangle)
+                has_area = !are_collinear(primitive.a, primitive.b, primitive.c);
+            if constexpr (requires { primitive.patch(); }) {
+                const primitives::Patch patch = primitive.patch();
+                e.corner = patch.corner, e.edge_u = patch.edge_u, e.edge_v = patch.edge_v;
             }
-            case PrimitiveKind::triangle: {
-                const flat::Triangle& t = scene_.triangles[e.row];
-                if (are_collinear(t.a, t.b, t.c)) return true;
-                e.corner = t.a, e.edge_u = t.b - t.a, e.edge_v = t.c - t.a;
-                break;
-            }
-            case PrimitiveKind::mesh: {
-                const TriangleVertices t = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
-                if (are_collinear(t.a, t.b, t.c)) return true;  // in no tree either
-                e.row = range.first_row, e.element = element;
-                e.corner = t.a, e.edge_u = t.b - t.a, e.edge_v = t.c - t.a;
-                break;
-            }
-            case PrimitiveKind::sphere: {
-                if (instance) return false;
-                const flat::Sphere& s = scene_.spheres[e.row];
-                e.corner = s.center, e.radius = std::abs(s.radius);
-                break;
-            }
-            case PrimitiveKind::moving_sphere:
-            case PrimitiveKind::instance:
-            case PrimitiveKind::foreign:
-            case PrimitiveKind::medium: return false;
-        }
+        });
+        if (!has_area) return true;  // in no tree either
         if (instance) {
             const Transform& matrix = scene_.instances[*instance].world_from_object0;
             const double size = max_abs(e.corner) + max_abs(e.edge_u) + max_abs(e.edge_v);

@@ -12,12 +12,6 @@ namespace limn::compiler {
 
 namespace {
 
-using Rows = std::array<float, 9>;
-
-void put(Rows& rows, std::size_t at, const Point3& p) {
-    for (std::size_t a = 0; a < 3; ++a) rows[at + a] = static_cast<float>(p[a]);
-}
-
 class Packer {
 public:
     Packer(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes, std::span<const flat::Reference> references,
@@ -108,7 +102,12 @@ private:
                 const flat::Reference& r = references_[bvh_.indices[first + i]];
                 ids[i] = kind == PrimitiveKind::mesh ? r.element : reference;
                 if (kind != PrimitiveKind::mesh) scene_.references[reference++] = r;
-                const Rows rows = rows_for(scene_.ranges[r.range], r.element, boxes_[bvh_.indices[first + i]]);
+                const accel::FloatBox& box = boxes_[bvh_.indices[first + i]];
+                std::array<float, flat::kMostRows> rows{box.lower[0], box.lower[1], box.lower[2],
+                                                        box.upper[0], box.upper[1], box.upper[2]};
+                flat::with_primitive(scene_, scene_.ranges[r.range], r.element, [&](const auto& primitive) {
+                    if constexpr (requires { primitive.pack(); }) std::ranges::copy(primitive.pack(), rows.begin());
+                });
                 for (std::size_t row = 0; row < row_count; ++row)
                     ids[count + row * count + i] = std::bit_cast<std::uint32_t>(rows[row]);
             }
@@ -122,45 +121,6 @@ private:
         std::vector<std::uint32_t>& places = scene_.meshes[scene_.ranges[range].first_row].places;
         for (std::uint32_t i = 0; i < count && !places.empty(); ++i)
             places[ids[i]] = static_cast<std::uint32_t>(at / 2 * flat::kMaxBlock + i);
-    }
-
-    // Rounded to the nearest float, but for mesh vertices, which are floats.
-    Rows rows_for(const PrimitiveRange& range, std::uint32_t element, const accel::FloatBox& box) const {
-        Rows rows{};
-        const std::uint32_t row = range.first_row + element;
-        switch (range.kind) {
-            case PrimitiveKind::mesh: {
-                const TriangleVertices v = triangle_vertices(scene_.meshes[range.first_row].arrays, element);
-                put(rows, 0, v.a), put(rows, 3, v.b), put(rows, 6, v.c);
-                break;
-            }
-            case PrimitiveKind::triangle: {
-                const flat::Triangle& t = scene_.triangles[row];
-                put(rows, 0, t.a), put(rows, 3, t.b), put(rows, 6, t.c);
-                break;
-            }
-            case PrimitiveKind::quad: {
-                const flat::Quad& q = scene_.quads[row];
-                put(rows, 0, q.corner), put(rows, 3, q.corner + q.edge_u), put(rows, 6, q.corner + q.edge_v);
-                break;
-            }
-            case PrimitiveKind::sphere: {
-                const flat::Sphere& s = scene_.spheres[row];
-                put(rows, 0, s.center), rows[3] = static_cast<float>(std::abs(s.radius));
-                break;
-            }
-            case PrimitiveKind::moving_sphere: {
-                const flat::MovingSphere& s = scene_.moving_spheres[row];
-                put(rows, 0, s.center0), put(rows, 3, s.center1), rows[6] = static_cast<float>(std::abs(s.radius));
-                break;
-            }
-            case PrimitiveKind::instance:
-            case PrimitiveKind::foreign:
-                for (std::size_t a = 0; a < 3; ++a) rows[a] = box.lower[a], rows[3 + a] = box.upper[a];
-                break;
-            case PrimitiveKind::medium: break;
-        }
-        return rows;
     }
 
     // Returns where they begin.

@@ -16,21 +16,16 @@ bool is_rectangle(const Light& light) {
 
 // Sets the corner and edges of a planar shape as they are described.
 void describe(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
-    const auto triangle = [&](const Point3& a, const Point3& b, const Point3& c) {
-        light.origin = a, light.edge_u = b - a, light.edge_v = c - a;
-        light.kind = LightKind::triangle;
-    };
-    if (range.kind == PrimitiveKind::mesh) {
-        const TriangleVertices v = triangle_of(scene, scene.meshes[range.first_row], element);
-        triangle(v.a, v.b, v.c);
-    } else if (range.kind == PrimitiveKind::triangle) {
-        const Triangle& t = scene.triangles[range.first_row + element];
-        triangle(t.a, t.b, t.c);
-    } else {
-        const Quad& q = scene.quads[range.first_row + element];
-        light.origin = q.corner, light.edge_u = q.edge_u, light.edge_v = q.edge_v;
-        light.kind = LightKind::parallelogram;
-    }
+    with_primitive(scene, range, element, [&]<class Kind>(const Kind& primitive) {
+        if constexpr (requires { primitive.patch(); }) {
+            const primitives::Patch patch = primitive.patch();
+            light.origin = patch.corner, light.edge_u = patch.edge_u, light.edge_v = patch.edge_v;
+            light.primitive = Kind::kKind;
+            light.kind = Kind::kShare == 1                        ? LightKind::parallelogram
+                         : Kind::kKind == PrimitiveKind::triangle ? LightKind::triangle
+                                                                  : LightKind::patch;
+        }
+    });
 }
 
 void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
@@ -58,6 +53,16 @@ Box bounds_of(const Light& light) {
     box.extend(light.origin + light.edge_v);
     if (light.kind != LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
     return box;
+}
+
+double share_of(const Light& light) {
+    const PrimitiveKind kind = light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
+    return primitives::ask_kind(kind, 1.0, []<class Kind>(std::type_identity<Kind>) { return Kind::kShare; });
+}
+
+Uv sample_area(const Light& light, double u, double v) {
+    const PrimitiveKind kind = light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
+    return primitives::ask_kind(kind, Uv{}, [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
 }
 
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,

@@ -20,16 +20,18 @@ inline constexpr double kSmallSolidAngle = 1e-5;
 // same within 3 %, and never by area takes a sixth more time per error on figure 15.
 inline constexpr double kFarSquared = 3.0 * 3.0;
 
-enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere };
+// A patch: a part of a parallelogram, as its primitive says.
+enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere, patch };
 
 // An emitter in world space.
 struct Light {
     LightKind kind = LightKind::triangle;
-    bool textured = false;  // its radiance is not the same everywhere
+    PrimitiveKind primitive = PrimitiveKind::quad;  // what a patch is of
+    bool textured = false;                          // its radiance is not the same everywhere
     MaterialId material = MaterialId::none;
     std::uint64_t number = 0;  // of its primitive
-    Point3 origin;             // a triangle's first vertex, a quad's corner, a sphere's centre at time 0
-    Vec3 edge_u, edge_v;       // of triangle and quad; of a sphere edge_u is the motion of its centre
+    Point3 origin;             // a triangle's first vertex, a patch's corner, a sphere's centre at time 0
+    Vec3 edge_u, edge_v;       // of triangle and patch; of a sphere edge_u is the motion of its centre
     double radius = 0;
     Vec3 position_error;  // of points computed on it
 };
@@ -94,10 +96,14 @@ bool is_plain(const Scene& scene, MaterialId material);
 // Of all that it covers while the shutter is open.
 Box bounds_of(const Light& light);
 
+// Of planar ones: the share of the parallelogram, and a point by area, as weights of the edges.
+double share_of(const Light& light);
+Uv sample_area(const Light& light, double u, double v);
+
 // One of the table, or made in `room`. \pre rank < scene.lights.size()
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);
 
-// A planar one of a place under a matrix. \pre range is of meshes, triangles or quads
+// A planar one of a place under a matrix; without edges where the primitive is not planar.
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,
                    const Transform& inverse_of_m);
 

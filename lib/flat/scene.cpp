@@ -29,28 +29,21 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
 }
 
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element) {
-    if (mesh.places.empty()) return triangle_vertices(mesh.arrays, element);
+    if (!mesh.arrays.triangles.empty()) return triangle_vertices(mesh.arrays, element);
     const std::uint32_t place = mesh.places[element];
     const BlockView block{scene.blocks.data() + std::size_t{2} * (place / kMaxBlock)};
     return packed_triangle(block, block.header().count, place % kMaxBlock);
 }
 
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element) {
-    const auto row = range.first_row + element;
-    switch (range.kind) {
-        case PrimitiveKind::sphere: return scene.spheres[row].material;
-        case PrimitiveKind::moving_sphere: return scene.moving_spheres[row].material;
-        case PrimitiveKind::triangle: return scene.triangles[row].material;
-        case PrimitiveKind::quad: return scene.quads[row].material;
-        case PrimitiveKind::mesh: {
-            const Mesh& mesh = scene.meshes[range.first_row];
-            return mesh.materials[mesh.arrays.material_slots.empty() ? 0 : mesh.arrays.material_slots[element]];
-        }
-        case PrimitiveKind::instance:
-        case PrimitiveKind::medium:
-        case PrimitiveKind::foreign: break;
+    if (range.kind == PrimitiveKind::mesh) {
+        const Mesh& mesh = scene.meshes[range.first_row];
+        return mesh.materials[mesh.arrays.material_slots.empty() ? 0 : mesh.arrays.material_slots[element]];
     }
-    return MaterialId::none;
+    MaterialId material = MaterialId::none;
+    primitives::with_row(scene.rows, range.kind, range.first_row + element,
+                         [&](const auto& primitive) { material = primitive.material; });
+    return material;
 }
 
 }  // namespace limn::flat

@@ -17,6 +17,7 @@
 #include "limn/records.h"
 #include "predicates/mesh_triangle.h"
 #include "predicates/ray_frame.h"
+#include "primitives/registry.h"
 
 namespace limn::flat {
 
@@ -35,17 +36,6 @@ struct Reference {
     std::uint32_t element;  // within the range
 };
 static_assert(sizeof(Reference) == 8);
-
-struct Sphere {
-    Point3 center;
-    double radius;  // negative: the normal points inward
-    MaterialId material;
-};
-static_assert(sizeof(Sphere) == 40);
-
-using MovingSphere = SphereRecord;
-using Triangle = TriangleRecord;
-using Quad = QuadRecord;
 
 // A mesh without normals and texture coordinates has no arrays but slots of its own: its vertices are those that are
 // packed in the tree, at places[triangle], a pair of words in Scene::blocks times kMaxBlock plus the lane.
@@ -85,20 +75,15 @@ struct Medium {
 };
 
 struct Features {
-    bool spheres = false, moving_spheres = false, triangles = false, quads = false, meshes = false;
-    bool instances = false, moving_instances = false, foreign_shapes = false, media = false;
-    bool smooth_normals = false, textures = false, foreign_materials = false, foreign_textures = false;
+    bool moving_instances = false, foreign_shapes = false;
+    bool foreign_materials = false, foreign_textures = false;
     bool texture_coordinates = false;  // may be asked for by a texture or a foreign material
-    bool lights = false, background = false;
+    bool background = false;
 };
 
 struct Scene {
     std::string name;
-    std::vector<Sphere> spheres;
-    std::vector<MovingSphere> moving_spheres;
-    std::vector<Triangle> triangles;
-    std::vector<Quad> quads;
-    std::vector<Normal3> quad_normals;  // unit, one for each
+    primitives::Tables rows;  // of kinds with one for each primitive
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Foreign> foreign;
@@ -157,6 +142,15 @@ MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uin
 
 // Exactly as described.
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
+
+// visit(the row of a primitive, or the triangle of a mesh), if there is one.
+template <class Visit>
+void with_primitive(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Visit& visit) {
+    if (range.kind == PrimitiveKind::mesh)
+        visit(primitives::Triangle(triangle_of(scene, scene.meshes[range.first_row], element)));
+    else
+        primitives::with_row(scene.rows, range.kind, range.first_row + element, visit);
+}
 
 inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
 

@@ -9,6 +9,7 @@
 #include "accel/node.h"
 #include "limn/records.h"
 #include "predicates/mesh_triangle.h"
+#include "primitives/registry.h"
 
 namespace limn::flat {
 
@@ -34,19 +35,18 @@ inline constexpr std::size_t kHeaderWords = sizeof(Block) / 4, kSlackWords = 16,
 
 // Rows of a kind: the three vertices of a triangle or of half a quad, x y z of each; a sphere's centre and radius, a
 // moving one's two centres and radius; of others the box, as in a node.
-constexpr std::size_t rows_of(PrimitiveKind kind) {
-    switch (kind) {
-        case PrimitiveKind::mesh:
-        case PrimitiveKind::triangle:
-        case PrimitiveKind::quad: return 9;
-        case PrimitiveKind::sphere: return 4;
-        case PrimitiveKind::moving_sphere: return 7;
-        case PrimitiveKind::instance:
-        case PrimitiveKind::foreign: return 6;
-        case PrimitiveKind::medium: break;
-    }
-    return 0;
-}
+inline constexpr std::size_t kBoxRows = 6, kMostRows = 9;
+inline constexpr auto kRowsOf = [] {
+    std::array<std::uint8_t, 32> rows;  // by kind
+    rows.fill(kBoxRows);
+    rows[static_cast<std::size_t>(PrimitiveKind::mesh)] = kMostRows;
+    primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
+        if constexpr (requires(Kind k) { k.pack(); })
+            rows[static_cast<std::size_t>(Kind::kKind)] = std::tuple_size_v<decltype(std::declval<Kind>().pack())>;
+    });
+    return rows;
+}();
+constexpr std::size_t rows_of(PrimitiveKind kind) { return kRowsOf[static_cast<std::size_t>(kind)]; }
 
 constexpr std::size_t words_of(PrimitiveKind kind, std::size_t count) {
     return (kHeaderWords + count * (1 + rows_of(kind)) + 1) / 2 * 2;

@@ -17,7 +17,7 @@ namespace limn::kernels::HWY_NAMESPACE {
 struct LightLanes {
     Vector<Doubles> origin, edge_u, edge_v, position_error;
     Doubles radius;
-    Mask<Doubles> sphere, triangle, rectangle;
+    Mask<Doubles> sphere, triangle, rectangle, patch;
 
     // \param lights as many as there are lanes
     HWY_INLINE explicit LightLanes(const flat::Light* const* lights) {
@@ -57,7 +57,7 @@ private:
     HWY_INLINE void set_kinds(Doubles kind) {
         const auto is = [kind](flat::LightKind k) HWY_ATTR { return kind == static_cast<double>(k); };
         sphere = is(flat::LightKind::sphere), triangle = is(flat::LightKind::triangle);
-        rectangle = is(flat::LightKind::rectangle);
+        rectangle = is(flat::LightKind::rectangle), patch = is(flat::LightKind::patch);
     }
 };
 
@@ -151,7 +151,8 @@ HWY_INLINE LightPoints sample_planar(const LightLanes& light, const Vector<Doubl
     const Doubles by_area = select(projected > zero, distance2 * sqrt(distance2) / projected, zero);
     s.pdf = select(solid_angle > zero, 1.0 / solid_angle, by_area);
     s.drawn = (s.pdf > zero) & (dot(normal, light.origin - from) != zero);
-    s.open = ((!light.rectangle) & near) | !(is_ordinary(distance2) & is_ordinary(length_squared(normal)));
+    s.open =
+        light.patch | ((!light.rectangle) & near) | !(is_ordinary(distance2) & is_ordinary(length_squared(normal)));
     s.direction = normalize(way);
     const Vector<Doubles> unit = normalize(normal);
     s.normal = select(towards > zero, -unit, unit);

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <functional>
 
 #include "core/sphere_uv.h"
 #include "flat/scene.h"
@@ -20,38 +21,42 @@ namespace limn::kernels::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// visit(shape) with a triangle, quad or sphere: its row of the table of its kind, of a mesh its triangle `element`.
-// kKinds: those that there may be.
+// The predicates of rows.
+HWY_INLINE auto shape_of(const primitives::Sphere& s, double) { return sphere_of<double>(s.center, s.radius); }
+HWY_INLINE auto shape_of(const primitives::MovingSphere& s, double time) { return shape_of(s.at(time), time); }
+HWY_INLINE auto shape_of(const primitives::Quad& q, double) { return quad_of<double>(q.corner, q.edge_u, q.edge_v); }
+HWY_INLINE auto shape_of(const primitives::Triangle& t, double) { return triangle_of<double>(t.a, t.b, t.c); }
+
+// Others know for themselves.
+template <class Kind>
+HWY_INLINE auto shape_of(const Kind& row, double) {
+    return std::cref(row);
+}
+
+template <unsigned kKinds, class Kind, class Visit>
+HWY_INLINE bool visit_row(const std::vector<Kind>& rows, PrimitiveKind kind, std::uint32_t row, double time,
+                          const Visit& visit) {
+    if constexpr ((kKinds & flat::bit(Kind::kKind)) != 0)
+        if (kind == Kind::kKind) return visit(shape_of(rows[row], time));
+    return false;
+}
+template <unsigned kKinds, class Visit, class... Kind>
+HWY_INLINE bool visit_row(const std::tuple<std::vector<Kind>...>& tables, PrimitiveKind kind, std::uint32_t row,
+                          double time, const Visit& visit) {
+    return (visit_row<kKinds>(std::get<std::vector<Kind>>(tables), kind, row, time, visit) || ...);
+}
+
+// visit(shape) with the predicate of a row of the table of its kind, or of triangle `element` of a mesh. kKinds: those
+// that there may be.
 template <unsigned kKinds, class Visit>
 HWY_INLINE bool with_shape(const flat::Scene& scene, PrimitiveKind kind, std::uint32_t row, std::uint32_t element,
                            double time, const Visit& visit) {
-    constexpr auto has = [](PrimitiveKind k) { return (kKinds & flat::bit(k)) != 0; };
-    if constexpr (has(PrimitiveKind::sphere))
-        if (kind == PrimitiveKind::sphere) {
-            const flat::Sphere& s = scene.spheres[row];
-            return visit(sphere_of<double>(s.center, s.radius));
-        }
-    if constexpr (has(PrimitiveKind::moving_sphere))
-        if (kind == PrimitiveKind::moving_sphere) {
-            const flat::MovingSphere& s = scene.moving_spheres[row];
-            return visit(sphere_of<double>(interpolate(s.center0, s.center1, time), s.radius));
-        }
-    if constexpr (has(PrimitiveKind::quad))
-        if (kind == PrimitiveKind::quad) {
-            const flat::Quad& q = scene.quads[row];
-            return visit(quad_of<double>(q.corner, q.edge_u, q.edge_v));
-        }
-    if constexpr (has(PrimitiveKind::triangle))
-        if (kind == PrimitiveKind::triangle) {
-            const flat::Triangle& t = scene.triangles[row];
-            return visit(triangle_of<double>(t.a, t.b, t.c));
-        }
-    if constexpr (has(PrimitiveKind::mesh))
+    if constexpr ((kKinds & flat::bit(PrimitiveKind::mesh)) != 0)
         if (kind == PrimitiveKind::mesh) {
             const TriangleVertices v = flat::triangle_of(scene, scene.meshes[row], element);
             return visit(triangle_of<double>(v.a, v.b, v.c));
         }
-    return false;
+    return visit_row<kKinds>(scene.rows, kind, row, time, visit);
 }
 
 }  // namespace limn::kernels::HWY_NAMESPACE

@@ -90,10 +90,9 @@ public:
 
 private:
     static constexpr bool has(PrimitiveKind kind) { return (kKinds & flat::bit(kind)) != 0; }
-    static constexpr bool has_planar() {
-        return has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle) || has(PrimitiveKind::quad);
-    }
-    static constexpr bool has_spheres() { return has(PrimitiveKind::sphere) || has(PrimitiveKind::moving_sphere); }
+    static constexpr unsigned kRoundKinds = flat::bit(PrimitiveKind::sphere) | flat::bit(PrimitiveKind::moving_sphere);
+    static constexpr bool has_planar() { return (kKinds & flat::kPlanarKinds) != 0; }
+    static constexpr bool has_spheres() { return (kKinds & kRoundKinds) != 0; }
     // Where t may overflow, and a hit be none.
     static constexpr double kEndless = 1e300;
     float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : group_.packed_error; }
@@ -145,12 +144,8 @@ private:
                                                        certain_after_, above(bound_)),
                                     block, header);
                     break;
-                case PrimitiveKind::instance:
-                case PrimitiveKind::foreign:
-                    if constexpr (has(PrimitiveKind::instance) || has(PrimitiveKind::foreign))
-                        return ask_boxes(block, header);
-                    break;
-                case PrimitiveKind::medium: break;  // never in a tree
+                default:
+                    if constexpr ((kKinds & ~(flat::kPlanarKinds | kRoundKinds)) != 0) return ask_boxes(block, header);
             }
             return false;
         }
@@ -293,6 +288,19 @@ private:
         bool inward = false;
         if constexpr (Query::kEveryHit) inward = dot(shape.outward(), broadcast<double>(frame_.ray.direction)) < 0;
         return query_.report(hit, number, inward);
+    }
+
+    template <class Kind>
+    HWY_NOINLINE bool ask(std::reference_wrapper<const Kind> row, std::uint64_t number) {
+        PlanarHit hit;
+        Surface surface;
+        for (Search rest = search(); row.get().intersect(frame_, rest, hit); rest.t_min = hit.t) {
+            if constexpr (Query::kEveryHit) row.get().surface(frame_.ray, hit, false, surface);
+            const bool inward = dot(Vec3(surface.normal), frame_.ray.direction) < 0;
+            const bool end = query_.report(hit, number, inward);
+            if (end || !Query::kEveryHit) return end;
+        }
+        return false;
     }
 
     HWY_NOINLINE bool ask(const SpherePredicate<double>& sphere, std::uint64_t number) {

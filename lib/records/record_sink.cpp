@@ -9,18 +9,20 @@ namespace limn {
 
 namespace {
 
-// The row of `object` in a table that keeps one row for each address; `append` makes a new one.
-template <class Id, class Append>
-Id row_of(std::unordered_map<const void*, Id>& rows, const void* object, const Append& append) {
-    if (const auto known = rows.find(object); known != rows.end()) return known->second;
-    const Id id = append();
-    rows.emplace(object, id);
-    return id;
-}
-
 std::uint32_t next_row(std::size_t size) {
     if (size >= std::numeric_limits<std::uint32_t>::max() - 1) throw ArgumentError("scene: too many objects");
     return static_cast<std::uint32_t>(size);
+}
+
+// The row of `object` in a table that keeps one row for each address; `describe` makes a new one.
+template <class Id, class Row, class Describe>
+Id row_of(std::unordered_map<const void*, Id>& known, std::vector<Row>& table, const void* object,
+          const Describe& describe) {
+    if (const auto row = known.find(object); row != known.end()) return row->second;
+    table.push_back(describe());  // which may add others before
+    const Id id{next_row(table.size() - 1)};
+    known.emplace(object, id);
+    return id;
 }
 
 }  // namespace
@@ -28,76 +30,42 @@ std::uint32_t next_row(std::size_t size) {
 MaterialId RecordSink::material(const std::shared_ptr<const void>& object,
                                 const std::function<MaterialRecord()>& describe) {
     if (!object) return MaterialId::none;
-    return row_of(materials_, object.get(), [&] {
-        const MaterialRecord record = describe();
+    return row_of(materials_, records_.materials, object.get(), [&] {
         keep(object);
-        records_.materials.push_back(record);
-        return MaterialId{next_row(records_.materials.size() - 1)};
+        return describe();
     });
 }
 
 TextureId RecordSink::texture(const std::shared_ptr<const void>& object,
                               const std::function<TextureRecord()>& describe) {
     if (!object) return TextureId::none;
-    return row_of(textures_, object.get(), [&] {
-        const TextureRecord record = describe();
+    return row_of(textures_, records_.textures, object.get(), [&] {
         keep(object);
-        records_.textures.push_back(record);
-        return TextureId{next_row(records_.textures.size() - 1)};
+        return describe();
     });
 }
 
 std::uint32_t RecordSink::image(const std::shared_ptr<const Image>& image) {
-    return row_of(images_, image.get(), [&] {
-        records_.images.push_back(image);
-        return next_row(records_.images.size() - 1);
-    });
+    return row_of(images_, records_.images, image.get(), [&] { return image; });
 }
 
 std::uint32_t RecordSink::lattice(const std::shared_ptr<const PerlinLattice>& lattice) {
-    return row_of(lattices_, lattice.get(), [&] {
-        records_.lattices.push_back(lattice);
-        return next_row(records_.lattices.size() - 1);
-    });
-}
-
-void RecordSink::sphere(const SphereRecord& record) {
-    const bool moving = !(record.center0 == record.center1);
-    append(moving ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere, records_.spheres.size(), 1);
-    records_.spheres.push_back(record);
-}
-
-void RecordSink::triangle(const TriangleRecord& record) {
-    append(PrimitiveKind::triangle, records_.triangles.size(), 1);
-    records_.triangles.push_back(record);
-}
-
-void RecordSink::quad(const QuadRecord& record) {
-    append(PrimitiveKind::quad, records_.quads.size(), 1);
-    records_.quads.push_back(record);
+    return row_of(lattices_, records_.lattices, lattice.get(), [&] { return lattice; });
 }
 
 void RecordSink::mesh(MeshRecord record, const std::shared_ptr<const void>& owner) {
     record.owner = owner;
-    append(PrimitiveKind::mesh, records_.meshes.size(), record.arrays.triangles.size());
-    records_.meshes.push_back(std::move(record));
-}
-
-void RecordSink::foreign(const ForeignRecord& record) {
-    append(PrimitiveKind::foreign, records_.foreign.size(), 1);
-    records_.foreign.push_back(record);
+    shape(PrimitiveKind::mesh, &SceneRecords::meshes, record, record.arrays.triangles.size());
 }
 
 void RecordSink::instance(const InstanceRecord& record) {
-    append(PrimitiveKind::instance, records_.instances.size(),
-           records_.groups[static_cast<std::size_t>(record.group)].primitives);
-    records_.instances.push_back(record);
+    shape(PrimitiveKind::instance, &SceneRecords::instances, record,
+          records_.groups[static_cast<std::size_t>(record.group)].primitives);
 }
 
 void RecordSink::medium(const MediumRecord& record) {
-    append(PrimitiveKind::medium, records_.media.size(),
-           records_.groups[static_cast<std::size_t>(record.boundary)].primitives);
-    records_.media.push_back(record);
+    shape(PrimitiveKind::medium, &SceneRecords::media, record,
+          records_.groups[static_cast<std::size_t>(record.boundary)].primitives);
 }
 
 GroupId RecordSink::group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limn/core/warp.h"
 #include "render/spherical_rectangle.h"
 #include "render/spherical_triangle.h"
 
@@ -30,7 +29,7 @@ bool is_far(const Light& light, const Point3& from) {
 // Density per solid angle of a point drawn uniformly by area; 0 if the plane is seen edge-on. \param scaled_normal as
 // long as a quad's area
 double pdf_by_area(const Light& light, const Vec3& scaled_normal, const Vec3& way) {
-    const double projected = std::abs(dot(scaled_normal, way)) * (light.kind == LightKind::triangle ? 0.5 : 1);
+    const double projected = std::abs(dot(scaled_normal, way)) * flat::share_of(light);
     const double distance_squared = length_squared(way);
     return projected > 0 ? distance_squared * std::sqrt(distance_squared) / projected : 0;
 }
@@ -95,11 +94,11 @@ std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from
                     u < share ? halves.lower.sample(u / share, v) : halves.upper.sample((u - share) / (1 - share), v));
                 break;
             }
-            case LightKind::sphere: break;
+            default: break;
         }
     }
     const bool by_area = !(solid_angle >= flat::kSmallSolidAngle);
-    if (by_area) s.weights = light.kind == LightKind::triangle ? sample_uniform_triangle(u, v) : Uv{u, v};
+    if (by_area) s.weights = flat::sample_area(light, u, v);
     s.position = light.origin + (s.weights.u * light.edge_u + s.weights.v * light.edge_v);
     s.pdf = by_area ? pdf_by_area(light, s.normal, s.position - from) : 1 / solid_angle;
     if (!(s.pdf > 0)) return std::nullopt;
@@ -120,7 +119,7 @@ double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
                 seen(from, light.origin, light.origin + light.edge_u, light.origin + light.edge_v).solid_angle();
             break;
         case LightKind::parallelogram: solid_angle = Halves(light, from).solid_angle(); break;
-        case LightKind::sphere: break;
+        default: break;
     }
     return solid_angle >= flat::kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, normal, way);
 }

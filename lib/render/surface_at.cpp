@@ -1,46 +1,11 @@
 #include "render/surface_at.h"
 
-#include "core/sphere_uv.h"
 #include "predicates/hit_error.h"
 #include "predicates/mesh_triangle.h"
-#include "predicates/plane_normal.h"
 
 namespace limn::tracing {
 
 namespace {
-
-// While it is in the primitive's own space, the normals of a surface are outward. It is filled in place: a copy would
-// wait for what was just written.
-
-void on_sphere(const Point3& center, double radius, const Ray& ray, double t, bool with_uv, Surface& s) {
-    const Vec3 outward = sphere_normal(center, ray, t);
-    s.position = center + std::abs(radius) * outward;
-    s.position_error = sphere_error(center, radius);
-    const Vec3 n = (radius < 0 ? -1.0 : 1.0) * outward;
-    s.normal = {n.x, n.y, n.z};
-    s.shading_normal = {n.x, n.y, n.z};
-    if (with_uv) s.uv = sphere_uv(Vec3(s.normal));
-}
-
-void on_plane(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const Normal3& normal,
-              const PlanarHit& planar, Surface& s) {
-    s.position = corner + (planar.u * edge_u + planar.v * edge_v);
-    s.position_error = planar_error(corner, edge_u, edge_v);
-    s.normal = s.shading_normal = normal;
-    s.uv = {planar.u, planar.v};
-}
-
-void on_triangle(const TriangleVertices& v, const PlanarHit& planar, Surface& s) {
-    on_plane(v.a, v.b - v.a, v.c - v.a, triangle_normal(v.a, v.b, v.c), planar, s);
-}
-
-void on_mesh(const flat::Scene& scene, const flat::Mesh& mesh, std::uint64_t element, const PlanarHit& planar,
-             Surface& s) {
-    on_triangle(triangle_of(scene, mesh, element), planar, s);
-    if (!mesh.places.empty()) return;
-    s.shading_normal = shading_normal(mesh.arrays, element, planar, s.normal);
-    s.uv = texture_coordinates(mesh.arrays, element, planar);
-}
 
 void on_foreign(const flat::Foreign& shape, Ray ray, double t, SurfaceHit& out) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
@@ -61,31 +26,16 @@ void on_foreign(const flat::Foreign& shape, Ray ray, double t, SurfaceHit& out) 
 // `found`: by the search, which works out u and v too.
 void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const PlanarHit& found,
                   bool with_uv, SurfaceHit& out) {
-    Surface& surface = out.surface;
     const PrimitiveRange& range = scene.ranges[place.range];
-    const std::size_t row = range.first_row + place.element;
-    switch (range.kind) {
-        case PrimitiveKind::sphere: {
-            const flat::Sphere& s = scene.spheres[row];
-            return on_sphere(s.center, s.radius, ray, found.t, with_uv, surface);
-        }
-        case PrimitiveKind::moving_sphere: {
-            const flat::MovingSphere& s = scene.moving_spheres[row];
-            return on_sphere(interpolate(s.center0, s.center1, ray.time), s.radius, ray, found.t, with_uv, surface);
-        }
-        case PrimitiveKind::triangle: {
-            const flat::Triangle& triangle = scene.triangles[row];
-            return on_triangle({triangle.a, triangle.b, triangle.c}, found, surface);
-        }
-        case PrimitiveKind::quad: {
-            const flat::Quad& q = scene.quads[row];
-            return on_plane(q.corner, q.edge_u, q.edge_v, scene.quad_normals[row], found, surface);
-        }
-        case PrimitiveKind::mesh: return on_mesh(scene, scene.meshes[range.first_row], place.element, found, surface);
-        case PrimitiveKind::foreign: return on_foreign(scene.foreign[row], ray, found.t, out);
-        case PrimitiveKind::instance:
-        case PrimitiveKind::medium: break;  // locate() goes through them
-    }
+    if (range.kind == PrimitiveKind::foreign)
+        return on_foreign(scene.foreign[range.first_row + place.element], ray, found.t, out);
+    flat::with_primitive(scene, range, place.element,
+                         [&](const auto& primitive) { primitive.surface(ray, found, with_uv, out.surface); });
+    if (range.kind != PrimitiveKind::mesh) return;
+    const flat::Mesh& mesh = scene.meshes[range.first_row];
+    if (!mesh.places.empty()) return;
+    out.surface.shading_normal = shading_normal(mesh.arrays, place.element, found, out.surface.normal);
+    out.surface.uv = texture_coordinates(mesh.arrays, place.element, found);
 }
 
 // From the space of an instanced group to that around it.

@@ -16,7 +16,8 @@ TileRenderer::TileRenderer(const flat::Scene& scene, const FilmInfo& info)
     : scene_(scene),
       info_(info),
       camera_(info.camera, info.width, info.height),
-      has_lens_or_motion_(info.camera.aperture_angle > 0 || scene.features.moving_spheres ||
+      has_lens_or_motion_(info.camera.aperture_angle > 0 ||
+                          (scene.kinds & flat::bit(PrimitiveKind::moving_sphere)) != 0 ||
                           scene.features.moving_instances || scene.features.foreign_shapes) {}
 
 void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,

@@ -2,8 +2,8 @@
 
 #include "core/float_environment.h"
 #include "predicates/hit_error.h"
-#include "predicates/plane_normal.h"
 #include "predicates/intersect.h"
+#include "predicates/mesh_triangle.h"
 #include "shape/arguments.h"
 
 namespace limn {
@@ -15,11 +15,7 @@ Triangle::Triangle(const Point3& a, const Point3& b, const Point3& c, std::share
     if (are_collinear(a, b, c)) throw ArgumentError("Triangle: the area must not be zero");
 }
 
-Box Triangle::bounds() const {
-    Box box;
-    for (const Point3& p : {a_, b_, c_}) box.extend(p);
-    return box;
-}
+Box Triangle::bounds() const { return triangle_bounds({a_, b_, c_}); }
 
 std::optional<Hit> Triangle::hit(const Ray& ray) const {
     const FloatEnvironment environment;

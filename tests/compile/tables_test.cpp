@@ -154,8 +154,9 @@ TEST_CASE("locate: each number leads to its range, element and instances, outerm
     CHECK((kind(32) == PrimitiveKind::quad && at(32).index_matched && at(32).depth == 1));
     CHECK((kind(46) == PrimitiveKind::sphere && at(46).index_matched && at(46).element == 1));
     CHECK((kind(47) == PrimitiveKind::sphere && !at(47).index_matched && at(47).depth == 0));
-    CHECK(scene.spheres[scene.ranges[at(47).range].first_row + at(47).element].radius == 4);
-    CHECK(scene.spheres[scene.ranges[at(46).range].first_row + at(46).element].radius == 2);
+    const auto& spheres = std::get<std::vector<primitives::Sphere>>(scene.rows);
+    CHECK(spheres[scene.ranges[at(47).range].first_row + at(47).element].radius == 4);
+    CHECK(spheres[scene.ranges[at(46).range].first_row + at(46).element].radius == 2);
 }
 
 TEST_CASE("material_of: each kind of shape knows its own, and shapes without one are counted where they are seen",

@@ -61,7 +61,7 @@ private:
                 const MediumRecord& m = r_.media[row];
                 return fmt::format("{} of density {:g} in {}", material(m.phase), m.density, group(m.boundary));
             }
-            case PrimitiveKind::foreign: break;
+            default: break;
         }
         return "something else";
     }

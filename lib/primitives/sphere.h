@@ -1,0 +1,60 @@
+// Spheres, still and moving.
+#pragma once
+
+#include <tuple>
+
+#include "core/sphere_uv.h"
+#include "primitives/primitive.h"
+
+namespace limn::primitives {
+
+// Without the second centre.
+struct Sphere : Primitive {
+    static constexpr PrimitiveKind kKind = PrimitiveKind::sphere;
+    static constexpr const char* kName = "sphere";
+    static constexpr auto kRecords = &SceneRecords::spheres;
+    static auto fields(const SphereRecord& s) { return std::tie(s.center0, s.center1, s.radius, s.material); }
+
+    Point3 center;
+    double radius;  // negative: the normal points inward
+    MaterialId material;
+
+    explicit Sphere(const SphereRecord& s) : center(s.center0), radius(s.radius), material(s.material) {}
+
+    Box bounds() const { return sphere_bounds(center, center, radius); }
+    double packed_error() const { return lost(center); }
+    std::array<float, 4> pack() const { return to_floats(center.x, center.y, center.z, std::abs(radius)); }
+    SphereRecord ball() const { return {center, center, radius, material}; }
+    void surface(const Ray& ray, const PlanarHit& found, bool with_uv, Surface& s) const {
+        const Vec3 outward = sphere_normal(center, ray, found.t);
+        s.position = center + std::abs(radius) * outward;
+        s.position_error = sphere_error(center, radius);
+        s.normal = s.shading_normal = Normal3((radius < 0 ? -1.0 : 1.0) * outward);
+        if (with_uv) s.uv = sphere_uv(Vec3(s.normal));
+    }
+};
+
+struct MovingSphere : SphereRecord, Primitive {
+    static constexpr PrimitiveKind kKind = PrimitiveKind::moving_sphere;
+    static constexpr const char* kName = "moving-sphere";
+    static constexpr auto kRecords = &SceneRecords::spheres;
+
+    Box bounds() const { return sphere_bounds(center0, center1, radius); }
+    Sphere at(double time) const {
+        const Point3 center = interpolate(center0, center1, time);
+        return Sphere({center, center, radius, material});
+    }
+    // The way between two floats is rounded three times.
+    double packed_error() const {
+        return std::max(lost(center0), lost(center1)) + 0x1p-22 * std::max(max_abs(center0), max_abs(center1));
+    }
+    std::array<float, 7> pack() const {
+        return to_floats(center0.x, center0.y, center0.z, center1.x, center1.y, center1.z, std::abs(radius));
+    }
+    SphereRecord ball() const { return *this; }
+    void surface(const Ray& ray, const PlanarHit& found, bool with_uv, Surface& s) const {
+        at(ray.time).surface(ray, found, with_uv, s);
+    }
+};
+
+}  // namespace limn::primitives
