@@ -43,6 +43,7 @@
 #include "limn/scene/scene.h"
 #include "limn/shape/bvh.h"
 #include "limn/shape/constant_medium.h"
+#include "limn/shape/disk.h"
 #include "limn/shape/hittable.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"

@@ -82,7 +82,17 @@ static_assert(sizeof(MaterialRecord) == 32);
 // ---- shapes --------------------------------------------------------------------------------------------------------
 
 /// What can be hit, or entered: the tables of SceneRecords.
-enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, triangle, quad, mesh, instance, medium, foreign };
+enum class PrimitiveKind : std::uint8_t {
+    sphere,
+    moving_sphere,
+    triangle,
+    quad,
+    mesh,
+    instance,
+    medium,
+    foreign,
+    disk
+};
 
 /// Centre moves on a straight line from center0 at time 0 to center1 at time 1.
 struct SphereRecord {
@@ -115,6 +125,19 @@ struct QuadRecord {
     ///@}
 };
 static_assert(sizeof(QuadRecord) == 80);
+
+/// The points of the plane through center across normal, as far as radius from it; the normal, of any length, points
+/// outward.
+struct DiskRecord {
+    /// The normal is not zero, the radius above 0.
+    ///@{
+    Point3 center;
+    Vec3 normal;
+    double radius = 1;
+    MaterialId material = MaterialId::none;
+    ///@}
+};
+static_assert(sizeof(DiskRecord) == 64);
 
 /// Arrays that the mesh's owner shares.
 struct MeshRecord {
@@ -189,6 +212,7 @@ struct SceneRecords {
     std::vector<SphereRecord> spheres;
     std::vector<TriangleRecord> triangles;
     std::vector<QuadRecord> quads;
+    std::vector<DiskRecord> disks;
     std::vector<MeshRecord> meshes;
     std::vector<InstanceRecord> instances;
     std::vector<MediumRecord> media;

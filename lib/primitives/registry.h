@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "primitives/disk.h"
 #include "primitives/quad.h"
 #include "primitives/sphere.h"
 #include "primitives/triangle.h"
@@ -12,7 +13,8 @@
 namespace limn::primitives {
 
 // In the order of their names in CompiledScene::features().
-using Tables = std::tuple<std::vector<Sphere>, std::vector<MovingSphere>, std::vector<Triangle>, std::vector<Quad>>;
+using Tables = std::tuple<std::vector<Sphere>, std::vector<MovingSphere>, std::vector<Triangle>, std::vector<Quad>,
+                          std::vector<Disk>>;
 
 // visit(std::type_identity<Kind>()) with each.
 template <class Visit>

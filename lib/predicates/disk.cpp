@@ -1,0 +1,54 @@
+#include "predicates/disk.h"
+
+#include <cmath>
+
+#include "limn/core/frame.h"
+#include "limn/core/math.h"
+#include "predicates/bounds.h"
+#include "predicates/disk-inl.h"
+#include "predicates/dyadic.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn {
+
+bool intersect_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame,
+                    const Search& search, PlanarHit& hit) {
+    if (!HWY_NAMESPACE::intersect(HWY_NAMESPACE::disk_of<double>(center, normal, radius), frame, search, hit))
+        return false;
+    const Frame axes(normalize(normal));
+    const Vec3 from_center = frame.ray.at(hit.t) - center;
+    hit.u = 0.5 + 0.5 * dot(from_center, axes.x) / radius;
+    hit.v = 0.5 + 0.5 * dot(from_center, axes.y) / radius;
+    return true;
+}
+
+// As in DiskPredicate, with q = c - o: b' = d.n, a' = q.n, and w = a' d - b' q.
+bool exact_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame, const Search& search,
+                PlanarHit& hit) {
+    const ExactRay ray = exact_ray(frame);
+    const Dyadic3 n = to_dyadic(normal), q = ray.unit * to_dyadic(center) - ray.origin;
+    const Dyadic a = dot(q, n), b = dot(ray.direction, n);
+    if (b.sign() == 0) return false;
+    const Dyadic3 w = a * ray.direction - b * q;
+    const Dyadic reach = b * (ray.unit * Dyadic(radius));
+    if (reach * reach < dot(w, w)) return false;
+    hit = {ratio(a, b), 0, 0};
+    return search.contains(hit.t);
+}
+
+// Along an axis a disk goes as far as r sqrt(1 - n_a^2), n a unit normal: r sqrt(n_b^2 + n_c^2) / |n|.
+Box disk_bounds(const Point3& center, const Vec3& normal, double radius) {
+    const Vec3 n = normal / max_abs(normal);
+    const double whole = length(n);
+    Box box;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double b = n[(a + 1) % 3], c = n[(a + 2) % 3];
+        const double reach = radius * (std::sqrt(b * b + c * c) / whole) * (1 + gamma(16));
+        box.lower[a] = difference_down(center[a], reach);
+        box.upper[a] = difference_up(center[a], -reach);
+    }
+    return box;
+}
+
+}  // namespace limn
+HWY_AFTER_NAMESPACE();
