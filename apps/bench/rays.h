@@ -7,7 +7,7 @@
 
 #include "bench/geometry.h"
 #include "limn/core/ray.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 
 namespace limn::bench {
 

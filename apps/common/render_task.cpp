@@ -9,7 +9,7 @@
 #include "limn/core/error.h"
 #include "limn/core/file_lock.h"
 #include "limn/core/files.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/render/render_job.h"
 #include "picture_output.h"
 #include "progress_bar.h"

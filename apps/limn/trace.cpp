@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "limn/core/error.h"
 #include "limn/io/obj.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "parse.h"
 #include "program.h"
 #include "progress_bar.h"

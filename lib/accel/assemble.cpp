@@ -1,8 +1,8 @@
-#include "accel/assemble.h"
-
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "accel/collapse.h"
 #include "accel/parallel.h"
 
 namespace limn::accel {
@@ -20,8 +20,50 @@ struct Rows {
 
 Slots children_of(const SplitNode& node) {
     Slots children;
-    fill_slots(node, kWidth, children);
+    children.add(node, kWidth);
     return children;
+}
+
+// Their boxes and orders; they are yet to be named.
+Node node_over(const Slots& children) {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    Node node;
+    std::fill_n(node.child, kWidth, kNothing);
+    for (int a = 0; a < 3; ++a) {
+        std::fill_n(node.planes[a], kWidth, kFar);
+        std::fill_n(node.planes[3 + a], kWidth, -kFar);
+        for (std::size_t c = 0; c < children.count; ++c) {
+            const Bounds& box = children.node[c]->box;
+            node.planes[a][c] = box.lower[a], node.planes[3 + a][c] = box.upper[a];
+        }
+    }
+    const auto present = static_cast<std::uint32_t>(children.count);
+    // An octant and its opposite have opposite orders.
+    for (std::uint32_t octant = 0; octant < 4; ++octant) {
+        float along[kWidth];              // twice the centre, along the octant's diagonal
+        std::uint32_t rank[kWidth] = {};  // from the nearest on
+        for (std::uint32_t c = 0; c < kWidth; ++c) {
+            const float x = node.planes[0][c] + node.planes[3][c], y = node.planes[1][c] + node.planes[4][c],
+                        z = node.planes[2][c] + node.planes[5][c];
+            along[c] = (octant & 1 ? -x : x) + (octant & 2 ? -y : y) + z;
+        }
+        // An absent child's is NaN; that of one without bounds is NaN or endless. They all come last, in their order.
+        for (std::uint32_t c = 0; c < kWidth; ++c)
+            if (!(along[c] < kFar)) along[c] = kFar;
+        for (std::uint32_t other = 0; other < kWidth; ++other)
+            for (std::uint32_t c = 0; c < kWidth; ++c)
+                rank[c] +=
+                    static_cast<std::uint32_t>(along[other] < along[c]) |
+                    (static_cast<std::uint32_t>(along[other] == along[c]) & static_cast<std::uint32_t>(other < c));
+        std::uint32_t word = 0, opposite = 0;
+        for (std::uint32_t c = 0; c < kWidth; ++c) {
+            word |= c << 4 * (kWidth - 1 - rank[c]);
+            opposite |= c << 4 * (kWidth - 1 - (c < present ? present - 1 - rank[c] : rank[c]));
+        }
+        node.order[octant] = word;
+        node.order[7 - octant] = opposite;
+    }
+    return node;
 }
 
 // All nodes and leaves stand depth first. What is at the top is written by one thread, the parts that hang from it in
@@ -70,13 +112,13 @@ private:
 
     // Writes them from `next` on. At the top parts are only given their place.
     void write(const Slots& children, Rows& next, bool at_top) {
-        FloatBox boxes[kWidth];
-        for (std::size_t slot = 0; slot < children.count; ++slot) boxes[slot] = children.node[slot]->box;
-        Node& node = bvh_.nodes[next.node++] = make_node({boxes, children.count});
+        Node& node = bvh_.nodes[next.node++] = node_over(children);
         for (std::size_t slot = 0; slot < children.count; ++slot) {
             if (!children.node[slot]->is_leaf) continue;
             node.child[slot] = kLeaf | next.leaf;
-            bvh_.leaves[next.leaf++] = leaf(*children.node[slot]);
+            const SplitNode& leaf = *children.node[slot];
+            std::ranges::sort(std::span(bvh_.indices).subspan(leaf.begin, leaf.size()));
+            bvh_.leaves[next.leaf++] = {leaf.begin, leaf.size()};
         }
         for (std::size_t slot = 0; slot < children.count; ++slot) {
             const SplitNode& child = *children.node[slot];
@@ -90,12 +132,6 @@ private:
             part.first = next;
             next += part.size;
         }
-    }
-
-    Leaf leaf(const SplitNode& node) {
-        const auto first = bvh_.indices.begin() + node.begin;
-        std::sort(first, first + node.size());
-        return {node.begin, node.size()};
     }
 
     WideBvh bvh_;

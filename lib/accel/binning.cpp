@@ -33,7 +33,7 @@ struct Bins {
         const Int4 place = __builtin_convertvector(min((p.center() - origin) * scale, last), Int4);
         const auto weight = static_cast<std::int32_t>(p.weight());
         for (int axis = 0; axis < 3; ++axis) {
-            bounds[axis][place[axis]].extend(p.bounds());
+            bounds[axis][place[axis]].extend(p);
             count[place[axis]][axis] += weight;
         }
     }

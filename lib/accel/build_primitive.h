@@ -34,20 +34,17 @@ inline constexpr Bounds kEmpty{kEndless, -kEndless};
 // A box, or a cell that many boxes have their centres in. The fourth lane of `lower` holds the index, that of `upper`
 // how many boxes it stands for; the bits of the first make up no subnormal float, for arithmetic is done on all lanes
 // and is slow on those.
-struct BuildPrimitive {
+struct BuildPrimitive : Bounds {
     static constexpr std::uint32_t kNormal = 0x40000000u;
 
-    Vec4 lower, upper;
-
     BuildPrimitive() = default;
-    BuildPrimitive(const Bounds& b, std::uint32_t index, std::uint32_t weight = 1) : lower(b.lower), upper(b.upper) {
+    BuildPrimitive(const Bounds& b, std::uint32_t index, std::uint32_t weight = 1) : Bounds(b) {
         lower[3] = std::bit_cast<float>(index ^ kNormal);
         upper[3] = std::bit_cast<float>(weight);
     }
 
     std::uint32_t index() const { return std::bit_cast<std::uint32_t>(lower[3]) ^ kNormal; }
     std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(upper[3]); }
-    Bounds bounds() const { return {lower, upper}; }
     Vec4 center() const { return lower + upper; }  // twice the centre; bounded boxes are small enough for the sum
 };
 static_assert(sizeof(BuildPrimitive) == 32);
@@ -59,7 +56,7 @@ struct Range {
 
     std::uint32_t size() const { return end - begin; }
     void extend(const BuildPrimitive& p) {
-        bounds.extend(p.bounds());
+        bounds.extend(p);
         centers.extend({p.center(), p.center()});
     }
     void extend(const Range& r) {
@@ -70,14 +67,6 @@ struct Range {
 
 inline Bounds to_bounds(const FloatBox& b) {
     return {Vec4{b.lower[0], b.lower[1], b.lower[2]}, Vec4{b.upper[0], b.upper[1], b.upper[2]}};
-}
-
-inline bool is_empty(const Bounds& b) {
-    return !(b.lower[0] <= b.upper[0] && b.lower[1] <= b.upper[1] && b.lower[2] <= b.upper[2]);
-}
-
-inline FloatBox to_box(const Bounds& b) {
-    return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}};
 }
 
 inline Range range_over(const BuildPrimitive* primitives, std::uint32_t begin, std::uint32_t end) {

@@ -5,9 +5,9 @@
 
 namespace limn::accel {
 
-double half_area(const FloatBox& box) {
+double half_area(const Bounds& box) {
     double side[3];
-    for (std::size_t a = 0; a < 3; ++a) side[a] = static_cast<double>(box.upper[a]) - box.lower[a];
+    for (int a = 0; a < 3; ++a) side[a] = static_cast<double>(box.upper[a]) - box.lower[a];
     // A little more, so that boxes without any area are told apart by their length, and no root has none.
     const double square = side[0] * side[0] + side[1] * side[1] + side[2] * side[2];
     return side[0] * side[1] + side[1] * side[2] + side[2] * side[0] + 0x1p-20 * square + 0x1p-400;
@@ -15,12 +15,6 @@ double half_area(const FloatBox& box) {
 
 double leaf_cost(std::uint32_t size, const BuildSettings& settings) {
     return (size + settings.leaf_width - 1) / settings.leaf_width * settings.leaf_cost;
-}
-
-ForestCosts closed_costs(double cost) {
-    ForestCosts costs;
-    costs.fill(cost);
-    return costs;
 }
 
 ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
@@ -52,13 +46,14 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
     return costs;
 }
 
-void fill_slots(const SplitNode& node, std::size_t slots, Slots& filled) {
-    if (slots < node.open_from) {
-        filled.add(node);
+void Slots::add(const SplitNode& root, std::size_t slots) {
+    if (slots < root.open_from) {
+        node[count++] = &root;
         return;
     }
-    fill_slots(*node.left, node.left_slots[slots], filled);
-    fill_slots(*node.right, slots - node.left_slots[slots], filled);
+    const auto& [left, right] = *root.children;
+    add(left, root.left_slots[slots]);
+    add(right, slots - root.left_slots[slots]);
 }
 
 }  // namespace limn::accel

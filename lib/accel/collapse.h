@@ -4,29 +4,41 @@
 
 #include <array>
 
-#include "accel/wide_bvh.h"
+#include "accel/build_primitive.h"
 
 namespace limn::accel {
 
 struct SplitNode {
-    FloatBox box;
+    Bounds box = kEmpty;
     std::uint32_t begin = 0, end = 0;  // of the primitives under it
-    SplitNode *left = nullptr, *right = nullptr;
+    std::array<SplitNode, 2>* children = nullptr;
     // The plan: if all that is under the node may fill so many slots, two or more, how many of them its left child
     // gets; and with fewer than `open_from` the node fills one, by itself, as a node or a leaf.
     std::uint8_t left_slots[kWidth + 1] = {};
     std::uint8_t open_from = kWidth + 1;
     bool is_leaf = true;
+    std::uint8_t depth = 1;  // of nodes on the way to it, itself included
 
     std::uint32_t size() const { return end - begin; }
 };
+using SplitNodes = std::array<SplitNode, 2>;
+
+// `nodes` must not move them.
+template <class Nodes>
+SplitNodes& add_children(SplitNode& node, Nodes& nodes) {
+    node.children = &nodes.emplace_back();
+    for (SplitNode& child : *node.children) child.depth = static_cast<std::uint8_t>(node.depth + 1);
+    return *node.children;
+}
 
 // The children of a wide node.
 struct Slots {
     const SplitNode* node[kWidth];
     std::size_t count = 0;
 
-    void add(const SplitNode& child) { node[count++] = &child; }
+    // Adds the nodes that make the most of so many slots for all that is under `root`.
+    void add(const SplitNode& root, std::size_t slots);
+
     const SplitNode* const* begin() const { return node; }
     const SplitNode* const* end() const { return node + count; }
 };
@@ -34,17 +46,14 @@ struct Slots {
 // The least cost of what is under a binary node, times the root's area, if it may fill up to i + 1 slots.
 using ForestCosts = std::array<double, kWidth - 1>;
 
-double half_area(const FloatBox& box);
+double half_area(const Bounds& box);
 double leaf_cost(std::uint32_t size, const BuildSettings& settings);
-
-// Of what fills one slot, whatever it is offered.
-ForestCosts closed_costs(double cost);
 
 // Makes the plan of a node with two children.
 ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
                       const BuildSettings& settings);
 
-// Adds the nodes that make the most of so many slots for all that is under `node`.
-void fill_slots(const SplitNode& node, std::size_t slots, Slots& filled);
+// All but the cost of the tree whose root has these children. `indices`: of the primitives that split nodes count.
+WideBvh assemble(const Slots& root, HugeVector<std::uint32_t> indices);
 
 }  // namespace limn::accel

@@ -21,14 +21,14 @@ std::vector<Range> chunks_of(std::uint32_t begin, std::uint32_t end) {
 // Of the chunk's boxes, from its begin on. Returns which those are.
 Range fill(std::span<const FloatBox> boxes, const Range& chunk, BuildPrimitive* primitives,
            std::vector<std::uint32_t>& unbounded) {
+    const auto everywhere = [](Int4 test) { return (test[0] & test[1] & test[2]) != 0; };
     Range range;  // apart from what is returned, so that it stays in registers
     std::uint32_t at = chunk.begin;
     for (std::uint32_t i = chunk.begin; i < chunk.end; ++i) {
         const Bounds bounds = to_bounds(boxes[i]);
-        const Int4 plain =
-            (bounds.lower <= bounds.upper) & (bounds.lower >= splat(-kBounded)) & (bounds.upper <= splat(kBounded));
-        if ((plain[0] & plain[1] & plain[2]) == 0) {
-            if (!is_empty(bounds)) unbounded.push_back(i);
+        const Int4 some = bounds.lower <= bounds.upper;
+        if (!everywhere(some & (bounds.lower >= splat(-kBounded)) & (bounds.upper <= splat(kBounded)))) {
+            if (everywhere(some)) unbounded.push_back(i);
             continue;
         }
         const BuildPrimitive p(bounds, i);

@@ -47,53 +47,38 @@ private:
 struct Chunk {
     std::uint32_t begin, end;
     std::vector<Bounds> bounds;        // by cell
-    std::vector<std::uint32_t> count;  // by cell, then by range: where its next reference goes
+    std::vector<std::uint32_t> count;  // by cell, then by leaf: where its next reference goes
 };
 
 // Splits cells until their primitives are few enough.
-class CellTree {
-public:
-    CellTree(std::uint32_t enough, const BuildSettings& settings, std::deque<SplitNode>& nodes,
-             std::vector<std::uint32_t>& range_of_cell)
-        : enough_(enough), settings_(settings), nodes_(nodes), range_of_cell_(range_of_cell) {}
+struct CellTree {
+    const BuildSettings& settings;
+    std::deque<SplitNodes>& nodes;
+    std::vector<std::uint32_t>& leaf_of_cell;
+    std::uint32_t next;  // where the next leaf begins
+    std::vector<SplitNode*> leaves = {};
 
-    std::vector<OpenRange> build(std::vector<BuildPrimitive> cells, const OpenRange& open) {
-        next_ = open.begin;
-        std::vector<BuildPrimitive> spare(cells.size());
-        split(cells.data(), spare.data(), 0, static_cast<std::uint32_t>(cells.size()), 2, *open.node, open.depth);
-        return std::move(ranges_);
-    }
-
-private:
     void split(BuildPrimitive* cells, BuildPrimitive* spare, std::uint32_t begin, std::uint32_t end,
-               std::uint32_t min_cells, SplitNode& node, int depth) {
+               std::uint32_t min_cells, SplitNode& node) {
         const Range range = range_over(cells, begin, end);
-        std::uint32_t size = 0;
-        for (std::uint32_t i = begin; i < end; ++i) size += cells[i].weight();
-        node.box = to_box(range.bounds);
-        node.begin = next_, node.end = next_ + size;
+        node.box = range.bounds;
+        node.begin = node.end = next;
+        for (std::uint32_t i = begin; i < end; ++i) node.end += cells[i].weight();
         Split best;
-        if (size > enough_ && range.size() >= min_cells && may_split(size, depth))
-            best = best_split(cells, range, settings_.leaf_width);
+        if (node.size() > kSubtree && range.size() >= min_cells && may_split(node))
+            best = best_split(cells, range, settings.leaf_width);
         if (!best.exists()) {
             for (std::uint32_t i = begin; i < end; ++i)
-                range_of_cell_[cells[i].index()] = static_cast<std::uint32_t>(ranges_.size());
-            ranges_.push_back({&node, depth, next_, next_ + size});
-            next_ += size;
+                leaf_of_cell[cells[i].index()] = static_cast<std::uint32_t>(leaves.size());
+            leaves.push_back(&node);
+            next = node.end;
             return;
         }
         const std::uint32_t middle = partition(cells, spare, range, best);
-        node.left = &nodes_.emplace_back();
-        split(spare, cells, begin, middle, kMinCells, *node.left, depth + 1);
-        node.right = &nodes_.emplace_back();
-        split(spare, cells, middle, end, kMinCells, *node.right, depth + 1);
+        auto& [left, right] = add_children(node, nodes);
+        split(spare, cells, begin, middle, kMinCells, left);
+        split(spare, cells, middle, end, kMinCells, right);
     }
-
-    std::uint32_t enough_, next_ = 0;
-    const BuildSettings& settings_;
-    std::deque<SplitNode>& nodes_;
-    std::vector<std::uint32_t>& range_of_cell_;
-    std::vector<OpenRange> ranges_;
 };
 
 }  // namespace
@@ -103,9 +88,8 @@ bool has_extent(const Range& range) {
     return std::max({extent[0], extent[1], extent[2]}) > kMinExtent;
 }
 
-std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const OpenRange& open,
-                                     const Range& range, std::uint32_t enough, const BuildSettings& settings,
-                                     std::deque<SplitNode>& nodes) {
+std::vector<SplitNode*> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const Range& range,
+                                      const BuildSettings& settings, SplitNode& root, std::deque<SplitNodes>& nodes) {
     const int bits = std::clamp(static_cast<int>(std::bit_width(range.size())) - 2, 6, kMaxBits);
     const std::size_t cells = std::size_t{1} << bits;
     const Grid grid(range, bits);
@@ -121,7 +105,7 @@ std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive*
         chunk.count.assign(cells, 0);
         for (std::uint32_t i = chunk.begin; i < chunk.end; ++i) {
             const std::uint32_t cell = grid.cell_of(from[i]);
-            chunk.bounds[cell].extend(from[i].bounds());
+            chunk.bounds[cell].extend(from[i]);
             ++chunk.count[cell];
         }
     });
@@ -136,23 +120,25 @@ std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive*
         }
         if (count > 0) filled.emplace_back(bounds, cell, count);
     }
-    std::vector<std::uint32_t> range_of_cell(cells, 0);
-    std::vector<OpenRange> ranges = CellTree(enough, settings, nodes, range_of_cell).build(std::move(filled), open);
+    std::vector<BuildPrimitive> spare(filled.size());
+    std::vector<std::uint32_t> leaf_of_cell(cells, 0);
+    CellTree tree{settings, nodes, leaf_of_cell, range.begin};
+    tree.split(filled.data(), spare.data(), 0, static_cast<std::uint32_t>(filled.size()), 2, root);
 
-    // Within a range the primitives keep their order.
+    // Within a leaf the primitives keep their order.
     std::vector<std::uint32_t> next;
-    for (const OpenRange& r : ranges) next.push_back(r.begin);
+    for (const SplitNode* leaf : tree.leaves) next.push_back(leaf->begin);
     for (Chunk& chunk : chunks) {
         std::vector<std::uint32_t> first = next;
-        for (std::size_t cell = 0; cell < cells; ++cell) next[range_of_cell[cell]] += chunk.count[cell];
+        for (std::size_t cell = 0; cell < cells; ++cell) next[leaf_of_cell[cell]] += chunk.count[cell];
         chunk.count = std::move(first);
     }
     for_all(0, chunks.size(), 1, [&](std::size_t c) {
         Chunk& chunk = chunks[c];
         for (std::uint32_t i = chunk.begin; i < chunk.end; ++i)
-            to[chunk.count[range_of_cell[grid.cell_of(from[i])]]++] = from[i];
+            to[chunk.count[leaf_of_cell[grid.cell_of(from[i])]]++] = from[i];
     });
-    return ranges;
+    return std::move(tree.leaves);
 }
 
 }  // namespace limn::accel

@@ -10,22 +10,13 @@
 
 namespace limn::accel {
 
-// Build primitives that a node of the binary tree is left to be built of.
-struct OpenRange {
-    SplitNode* node;
-    int depth;
-    std::uint32_t begin, end;
-
-    std::uint32_t size() const { return end - begin; }
-};
-
 // Whether its centres differ enough for a grid.
 bool has_extent(const Range& range);
 
-// Sorts the range, from one place to the same place elsewhere, into ranges of up to `enough` primitives if the grid's
-// cells are fine enough for that. Adds the tree above these ranges under the open node. \pre has_extent(range)
-std::vector<OpenRange> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const OpenRange& open,
-                                     const Range& range, std::uint32_t enough, const BuildSettings& settings,
-                                     std::deque<SplitNode>& nodes);
+// Sorts the range, from one place to the same place elsewhere, into ranges of up to kSubtree primitives if the grid's
+// cells are fine enough for that. Fills in `root` and adds the tree above these ranges under it; returns its leaves.
+// \pre has_extent(range)
+std::vector<SplitNode*> split_by_grid(const BuildPrimitive* from, BuildPrimitive* to, const Range& range,
+                                      const BuildSettings& settings, SplitNode& root, std::deque<SplitNodes>& nodes);
 
 }  // namespace limn::accel

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace limn::accel {
 
@@ -29,8 +28,5 @@ struct alignas(64) Node {
     std::uint32_t order[kWidth];
 };
 static_assert(sizeof(Node) == 256);
-
-// Of children with these boxes, up to eight, that are yet to be named.
-Node make_node(std::span<const FloatBox> boxes);
 
 }  // namespace limn::accel

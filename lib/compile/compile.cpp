@@ -4,9 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "compile/digest.h"
-#include "compile/groups.h"
-#include "compile/lights.h"
+#include "compile/steps.h"
 #include "core/require.h"
 
 namespace limn::compiler {
@@ -36,10 +34,9 @@ flat::Instance pack(const InstanceRecord& record) {
 
 void move_tables(SceneRecords&& records, flat::Scene& out) {
     for (const GroupRecord& group : records.groups) {
-        flat::Group packed;
+        flat::Group& packed = out.groups.emplace_back();
         packed.first_range = static_cast<std::uint32_t>(out.ranges.size());
         packed.range_count = static_cast<std::uint32_t>(group.ranges.size());
-        out.groups.push_back(packed);
         out.ranges.insert(out.ranges.end(), group.ranges.begin(), group.ranges.end());
     }
     fill_rows(records, out);
@@ -153,19 +150,20 @@ void count_unassigned(flat::Scene& s) {
 }
 
 std::size_t memory_of(const flat::Scene& s) {
-    const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-    std::size_t sum = sizeof(s) + bytes(s.meshes) + bytes(s.instances) + bytes(s.foreign) + bytes(s.groups) +
-                      bytes(s.ranges) + bytes(s.references) + bytes(s.nodes) + bytes(s.blocks) +
-                      bytes(s.first_of_object) + bytes(s.object_of) + bytes(s.medium_shapes) + bytes(s.media) +
-                      bytes(s.lights.own) + bytes(s.lights.places) + bytes(s.lights.refs) + bytes(s.lights.nodes) +
-                      bytes(s.lights.by_number) + bytes(s.lights.strength_before) + bytes(s.lights.guide) +
-                      bytes(s.lights.instances) + bytes(s.materials) + bytes(s.textures) + bytes(s.kept) +
-                      bytes(s.list.entries) + bytes(s.list.planar) + bytes(s.list.round);
-    std::apply([&](const auto&... rows) { sum += (bytes(rows) + ...); }, s.rows);
-    for (const flat::Mesh& mesh : s.meshes)
-        sum += mesh.arrays.vertices.size_bytes() + mesh.arrays.triangles.size_bytes() +
-               mesh.arrays.normals.size_bytes() + mesh.arrays.uvs.size_bytes() +
-               mesh.arrays.material_slots.size_bytes() + bytes(mesh.materials) + bytes(mesh.places);
+    const auto bytes = [](const auto&... tables) {
+        return (std::size_t{0} + ... + (tables.size() * sizeof(tables[0])));
+    };
+    const flat::LightTable& lights = s.lights;
+    std::size_t sum = sizeof(s) + std::apply(bytes, s.rows) +
+                      bytes(s.meshes, s.instances, s.foreign, s.groups, s.ranges, s.references, s.nodes, s.blocks,
+                            s.first_of_object, s.object_of, s.medium_shapes, s.media, s.materials, s.textures, s.kept) +
+                      bytes(lights.own, lights.places, lights.refs, lights.nodes, lights.by_number,
+                            lights.strength_before, lights.guide, lights.instances) +
+                      bytes(s.list.entries, s.list.planar, s.list.round);
+    for (const flat::Mesh& mesh : s.meshes) {
+        const MeshView& a = mesh.arrays;
+        sum += bytes(a.vertices, a.triangles, a.normals, a.uvs, a.material_slots, mesh.materials, mesh.places);
+    }
     for (const auto& image : s.images) sum += image->values().size_bytes();
     return sum + s.lattices.size() * sizeof(PerlinLattice);
 }

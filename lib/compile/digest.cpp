@@ -1,5 +1,4 @@
-#include "compile/digest.h"
-
+#include "compile/steps.h"
 #include "core/checksum.h"
 #include "primitives/registry.h"
 

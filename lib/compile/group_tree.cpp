@@ -1,5 +1,3 @@
-#include "compile/group_tree.h"
-
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
@@ -10,7 +8,9 @@
 #include "accel/float_box.h"
 #include "accel/parallel.h"
 #include "accel/slab.h"
+#include "compile/list.h"
 #include "compile/pack.h"
+#include "compile/steps.h"
 #include "limn/core/error.h"
 #include "predicates/bounds.h"
 #include "predicates/mesh_triangle.h"
@@ -21,124 +21,143 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
+class GroupTree {
+public:
+    explicit GroupTree(flat::Scene& scene) : scene_(scene) {}
+
+    void build(flat::Group& group) {
+        for (std::uint32_t i = 0; i < group.range_count; ++i) add(group.first_range + i);
+        group.bounds = bounds_;
+        group.extent = extent_;
+        // Where float serves, boxes stay as they are.
+        group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
+        if (&group == &scene_.groups.front()) list();
+        group.packed_error = accel::round_up(note_what_is_left());
+        scale_boxes(group.scale);
+        // A leaf takes two to three times as long as a node (docs/performance.md).
+        accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
+        group.cost = bvh.cost;
+        group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
+    }
+
+private:
+    // `row` of Scene::ranges.
+    void add(std::uint32_t row) {
+        const PrimitiveRange& range = scene_.ranges[row];
+        if (range.kind == PrimitiveKind::medium) return;  // apart, see place_media
+        const std::uint64_t stored = range.kind == PrimitiveKind::instance ? 1 : range.count;
+        const std::size_t first = references_.size();
+        if (stored + first >= flat::kLeaf) throw ArgumentError("scene: too many primitives");
+        for (std::uint32_t i = 0; i < stored; ++i) references_.push_back({row, i});
+        boxes_.resize(references_.size());
+        if (range.kind == PrimitiveKind::mesh) return measure_mesh(range, first);
+        scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
+        for (std::size_t index = first; index < references_.size(); ++index) {
+            Candidate& other = others_.emplace_back(measure(range, references_[index]));
+            other.index = static_cast<std::uint32_t>(index);
+            bounds_.extend(other.box);
+            extent_ = std::max(extent_, accel::finite_extent(other.box));
+        }
+    }
+
+    void measure_mesh(const PrimitiveRange& range, std::size_t first) {
+        using Indices = oneapi::tbb::blocked_range<std::size_t>;
+        struct Found {
+            Box bounds;
+            std::size_t degenerate = 0;
+        };
+        const MeshView& mesh = scene_.meshes[range.first_row].arrays;
+        const Found found = oneapi::tbb::parallel_reduce(
+            Indices(0, range.count, kGrain), Found{},
+            [&](const Indices& indices, Found so_far) {
+                for (std::size_t i = indices.begin(); i < indices.end(); ++i) {
+                    const TriangleVertices v = triangle_vertices(mesh, i);
+                    const bool counts = !is_degenerate(v);
+                    const Box box = triangle_bounds(v);
+                    boxes_[first + i] = accel::to_float_box(counts ? box : Box());
+                    if (counts)
+                        so_far.bounds.extend(box);
+                    else
+                        ++so_far.degenerate;
+                }
+                return so_far;
+            },
+            [](const Found& a, const Found& b) {
+                return Found{merge(a.bounds, b.bounds), a.degenerate + b.degenerate};
+            });
+        extent_ = std::max(extent_, accel::finite_extent(found.bounds));
+        bounds_.extend(found.bounds);
+        mesh_bounds_.extend(found.bounds);
+        scene_.degenerate += found.degenerate;
+        scene_.stored_primitives += range.count - found.degenerate;
+        if (range.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
+    }
+
+    Candidate measure(const PrimitiveRange& range, const flat::Reference& reference) const {
+        const std::uint32_t row = range.first_row + reference.element;
+        if (range.kind == PrimitiveKind::foreign) return {reference, scene_.foreign[row].bounds};
+        if (range.kind == PrimitiveKind::instance) {
+            const flat::Instance& instance = scene_.instances[row];
+            return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
+                                               flat::group_at(scene_, instance.group).bounds)};
+        }
+        Candidate measured{reference, {}};
+        primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
+            measured.box = primitive.bounds(), measured.packed_error = primitive.packed_error();
+        });
+        return measured;
+    }
+
+    // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.
+    void scale_boxes(double scale) {
+        if (scale != 1)
+            accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
+                accel::FloatBox& box = boxes_[i];
+                for (std::size_t a = 0; a < 3; ++a) {
+                    box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));
+                    box.upper[a] = accel::round_up(scale * static_cast<double>(box.upper[a]));
+                }
+            });
+        for (const Candidate& other : others_) boxes_[other.index] = accel::to_float_box(other.box, scale);
+    }
+
+    // Leaves out of the tree what is listed beside it.
+    void list() {
+        if (list_all(scene_)) return;
+        const std::vector<bool> is_listed = list_large(scene_, others_, mesh_bounds_);
+        Box rest = mesh_bounds_;
+        for (std::size_t i = 0; i < is_listed.size(); ++i) {
+            if (is_listed[i])
+                others_[i].box = Box();
+            else
+                rest.extend(others_[i].box);
+        }
+        const accel::FloatBox box = accel::to_float_box(rest);
+        std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
+    }
+
+    // Its kinds; returns its error by packing.
+    double note_what_is_left() {
+        double packed_error = 0;
+        for (const Candidate& other : others_) {
+            if (other.box.is_empty()) continue;
+            packed_error = std::max(packed_error, other.packed_error);
+            scene_.kinds |= flat::bit(scene_.ranges[other.reference.range].kind);
+        }
+        return packed_error;
+    }
+
+    flat::Scene& scene_;
+    // By the index that the tree knows a primitive by.
+    std::vector<flat::Reference> references_;
+    std::vector<accel::FloatBox> boxes_;
+    std::vector<Candidate> others_;  // what is not in a mesh, its box not yet in float; empty where it is listed
+    Box bounds_, mesh_bounds_;
+    double extent_ = 0;  // the largest finite coordinate
+};
+
 }  // namespace
 
-void GroupTree::add(const PrimitiveRange& range, std::uint32_t row) {
-    if (range.kind == PrimitiveKind::medium) return;  // apart, see place_media
-    const std::uint64_t stored = range.kind == PrimitiveKind::instance ? 1 : range.count;
-    const std::size_t first = references_.size();
-    if (stored + first >= flat::kLeaf) throw ArgumentError("scene: too many primitives");
-    for (std::uint32_t i = 0; i < stored; ++i) references_.push_back({row, i});
-    boxes_.resize(references_.size());
-    if (range.kind == PrimitiveKind::mesh) return measure_mesh(range, first);
-    scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
-    for (std::size_t index = first; index < references_.size(); ++index) {
-        Candidate& other = others_.emplace_back(measure(range, references_[index]));
-        other.index = static_cast<std::uint32_t>(index);
-        bounds_.extend(other.box);
-        extent_ = std::max(extent_, accel::finite_extent(other.box));
-    }
-}
-
-void GroupTree::measure_mesh(const PrimitiveRange& range, std::size_t first) {
-    using Indices = oneapi::tbb::blocked_range<std::size_t>;
-    struct Found {
-        Box bounds;
-        std::size_t degenerate = 0;
-    };
-    const MeshView& mesh = scene_.meshes[range.first_row].arrays;
-    const Found found = oneapi::tbb::parallel_reduce(
-        Indices(0, range.count, kGrain), Found{},
-        [&](const Indices& indices, Found so_far) {
-            for (std::size_t i = indices.begin(); i < indices.end(); ++i) {
-                const TriangleVertices v = triangle_vertices(mesh, i);
-                const bool counts = !is_degenerate(v);
-                const Box box = triangle_bounds(v);
-                boxes_[first + i] = accel::to_float_box(counts ? box : Box());
-                if (counts)
-                    so_far.bounds.extend(box);
-                else
-                    ++so_far.degenerate;
-            }
-            return so_far;
-        },
-        [](const Found& a, const Found& b) {
-            return Found{merge(a.bounds, b.bounds), a.degenerate + b.degenerate};
-        });
-    extent_ = std::max(extent_, accel::finite_extent(found.bounds));
-    bounds_.extend(found.bounds);
-    mesh_bounds_.extend(found.bounds);
-    scene_.degenerate += found.degenerate;
-    scene_.stored_primitives += range.count - found.degenerate;
-    if (range.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
-}
-
-Candidate GroupTree::measure(const PrimitiveRange& range, const flat::Reference& reference) const {
-    const std::uint32_t row = range.first_row + reference.element;
-    if (range.kind == PrimitiveKind::foreign) return {reference, scene_.foreign[row].bounds};
-    if (range.kind == PrimitiveKind::instance) {
-        const flat::Instance& instance = scene_.instances[row];
-        return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                           flat::group_at(scene_, instance.group).bounds)};
-    }
-    Candidate measured{reference, {}};
-    primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
-        measured.box = primitive.bounds(), measured.packed_error = primitive.packed_error();
-    });
-    return measured;
-}
-
-// By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.
-void GroupTree::scale_boxes(double scale) {
-    if (scale != 1)
-        accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
-            accel::FloatBox& box = boxes_[i];
-            for (std::size_t a = 0; a < 3; ++a) {
-                box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));
-                box.upper[a] = accel::round_up(scale * static_cast<double>(box.upper[a]));
-            }
-        });
-    for (const Candidate& other : others_) boxes_[other.index] = accel::to_float_box(other.box, scale);
-}
-
-// Leaves out of the tree what is listed beside it.
-void GroupTree::list() {
-    if (list_all(scene_)) return;
-    const std::vector<bool> is_listed = list_large(scene_, others_, mesh_bounds_);
-    Box rest = mesh_bounds_;
-    for (std::size_t i = 0; i < is_listed.size(); ++i) {
-        if (is_listed[i])
-            others_[i].box = Box();
-        else
-            rest.extend(others_[i].box);
-    }
-    const accel::FloatBox box = accel::to_float_box(rest);
-    std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
-}
-
-// Its kinds; returns its error by packing.
-double GroupTree::note_what_is_left() {
-    double packed_error = 0;
-    for (const Candidate& other : others_) {
-        if (other.box.is_empty()) continue;
-        packed_error = std::max(packed_error, other.packed_error);
-        scene_.kinds |= flat::bit(scene_.ranges[other.reference.range].kind);
-    }
-    return packed_error;
-}
-
-void GroupTree::finish(flat::Group& group) {
-    group.bounds = bounds_;
-    group.extent = extent_;
-    // Where float serves, boxes stay as they are.
-    group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
-    if (&group == &scene_.groups.front()) list();
-    group.packed_error = accel::round_up(note_what_is_left());
-    scale_boxes(group.scale);
-    // A leaf takes two to three times as long as a node (docs/performance.md).
-    accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
-    group.cost = bvh.cost;
-    group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
-}
+void build_group_tree(flat::Scene& scene, flat::Group& group) { GroupTree(scene).build(group); }
 
 }  // namespace limn::compiler

@@ -1,11 +1,9 @@
-#include "compile/groups.h"
-
 #include <algorithm>
 #include <string>
 
 #include "accel/slab.h"
-#include "compile/group_tree.h"
 #include "compile/reach.h"
+#include "compile/steps.h"
 #include "limn/core/error.h"
 #include "predicates/bounds.h"
 
@@ -27,10 +25,7 @@ public:
         const auto index = static_cast<std::size_t>(id);
         if (height_[index] != kUnbuilt) return height_[index];
         std::uint32_t height = 0;
-        GroupTree tree(scene_);
-        for (std::uint32_t i = 0; i < scene_.groups[index].range_count; ++i) {
-            const std::uint32_t row = scene_.groups[index].first_range + i;
-            const PrimitiveRange range = scene_.ranges[row];
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, scene_.groups[index])) {
             if (range.kind == PrimitiveKind::instance) {
                 height = std::max(height, 1 + build(scene_.instances[range.first_row].group));
             } else if (range.kind == PrimitiveKind::medium) {
@@ -39,12 +34,11 @@ public:
                 if (holds_media_[static_cast<std::size_t>(boundary)])
                     throw ArgumentError("scene: the boundary of a medium contains a medium");
             }
-            tree.add(range, row);
         }
         if (height > flat::kMaxNesting)
             throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
         height_[index] = height;
-        tree.finish(scene_.groups[index]);
+        build_group_tree(scene_, scene_.groups[index]);
         return height;
     }
 

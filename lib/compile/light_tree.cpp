@@ -25,11 +25,6 @@ constexpr double kWidestLeaf = 3, kLeafCosine = 0.9;
 // The least share of all strength: one that gets less could vanish in the sums.
 constexpr double kLeastShare = 1e-6;
 
-struct Cone {
-    Vec3 axis;
-    double cos_spread;
-};
-
 // The smallest cone of lines around two.
 Cone merge(Cone a, Cone b) {
     if (a.cos_spread == flat::kNoNormals && b.cos_spread == flat::kNoNormals) return a;
@@ -50,8 +45,7 @@ Cone merge(Cone a, Cone b) {
 LightBounds merge(const LightBounds& a, const LightBounds& b) {
     if (a.box.is_empty()) return b;
     if (b.box.is_empty()) return a;
-    const Cone cone = merge(Cone{a.axis, a.cos_spread}, Cone{b.axis, b.cos_spread});
-    return {merge(a.box, b.box), cone.axis, cone.cos_spread, a.strength + b.strength};
+    return {merge(a.box, b.box), merge(a.cone, b.cone), a.strength + b.strength};
 }
 
 // The integral over all directions, each weighed by the largest cosine that any normal within the cone makes with it.
@@ -64,7 +58,7 @@ double orientation_measure(double cos_spread) {
 }
 
 double cost(const LightBounds& b) {
-    return b.box.is_empty() ? 0 : b.strength * orientation_measure(b.cos_spread) * surface_area(b.box);
+    return b.box.is_empty() ? 0 : b.strength * orientation_measure(b.cone.cos_spread) * surface_area(b.box);
 }
 
 class Builder {
@@ -82,7 +76,7 @@ public:
         table_.nodes.push_back(packed(all, end));
         const std::size_t count = end - begin;
         const bool compact = count <= kMostInLeaf && length(all.box.diagonal()) <= kWidestLeaf * largest &&
-                             all.cos_spread >= kLeafCosine;
+                             all.cone.cos_spread >= kLeafCosine;
         // A pair of lights alone in the scene is told apart for the price of two nodes.
         if (count == 1 || (compact && items_.size() > kMostInLeaf)) return;
         const std::size_t middle = split(begin, end, all, depth);
@@ -149,14 +143,14 @@ private:
         flat::LightNode node{};
         for (std::size_t a = 0; a < 3; ++a) {
             node.center[a] = static_cast<float>(b.box.center()[a]);
-            node.axis[a] = static_cast<float>(b.axis[a]);
+            node.axis[a] = static_cast<float>(b.cone.axis[a]);
             // From the centre as rounded; a little more, for points that are computed at other times.
             const double off =
                 std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
             const double most = std::max(std::abs(b.box.upper[a]), std::abs(b.box.lower[a]));
             node.half[a] = std::nextafter(static_cast<float>(off + 1e-12 * most), kInf);
         }
-        node.cos_spread = static_cast<float>(b.cos_spread);
+        node.cos_spread = static_cast<float>(b.cone.cos_spread);
         node.strength = static_cast<float>(b.strength);
         node.end = static_cast<std::uint32_t>(end);
         return node;
@@ -200,8 +194,7 @@ void build_light_tree(std::vector<LightItem> items, flat::LightTable& table) {
         while (rank + 1 < items.size() && table.strength_before[rank + 1] <= share) ++rank;
         table.guide.push_back(rank);
     }
-    std::sort(table.by_number.begin(), table.by_number.end(),
-              [](const flat::LightNumber& a, const flat::LightNumber& b) { return a.number < b.number; });
+    std::ranges::sort(table.by_number, {}, &flat::LightNumber::number);
 }
 
 }  // namespace limn::compiler

@@ -8,13 +8,17 @@
 
 namespace limn::compiler {
 
-// What is known of a light, or of several, when one is chosen. `axis` and the cosine of `spread` bound the directions
-// of the planes' normals and their opposites.
-struct LightBounds {
-    Box box;                // over the whole shutter
+// Bounds the directions of planes' normals and their opposites.
+struct Cone {
     Vec3 axis;              // unit
     double cos_spread = 0;  // 0: any normals; flat::kNoNormals: of spheres alone
-    double strength = 0;    // radiance times area, or of the disc that a sphere is seen as
+};
+
+// What is known of a light, or of several, when one is chosen.
+struct LightBounds {
+    Box box;  // over the whole shutter
+    Cone cone;
+    double strength = 0;  // radiance times area, or of the disc that a sphere is seen as
 };
 
 struct LightItem {

@@ -1,10 +1,9 @@
-#include "compile/lights.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "compile/light_tree.h"
 #include "compile/reach.h"
+#include "compile/steps.h"
 #include "predicates/hit_error.h"
 #include "predicates/mesh_triangle.h"
 
@@ -136,27 +135,13 @@ private:
         std::size_t found = items_.size();
         for (std::uint64_t e = 0; e < range.count && items_.size() < kMaxLights; ++e) {
             if (!(brightness(material_of(scene_, range, e)) > 0)) continue;
-            LightItem item;
-            item.number = number + e;
-            if (planar) {
-                if (range.kind == PrimitiveKind::mesh &&
-                    is_degenerate(triangle_vertices(scene_.meshes[range.first_row].arrays, e)))
-                    continue;
-                flat::Light light = planar_light(scene_, range, e, seen.at0, inv);
-                light.number = item.number;
-                if (!(length_squared(cross(light.edge_u, light.edge_v)) > 0)) continue;
-                item.bounds = seen.moving > 0 ? bounds_of_moving(range, e, seen) : bounds_of_planar(light);
-                if (placed)
-                    item.ref = {place, static_cast<std::uint32_t>(e)};
-                else
-                    item.ref = own(light);
-            } else {
-                const std::optional<flat::Light> light = sphere(range, e, item.number, seen, inv);
-                if (!light) continue;
-                item.bounds = bounds_of_sphere(*light);
-                item.ref = own(*light);
-            }
-            items_.push_back(item);
+            std::optional<flat::Light> light = planar ? flat_one(range, e, seen, inv) : sphere(range, e, seen, inv);
+            if (!light) continue;
+            light->number = number + e;
+            LightItem& item = items_.emplace_back();
+            item.number = light->number;
+            item.bounds = planar && seen.moving > 0 ? bounds_of_moving(range, e, seen) : bounds_of(*light);
+            item.ref = placed ? flat::LightRef{place, static_cast<std::uint32_t>(e)} : own(*light);
         }
         if (placed && items_.size() > found) add_place(row, number, seen, inv);
     }
@@ -182,9 +167,19 @@ private:
         scene_.lights.places.push_back(place);
     }
 
+    // Nothing where it has no area.
+    std::optional<flat::Light> flat_one(const PrimitiveRange& range, std::uint64_t element, const Seen& seen,
+                                        const Transform& inv) const {
+        if (range.kind == PrimitiveKind::mesh &&
+            is_degenerate(triangle_vertices(scene_.meshes[range.first_row].arrays, element)))
+            return std::nullopt;
+        const flat::Light light = planar_light(scene_, range, element, seen.at0, inv);
+        return length_squared(cross(light.edge_u, light.edge_v)) > 0 ? std::optional(light) : std::nullopt;
+    }
+
     // Nothing where the instances bend it, or turn it while it moves.
-    std::optional<flat::Light> sphere(const PrimitiveRange& range, std::uint64_t element, std::uint64_t number,
-                                      const Seen& seen, const Transform& inv) const {
+    std::optional<flat::Light> sphere(const PrimitiveRange& range, std::uint64_t element, const Seen& seen,
+                                      const Transform& inv) const {
         SphereRecord s;
         primitives::with_row(scene_.rows, range.kind, range.first_row + element, [&](const auto& primitive) {
             if constexpr (requires { primitive.ball(); }) s = primitive.ball();
@@ -196,7 +191,6 @@ private:
         if (!scale || !seen.straight || (!own_axes && !plain)) return std::nullopt;
         flat::Light light;
         light.kind = flat::LightKind::sphere;
-        light.number = number;
         light.material = s.material;
         light.textured = !plain;
         light.origin = transform_point(seen.at0, s.center0);
@@ -209,30 +203,20 @@ private:
         return light;
     }
 
-    LightBounds bounds_of_sphere(const flat::Light& light) const {
-        LightBounds bounds;
-        bounds.box = flat::bounds_of(light);
-        bounds.axis = {0, 0, 1};
-        bounds.cos_spread = flat::kNoNormals;
-        bounds.strength = brightness(light.material) * kPi * light.radius * light.radius;
-        return bounds;
-    }
-
-    LightBounds bounds_of_planar(const flat::Light& light) const {
-        LightBounds bounds;
-        bounds.box = flat::bounds_of(light);
-        const Vec3 normal = cross(light.edge_u, light.edge_v);
-        bounds.axis = normalize(normal);
-        bounds.cos_spread = is_finite(bounds.axis) ? 1 : 0;
-        bounds.strength = brightness(light.material) * length(normal) * flat::share_of(light);
-        return bounds;
+    LightBounds bounds_of(const flat::Light& light) const {
+        const Box box = flat::bounds_of(light);
+        const double radiance = brightness(light.material);
+        if (light.kind == flat::LightKind::sphere)
+            return {box, {{0, 0, 1}, flat::kNoNormals}, radiance * kPi * light.radius * light.radius};
+        const Vec3 normal = cross(light.edge_u, light.edge_v), axis = normalize(normal);
+        return {box, {axis, is_finite(axis) ? 1.0 : 0.0}, radiance * length(normal) * flat::share_of(light)};
     }
 
     // A point's place under a product of matrices, each linear in time, lies in the hull of its places for all
     // combinations of their ends (the product's Bernstein form has no negative weights).
     LightBounds bounds_of_moving(const PrimitiveRange& range, std::uint64_t element, const Seen& seen) const {
         LightBounds bounds;
-        bounds.axis = {0, 0, 1};
+        bounds.cone.axis = {0, 0, 1};
         for (unsigned ends = 0; ends < 1u << seen.moving; ++ends) {
             Transform m;
             unsigned moving = 0;
@@ -241,7 +225,7 @@ private:
                 const bool last = instance.moving && (ends >> moving++ & 1) != 0;
                 m = m * (last ? instance.world_from_object1 : instance.world_from_object0);
             }
-            const LightBounds end = bounds_of_planar(planar_light(scene_, range, element, m, inverse(m)));
+            const LightBounds end = bounds_of(planar_light(scene_, range, element, m, inverse(m)));
             bounds.box.extend(end.box);
             bounds.strength += end.strength / (1u << seen.moving);
         }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "predicates/exact.h"
-#include "predicates/mesh_triangle.h"
+#include "predicates/sphere_side.h"
 
 namespace limn::compiler {
 
@@ -25,8 +25,6 @@ constexpr double kLarge = 0.1;
 constexpr std::size_t kMostLarge = 24;
 // So few beside meshes are all listed: the tree is then one of triangles alone, and smaller.
 constexpr std::size_t kFew = 16;
-
-double sum_abs(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Infinite where a side is.
 double half_area(const Box& box) {
@@ -131,7 +129,7 @@ private:
             const Transform& matrix = scene_.instances[*instance].world_from_object0;
             const double size = max_abs(e.corner) + max_abs(e.edge_u) + max_abs(e.edge_v);
             for (const auto& m : matrix.rows) {
-                const double most = sum_abs({m[0], m[1], m[2]}) * size + std::abs(m[3]);
+                const double most = sum_of_magnitudes({m[0], m[1], m[2]}) * size + std::abs(m[3]);
                 e.error = std::max(e.error, kInstanceError * most);
             }
             e.corner = transform_point(matrix, e.corner);
@@ -144,16 +142,9 @@ private:
 
     // Whether float can tell the weights of its edges.
     bool is_plane_clear(const PrimitiveList::Entry& e) const {
-        const Vec3 n = cross(e.edge_u, e.edge_v);
-        const double edges = max_abs(e.edge_u) * max_abs(e.edge_v);
-        return max_abs(n) > kThinnest * edges && e.error < 0x1p-40 * root_.extent &&
-               spread_of(e) * root_.extent < 1 / kSmallest;
-    }
-
-    // The larger sum of the magnitudes of what makes the weights.
-    static double spread_of(const PrimitiveList::Entry& e) {
-        const Weights w(e);
-        return std::max(sum_abs(w.u), sum_abs(w.v));
+        const double area = max_abs(cross(e.edge_u, e.edge_v)), edges = max_abs(e.edge_u) * max_abs(e.edge_v);
+        return area > kThinnest * edges && e.error < 0x1p-40 * root_.extent &&
+               Weights(e).spread * root_.extent < 1 / kSmallest;
     }
 
     void pack() {
@@ -166,11 +157,10 @@ private:
             ++(rank(e) == 0 ? list.quads : rank(e) == 1 ? list.triangles : list.spheres);
         list.entries = std::move(entries_);
         const auto padded = [](std::uint32_t n) {
-            return (n + static_cast<std::uint32_t>(PrimitiveList::kAlign) - 1) / PrimitiveList::kAlign *
-                   PrimitiveList::kAlign;
+            constexpr std::uint32_t kAlign = PrimitiveList::kAlign;
+            return (n + kAlign - 1) / kAlign * kAlign;
         };
-        list.planar_stride = static_cast<std::uint32_t>(padded(list.planars()));
-        list.sphere_stride = static_cast<std::uint32_t>(padded(list.spheres));
+        list.planar_stride = padded(list.planars()), list.sphere_stride = padded(list.spheres);
         list.planar.assign(PrimitiveList::kPlanarRows * list.planar_stride, 0);
         list.round.assign(PrimitiveList::kSphereRows * list.sphere_stride, 0);
         for (std::uint32_t i = 0; i < list.planars(); ++i) pack_planar(list.entries[i], list, i);
@@ -186,15 +176,17 @@ private:
     // start.
     struct Weights {
         Vec3 normal, u, v;
+        double spread;  // the larger sum of the magnitudes of what makes a weight
         explicit Weights(const PrimitiveList::Entry& e) {
             const Vec3 n = cross(e.edge_u, e.edge_v);
             const double squared = dot(n, n);
             normal = n / max_abs(n), u = cross(e.edge_v, n) / squared, v = cross(n, e.edge_u) / squared;
+            spread = std::max(sum_of_magnitudes(u), sum_of_magnitudes(v));
         }
     };
 
     static void pack_planar(const PrimitiveList::Entry& e, PrimitiveList& list, std::uint32_t i) {
-        const auto [normal, u, v] = Weights(e);
+        const auto [normal, u, v, spread] = Weights(e);
         const Vec3 corner = e.corner - Point3{};
         const double offset = dot(normal, corner), u_offset = dot(u, corner), v_offset = dot(v, corner);
         const auto put = [&](std::size_t row, double x) {
@@ -205,7 +197,7 @@ private:
             put(PrimitiveList::kU + a, u[a]), put(PrimitiveList::kV + a, v[a]);
         }
         put(PrimitiveList::kOffset, offset), put(PrimitiveList::kUOffset, u_offset);
-        put(PrimitiveList::kVOffset, v_offset), put(PrimitiveList::kSpread, 2 * spread_of(e) * (1 + 0x1p-20));
+        put(PrimitiveList::kVOffset, v_offset), put(PrimitiveList::kSpread, 2 * spread * (1 + 0x1p-20));
     }
 
     flat::Scene& scene_;

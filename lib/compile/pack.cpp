@@ -22,10 +22,9 @@ public:
         if (bvh_.nodes.empty()) return flat::kNothing;
         accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
         place_leaves();
-        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
         accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
-        if (is_lone) return leaf_at(0);
-        return append_nodes();
+        const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
+        return is_lone ? leaf_at(0) : append_nodes();
     }
 
 private:

@@ -60,8 +60,8 @@ struct Group {
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
     float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
-    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
     double cost = 0;         // expected, of a ray that meets the bounds: see accel::BuildSettings
+    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.

@@ -20,8 +20,7 @@
 
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
-#include "io/picture_bytes.h"
-#include "io/png_chunks.h"
+#include "io/picture_checks.h"
 #include "limn/core/error.h"
 
 namespace limn {
@@ -29,20 +28,19 @@ namespace limn {
 namespace {
 
 void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
-    const std::size_t prefix = std::strlen(kFactPrefix);
-    for (const auto& [type, data] : png_header_chunks(bytes)) {
-        if (type == "sRGB") {
+    const std::string_view prefix = kFactPrefix;
+    for (const PngChunk& chunk : png_header_chunks(bytes)) {
+        if (chunk.type == "sRGB") {
             image.transfer = Transfer::srgb;
-        } else if (type == "gAMA" && data.size() == 4 && image.transfer == Transfer::unsaid) {
+        } else if (chunk.type == "gAMA" && chunk.data.size() == 4 && image.transfer == Transfer::unsaid) {
             // Of encoding, times 100000 (PNG specification, 11.3.3.2).
-            const std::uint64_t gamma = big_endian(std::as_bytes(std::span(data)), 0, 4);
+            const std::uint64_t gamma = big_endian(chunk.type_and_data, 4, 4);
             if (gamma == 0) continue;
             image.transfer = Transfer::power;
             image.exponent = 100000 / static_cast<double>(gamma);
-        } else if (type == "tEXt" && data.compare(0, prefix, kFactPrefix) == 0) {
-            const std::size_t end = data.find('\0');
-            if (end != std::string::npos)
-                image.facts.emplace_back(data.substr(prefix, end - prefix), data.substr(end + 1));
+        } else if (const std::size_t end = chunk.data.find('\0');
+                   chunk.type == "tEXt" && chunk.data.starts_with(prefix) && end != std::string_view::npos) {
+            image.facts.emplace_back(chunk.data.substr(prefix.size(), end - prefix.size()), chunk.data.substr(end + 1));
         }
     }
 }
@@ -123,7 +121,7 @@ StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, cons
     StoredImage image;
     image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
     require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
-    read_png_header(bytes, image);
+    if (format == FileFormat::png) read_png_header(bytes, image);
     const std::string& type = info.channels.front().type;
     if (type == "float") {
         image.transfer = Transfer::linear;

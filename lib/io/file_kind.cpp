@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "io/picture_bytes.h"
-#include "io/plain_headers.h"
+#include "io/picture_checks.h"
 
 namespace limn {
 

@@ -2,11 +2,8 @@
 
 #include <unistd.h>
 
-#include "io/exr_header.h"
 #include "io/file_kind.h"
-#include "io/jpeg_segments.h"
-#include "io/plain_headers.h"
-#include "io/png_chunks.h"
+#include "io/picture_checks.h"
 #include "limn/core/error.h"
 
 namespace limn {
@@ -18,23 +15,26 @@ std::string size_text(int width, int height) { return std::to_string(width) + " 
 struct Format {
     FileFormat format;
     const char* name;
-    std::string (*fault)(std::span<const std::byte>);
+    void (*check)(std::span<const std::byte>);
 };
 
-constexpr Format kFormats[] = {{FileFormat::exr, "EXR", exr_fault},    {FileFormat::png, "PNG", png_fault},
-                               {FileFormat::jpeg, "JPEG", jpeg_fault}, {FileFormat::hdr, "HDR", hdr_fault},
-                               {FileFormat::bmp, "BMP", bmp_fault},    {FileFormat::tga, "TGA", tga_fault}};
+constexpr Format kFormats[] = {{FileFormat::exr, "EXR", check_exr},    {FileFormat::png, "PNG", check_png},
+                               {FileFormat::jpeg, "JPEG", check_jpeg}, {FileFormat::hdr, "HDR", check_hdr},
+                               {FileFormat::bmp, "BMP", check_bmp},    {FileFormat::tga, "TGA", check_tga}};
 
 }  // namespace
 
 FileFormat require_sound(std::span<const std::byte> file, const std::string& path) {
-    const FileKind kind = kind_of_contents({reinterpret_cast<const char*>(file.data()), file.size()});
+    const FileKind kind = kind_of_contents(text_of(file));
     std::string known;
     for (const Format& format : kFormats) {
         known += (known.empty() ? "" : ", ") + std::string(format.name);
         if (kind.format != format.format) continue;
-        const std::string fault = format.fault(file);
-        if (!fault.empty()) throw FileError(path, "is not a whole " + std::string(format.name) + ": " + fault);
+        try {
+            format.check(file);
+        } catch (const Fault& fault) {
+            throw FileError(path, "is not a whole " + std::string(format.name) + ": " + fault.text);
+        }
         return format.format;
     }
     const std::string name(file.empty() ? "an empty file" : kind.name);

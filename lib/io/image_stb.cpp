@@ -8,7 +8,7 @@
 
 #include "io/decode_stb.h"
 #include "io/image_codec.h"
-#include "io/png_chunks.h"
+#include "io/picture_checks.h"
 #include "limn/core/error.h"
 
 namespace limn {
@@ -21,12 +21,18 @@ void append(void* context, void* data, int size) {
     bytes->insert(bytes->end(), begin, begin + size);
 }
 
+void insert(std::vector<std::byte>& bytes, std::ptrdiff_t place, const std::string& text) {
+    const std::span<const std::byte> inserted = std::as_bytes(std::span(text));
+    bytes.insert(bytes.begin() + place, inserted.begin(), inserted.end());
+}
+
 std::vector<std::byte> encode_png(const EncodeJob& job, const std::uint8_t* values) {
     std::vector<std::byte> bytes;
     if (!stbi_write_png_to_func(append, &bytes, job.width, job.height, 3, values, 3 * job.width)) return {};
-    std::vector<PngChunk> chunks{{"sRGB", std::string(1, '\0')}};  // 0: perceptual
-    for (const auto& [name, value] : job.facts) chunks.push_back({"tEXt", kFactPrefix + name + '\0' + value});
-    return insert_png_chunks(bytes, chunks);
+    std::string chunks = png_chunk("sRGB", std::string(1, '\0'));  // 0: perceptual
+    for (const auto& [name, value] : job.facts) chunks += png_chunk("tEXt", kFactPrefix + name + '\0' + value);
+    insert(bytes, kPngHeaderEnd, chunks);
+    return bytes;
 }
 
 // A fact is a comment line of the header, so line breaks in it become blanks.
@@ -40,20 +46,18 @@ std::vector<std::byte> encode_hdr(const EncodeJob& job, const float* values) {
     if (!stbi_write_hdr_to_func(append, &bytes, job.width, job.height, 3, values)) return {};
     std::string comments;
     for (const auto& [name, value] : job.facts) comments += hdr_comment(name, value);
-    const auto* begin = reinterpret_cast<const std::byte*>(comments.data());
-    const auto first_line_end = std::find(bytes.begin(), bytes.end(), std::byte{'\n'}) + 1;
-    bytes.insert(first_line_end, begin, begin + comments.size());
+    insert(bytes, std::find(bytes.begin(), bytes.end(), std::byte{'\n'}) + 1 - bytes.begin(), comments);
     return bytes;
 }
 
-Facts read_hdr_facts(const std::string& file) {
+Facts read_hdr_facts(std::string_view file) {
     const std::string beginning = std::string("# ") + kFactPrefix;
     Facts facts;
     std::size_t start = 0;
-    for (std::size_t end; (end = file.find('\n', start)) != std::string::npos && end > start; start = end + 1) {
-        const std::string line = file.substr(start, end - start);
+    for (std::size_t end; (end = file.find('\n', start)) != std::string_view::npos && end > start; start = end + 1) {
+        const std::string_view line = file.substr(start, end - start);
         const std::size_t equals = line.find('=');
-        if (line.compare(0, beginning.size(), beginning) == 0 && equals != std::string::npos)
+        if (line.starts_with(beginning) && equals != std::string_view::npos)
             facts.emplace_back(line.substr(beginning.size(), equals - beginning.size()), line.substr(equals + 1));
     }
     return facts;
@@ -91,7 +95,7 @@ ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const
 
 Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
     require_readable(format, path);
-    if (format == FileFormat::hdr) return read_hdr_facts({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (format == FileFormat::hdr) return read_hdr_facts(text_of(bytes));
     return format == FileFormat::png ? decode_stb(format, bytes, path).facts : Facts{};
 }
 

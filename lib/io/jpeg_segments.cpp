@@ -1,9 +1,7 @@
-#include "io/jpeg_segments.h"
-
 #include <algorithm>
 #include <cstdint>
 
-#include "io/picture_bytes.h"
+#include "io/picture_checks.h"
 
 namespace limn {
 
@@ -29,35 +27,33 @@ bool has_length(std::uint64_t marker) {
 
 // Huffman tables (B.2.4.2): each a byte, the numbers of codes of 1 to 16 bits, and the codes' values, at most 256. stb
 // writes beyond its array where there are more.
-bool are_huffman_tables(std::span<const std::byte> data) {
-    while (!data.empty()) {
-        if (data.size() < 17) return false;
+void check_huffman_tables(std::span<const std::byte> data) {
+    constexpr const char* kDamaged = "a Huffman table is damaged";
+    for (Cursor tables(data, kDamaged); !tables.rest().empty();) {
         std::size_t codes = 0;
-        for (std::size_t i = 1; i <= 16; ++i) codes += byte_at(data, i);
-        if (codes > 256 || codes > data.size() - 17) return false;
-        data = data.subspan(17 + codes);
+        for (const std::byte count : tables.take(17).subspan(1)) codes += std::to_integer<std::size_t>(count);
+        demand(codes <= 256, kDamaged);
+        tables.take(codes);
     }
-    return true;
 }
 
 // A frame's header (B.2.2): precision, height, width, and for each component its sampling factors. `file_bytes` must
 // hold it: in Huffman codes each 8 x 8 block takes a bit or more.
-std::string frame_fault(std::uint64_t marker, std::span<const std::byte> data, std::size_t file_bytes) {
-    if (data.size() < 6 || data.size() != 6 + 3 * byte_at(data, 5)) return "its size is damaged";
+void check_frame(std::uint64_t marker, std::span<const std::byte> data, std::size_t file_bytes) {
+    demand(data.size() >= 6 && data.size() == 6 + 3 * byte_at(data, 5), "its size is damaged");
     const std::uint64_t height = big_endian(data, 1, 2), width = big_endian(data, 3, 2), count = byte_at(data, 5);
-    if (height == 0 || width == 0 || count == 0) return "it has no pixels";
+    demand(height > 0 && width > 0 && count > 0, kNoPixels);
     std::uint64_t most_x = 0, most_y = 0, blocks = 0;  // in the unit that is coded together
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint64_t factors = byte_at(data, 6 + 3 * i + 1), x = factors >> 4, y = factors & 15;
-        if (x < 1 || x > 4 || y < 1 || y > 4) return "its sampling is damaged";
+        demand(x >= 1 && x <= 4 && y >= 1 && y <= 4, "its sampling is damaged");
         most_x = std::max(most_x, x);
         most_y = std::max(most_y, y);
         blocks += x * y;
     }
     const auto units = [](std::uint64_t size, std::uint64_t factor) { return (size + 8 * factor - 1) / (8 * factor); };
     blocks *= units(width, most_x) * units(height, most_y);
-    if (marker <= kProgressive && blocks > 8 * std::uint64_t{file_bytes}) return too_short_for(width, height);
-    return "";
+    demand(marker > kProgressive || blocks <= 8 * std::uint64_t{file_bytes}, too_short_for(width, height));
 }
 
 // Where the marker behind a scan's data begins, as decoders find it: a zero behind any number of 0xff makes them data,
@@ -77,35 +73,34 @@ std::size_t end_of_scan(std::span<const std::byte> file, std::size_t place) {
 }  // namespace
 
 // B.1.1: segments of a marker and, but for a few, a length with data; scans go on until the next marker.
-std::string jpeg_fault(std::span<const std::byte> file) {
+void check_jpeg(std::span<const std::byte> file) {
     bool has_frame = false, has_scan = false;
     for (std::size_t place = 2; place + 2 <= file.size();) {
-        if (byte_at(file, place) != kFill) return "there is no marker where one must be";
+        demand(byte_at(file, place) == kFill, "there is no marker where one must be");
         const std::uint64_t marker = byte_at(file, place + 1);
         if (marker == kFill) {
             ++place;
             continue;
         }
-        if (marker == kEnd) return has_scan ? "" : "it has no pixels";
-        if (!has_length(marker)) return "there is a marker where it must not be";
+        if (marker == kEnd) return demand(has_scan, kNoPixels);
+        demand(has_length(marker), "there is a marker where it must not be");
         if (place + 4 > file.size()) break;
         const std::uint64_t length = big_endian(file, place + 2, 2);
         if (length < 2 || length > file.size() - place - 2) break;
         const std::span<const std::byte> data = file.subspan(place + 4, length - 2);
         place += 2 + length;
-        if (marker == kHuffman && !are_huffman_tables(data)) return "a Huffman table is damaged";
+        if (marker == kHuffman) check_huffman_tables(data);
         if (is_frame(marker)) {
-            if (has_frame) return "it has two sizes";
+            demand(!has_frame, "it has two sizes");
             has_frame = true;
-            const std::string fault = frame_fault(marker, data, file.size());
-            if (!fault.empty()) return fault;
+            check_frame(marker, data, file.size());
         }
         if (marker != kScan) continue;
-        if (!has_frame) return "it has pixels before its size";
+        demand(has_frame, "it has pixels before its size");
         has_scan = true;
         place = end_of_scan(file, place);
     }
-    return "it breaks off before its end";
+    throw Fault{kBreaksOff};
 }
 
 }  // namespace limn

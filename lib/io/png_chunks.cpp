@@ -1,20 +1,16 @@
-#include "io/png_chunks.h"
-
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
-#include <optional>
 #include <string_view>
 
-#include "io/picture_bytes.h"
+#include "io/picture_checks.h"
 
 namespace limn {
 
 namespace {
 
 // PNG specification (W3C, 2003), 5.2 and 5.3: eight bytes of signature, then chunks of length, type, data, CRC.
-constexpr std::size_t kSignature = 8, kLengthAndType = 8, kCrc = 4, kHeaderData = 13;
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 
 std::string bytes_of(std::uint32_t value) {
     std::string bytes;
@@ -40,88 +36,57 @@ std::uint32_t crc(std::span<const std::byte> bytes) {
     return ~remainder;
 }
 
-bool has_signature(std::span<const std::byte> file) {
-    return file.size() >= kSignature && std::memcmp(file.data(), "\x89PNG\r\n\x1a\n", kSignature) == 0;
-}
-
-struct Chunk {
-    std::string_view type;
-    std::span<const std::byte> type_and_data;
-    std::uint64_t stated_crc;
-};
-
-// Takes the next chunk off the front of `file`; none if it is not all there.
-std::optional<Chunk> take_chunk(std::span<const std::byte>& file) {
-    if (file.size() < kLengthAndType + kCrc) return std::nullopt;
-    const std::uint64_t length = big_endian(file, 0, 4);
-    if (length > file.size() - kLengthAndType - kCrc) return std::nullopt;
-    const std::span<const std::byte> type_and_data = file.subspan(4, 4 + length);
-    const Chunk chunk{
-        {reinterpret_cast<const char*>(&file[4]), 4}, type_and_data, big_endian(file, kLengthAndType + length, kCrc)};
-    file = file.subspan(kLengthAndType + length + kCrc);
-    return chunk;
+PngChunk take_chunk(Cursor& file) {
+    const std::uint64_t length = file.big(4);
+    const std::span<const std::byte> type_and_data = file.take(4 + length);
+    const std::string_view text = text_of(type_and_data);
+    return {text.substr(0, 4), text.substr(4), type_and_data, file.big(4)};
 }
 
 // The image header (11.2.2): width, height, depth, colour type, and three bytes of methods. `packed` is how many bytes
 // of pixels there are: deflate makes at most 1032 bytes of one, and rows begin with a byte.
-std::string header_fault(std::span<const std::byte> data, std::uint64_t packed) {
-    if (data.size() != kHeaderData) return "its size is damaged";
+void check_header(std::span<const std::byte> data, std::uint64_t packed) {
+    demand(data.size() == 13, "its size is damaged");
     const std::uint64_t width = big_endian(data, 0, 4), height = big_endian(data, 4, 4);
     const std::uint64_t depth = big_endian(data, 8, 1), type = big_endian(data, 9, 1);
     constexpr std::uint64_t kChannels[] = {1, 0, 3, 1, 2, 0, 4}, kLargest = 0x7fffffff;
-    if (width == 0 || height == 0) return "it has no pixels";
-    if (width > kLargest || height > kLargest) return "its size is damaged";
+    demand(width > 0 && height > 0, kNoPixels);
+    demand(width <= kLargest && height <= kLargest, "its size is damaged");
     const bool is_known = type < std::size(kChannels) && kChannels[type] > 0;
     const bool is_depth = depth == 8 || (depth == 16 && type != 3) ||
                           ((depth == 1 || depth == 2 || depth == 4) && (type == 0 || type == 3));
-    if (!is_known || !is_depth) return "its pixels are of no known kind";
+    demand(is_known && is_depth, "its pixels are of no known kind");
     const double row = 1 + static_cast<double>(width * kChannels[type] * depth / 8);
-    if (row * static_cast<double>(height) > 1032 * static_cast<double>(packed)) return too_short_for(width, height);
-    return "";
+    demand(row * static_cast<double>(height) <= 1032 * static_cast<double>(packed), too_short_for(width, height));
 }
 
 }  // namespace
 
 std::vector<PngChunk> png_header_chunks(std::span<const std::byte> file) {
-    std::vector<PngChunk> chunks;
-    if (!has_signature(file)) return chunks;
-    file = file.subspan(kSignature);
-    while (const auto chunk = take_chunk(file)) {
-        if (chunk->type == "IDAT") break;
-        const char* data = chunk->type.data() + 4;
-        chunks.push_back({std::string(chunk->type), std::string(data, chunk->type_and_data.size() - 4)});
-    }
+    Cursor rest(file.subspan(kSignature.size()));
+    std::vector<PngChunk> chunks{take_chunk(rest)};
+    while (chunks.back().type != "IDAT") chunks.push_back(take_chunk(rest));
     return chunks;
 }
 
-std::string png_fault(std::span<const std::byte> file) {
-    if (!has_signature(file)) return "its signature is damaged";
-    file = file.subspan(kSignature);
-    std::span<const std::byte> header;
+void check_png(std::span<const std::byte> file) {
+    demand(text_of(file).starts_with(kSignature), "its signature is damaged");
+    Cursor rest(file.subspan(kSignature.size()));
+    PngChunk header, chunk;
     std::uint64_t packed = 0;
-    for (bool is_first = true;; is_first = false) {
-        const auto chunk = take_chunk(file);
-        if (!chunk) return "it breaks off before its end";
-        if (crc(chunk->type_and_data) != chunk->stated_crc) return "a checksum is wrong";
-        if (is_first != (chunk->type == "IHDR"))
-            return is_first ? "it does not begin with its size" : "it has two sizes";
-        if (is_first) header = chunk->type_and_data.subspan(4);
-        if (chunk->type == "IDAT") packed += chunk->type_and_data.size() - 4;
-        if (chunk->type == "IEND") return header_fault(header, packed);
+    for (bool is_first = true; chunk.type != "IEND"; is_first = false) {
+        chunk = take_chunk(rest);
+        demand(crc(chunk.type_and_data) == chunk.stated_crc, "a checksum is wrong");
+        demand(is_first == (chunk.type == "IHDR"), is_first ? "it does not begin with its size" : "it has two sizes");
+        if (is_first) header = chunk;
+        if (chunk.type == "IDAT") packed += chunk.data.size();
     }
+    check_header(header.type_and_data.subspan(4), packed);
 }
 
-std::vector<std::byte> insert_png_chunks(std::span<const std::byte> file, const std::vector<PngChunk>& chunks) {
-    std::string inserted;
-    for (const PngChunk& chunk : chunks) {
-        const std::string body = chunk.type + chunk.data;
-        inserted += bytes_of(static_cast<std::uint32_t>(chunk.data.size())) + body +
-                    bytes_of(crc(std::as_bytes(std::span(body))));
-    }
-    const auto* begin = reinterpret_cast<const std::byte*>(inserted.data());
-    std::vector<std::byte> result(file.begin(), file.end());
-    result.insert(result.begin() + kSignature + kLengthAndType + kHeaderData + kCrc, begin, begin + inserted.size());
-    return result;
+std::string png_chunk(const std::string& type, const std::string& data) {
+    const std::string body = type + data;
+    return bytes_of(static_cast<std::uint32_t>(data.size())) + body + bytes_of(crc(std::as_bytes(std::span(body))));
 }
 
 }  // namespace limn

@@ -17,10 +17,4 @@ inline Number number_of(const Object& object, std::size_t i) {
     return value;
 }
 
-// v.x, v.y or v.z for axis 0, 1 or 2.
-template <class V>
-inline auto coordinate(const V& v, std::size_t axis) {
-    return number_of<std::remove_cvref_t<decltype(v.x)>>(v, axis);
-}
-
 }  // namespace limn

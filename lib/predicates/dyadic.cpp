@@ -2,13 +2,13 @@
 
 #include <bit>
 #include <cmath>
-#include <utility>
 
 namespace limn {
 
 namespace {
 
 __extension__ using Wide = unsigned __int128;
+__extension__ using SignedWide = __int128;
 
 std::uint64_t low(Wide x) { return static_cast<std::uint64_t>(x); }
 std::uint64_t high(Wide x) { return static_cast<std::uint64_t>(x >> 64); }
@@ -16,39 +16,18 @@ std::uint64_t high(Wide x) { return static_cast<std::uint64_t>(x >> 64); }
 }  // namespace
 
 Dyadic::Dyadic(double x) {
-    if (x == 0) return;
     int exponent = 0;
     const double fraction = std::frexp(std::abs(x), &exponent);
-    const auto bits = static_cast<Limb>(std::ldexp(fraction, 53));
-    exponent -= 53;
-    const int place = exponent >= 0 ? exponent / 64 : -((63 - exponent) / 64);  // rounded down
-    const Wide shifted = Wide{bits} << (exponent - 64 * place);
+    set(static_cast<Limb>(std::ldexp(fraction, 53)), exponent - 53);
     negative_ = x < 0;
-    exponent_ = place;
+}
+
+void Dyadic::set(Limb bits, std::ptrdiff_t exponent) {
+    exponent_ = exponent >> 6;  // rounded down
+    const Wide shifted = Wide{bits} << (exponent & 63);
     size_ = 2;
     inline_[0] = low(shifted), inline_[1] = high(shifted);
     trim();
-}
-
-Dyadic::Dyadic(const Dyadic& other) : Dyadic(other.size_) {
-    exponent_ = other.exponent_;
-    negative_ = other.negative_;
-    std::copy_n(other.limbs(), size_, limbs());
-}
-
-Dyadic::Dyadic(Dyadic&& other) noexcept
-    : size_(other.size_), exponent_(other.exponent_), negative_(other.negative_), heap_(std::move(other.heap_)) {
-    if (!heap_) std::copy_n(other.inline_.data(), size_, inline_.data());
-    other.size_ = 0;
-}
-
-Dyadic& Dyadic::operator=(Dyadic other) noexcept {
-    size_ = std::exchange(other.size_, 0);
-    exponent_ = other.exponent_;
-    negative_ = other.negative_;
-    heap_ = std::move(other.heap_);
-    if (!heap_) std::copy_n(other.inline_.data(), size_, inline_.data());
-    return *this;
 }
 
 // Keeps numbers short: no zero limb at either end.
@@ -73,65 +52,36 @@ Dyadic Dyadic::operator-() const {
     return opposite;
 }
 
-int Dyadic::compare_magnitudes(const Dyadic& a, const Dyadic& b) {
-    if (a.end() != b.end()) return a.end() < b.end() ? -1 : 1;
-    const std::ptrdiff_t first = std::min(a.exponent_, b.exponent_);
-    for (std::ptrdiff_t place = a.end(); place-- > first;) {
-        const Limb x = a.limb_at(place), y = b.limb_at(place);
-        if (x != y) return x < y ? -1 : 1;
-    }
-    return 0;
-}
-
-Dyadic Dyadic::sum_of_magnitudes(const Dyadic& a, const Dyadic& b) {
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+    if (a.size_ == 0) return b;
+    if (b.size_ == 0) return a;
     const std::ptrdiff_t first = std::min(a.exponent_, b.exponent_), last = std::max(a.end(), b.end());
-    Dyadic sum(static_cast<std::size_t>(last - first + 1));
-    sum.exponent_ = first;
-    Wide carry = 0;
+    Dyadic sum(static_cast<std::size_t>(last - first + 1), first, a.negative_);
+    Dyadic::Limb* const limbs = sum.limbs();
+    // As a sees it: what is carried is a borrow where it is negative, and in the end the sum is in two's complement.
+    SignedWide carry = 0;
     for (std::ptrdiff_t place = first; place <= last; ++place) {
-        carry += Wide{a.limb_at(place)} + b.limb_at(place);
-        sum.limbs()[place - first] = low(carry);
+        const SignedWide x = a.limb_at(place), y = b.limb_at(place);
+        carry += a.negative_ == b.negative_ ? x + y : x - y;
+        limbs[place - first] = static_cast<Dyadic::Limb>(carry);
         carry >>= 64;
+    }
+    if (carry < 0) {
+        sum.negative_ = !a.negative_;
+        Wide up = 1;
+        for (std::size_t i = 0; i < sum.size_; ++i) {
+            up += ~limbs[i];
+            limbs[i] = low(up);
+            up >>= 64;
+        }
     }
     sum.trim();
     return sum;
 }
 
-Dyadic Dyadic::difference_of_magnitudes(const Dyadic& larger, const Dyadic& smaller) {
-    const std::ptrdiff_t first = std::min(larger.exponent_, smaller.exponent_), last = larger.end();
-    Dyadic difference(static_cast<std::size_t>(last - first));
-    difference.exponent_ = first;
-    Limb borrow = 0;
-    for (std::ptrdiff_t place = first; place < last; ++place) {
-        const Wide x = Wide{larger.limb_at(place)}, y = Wide{smaller.limb_at(place)} + borrow;
-        difference.limbs()[place - first] = low(x - y);
-        borrow = x < y ? 1 : 0;
-    }
-    difference.trim();
-    return difference;
-}
-
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-    if (a.size_ == 0) return b;
-    if (b.size_ == 0) return a;
-    Dyadic sum;
-    if (a.negative_ == b.negative_) {
-        sum = Dyadic::sum_of_magnitudes(a, b);
-        sum.negative_ = a.negative_;
-    } else {
-        const int order = Dyadic::compare_magnitudes(a, b);
-        if (order == 0) return {};
-        sum = order > 0 ? Dyadic::difference_of_magnitudes(a, b) : Dyadic::difference_of_magnitudes(b, a);
-        sum.negative_ = order > 0 ? a.negative_ : b.negative_;
-    }
-    return sum;
-}
-
 Dyadic operator*(const Dyadic& a, const Dyadic& b) {
     if (a.size_ == 0 || b.size_ == 0) return {};
-    Dyadic product(a.size_ + b.size_);
-    product.exponent_ = a.exponent_ + b.exponent_;
-    product.negative_ = a.negative_ != b.negative_;
+    Dyadic product(a.size_ + b.size_, a.exponent_ + b.exponent_, a.negative_ != b.negative_);
     std::fill_n(product.limbs(), product.size_, 0);
     for (std::size_t i = 0; i < a.size_; ++i) {
         Wide carry = 0;
@@ -175,13 +125,9 @@ Dyadic Dyadic::square_root() const {
     auto root = static_cast<Limb>(std::sqrt(static_cast<double>(square)));
     root = low((root + square / root) / 2);
     while (Wide{root} * root > square) --root;
-    Dyadic result = static_cast<double>(root >> 32);
-    result = result * Dyadic(0x1p32) + Dyadic(static_cast<double>(root & 0xffffffff));
-    Dyadic scale(1.0);
-    std::ptrdiff_t exponent = (top.exponent + shift) / 2;
-    scale.exponent_ = (exponent - ((exponent % 64) + 64) % 64) / 64;
-    scale.inline_[0] = Limb{1} << (exponent - 64 * scale.exponent_);
-    return result * scale;
+    Dyadic result;
+    result.set(root, (top.exponent + shift) / 2);
+    return result;
 }
 
 }  // namespace limn

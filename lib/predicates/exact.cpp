@@ -10,6 +10,11 @@ namespace {
 
 Dyadic3 from_origin(const Point3& p, const ExactRay& ray) { return ray.unit * to_dyadic(p) - ray.origin; }
 
+Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
+    const Dyadic3 origin = to_dyadic(a);
+    return cross(to_dyadic(b) - origin, to_dyadic(c) - origin);
+}
+
 }  // namespace
 
 // The edge values are D.(B x C), D.(C x A), D.(A x B), all seen from the origin; their sum is D.n, and t n.D = n.A,
@@ -70,15 +75,6 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     hits.far_found = search.contains(hits.far);
     return hits;
 }
-
-namespace {
-
-Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
-    const Dyadic3 origin = to_dyadic(a);
-    return cross(to_dyadic(b) - origin, to_dyadic(c) - origin);
-}
-
-}  // namespace
 
 bool are_parallel(const Vec3& u, const Vec3& v) { return are_collinear(Point3{}, Point3{} + u, Point3{} + v); }
 

@@ -1,8 +1,6 @@
 // One triangle of an indexed mesh, one definition for the described and the compiled world.
 #pragma once
 
-#include <span>
-
 #include "limn/core/box.h"
 #include "limn/core/mesh_view.h"
 #include "predicates/filter.h"

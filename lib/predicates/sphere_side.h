@@ -9,7 +9,7 @@
 #include "limn/core/vec.h"
 #include "predicates/filter.h"
 
-namespace limn::kernels {
+namespace limn {
 
 inline double sum_of_magnitudes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
@@ -43,4 +43,4 @@ inline Side side_of(const Point3& center, double radius, const Ray& ray) {
     return end.power > 0 && end.along < 0 ? Side::missed : Side::unknown;
 }
 
-}  // namespace limn::kernels
+}  // namespace limn

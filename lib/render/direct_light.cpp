@@ -3,7 +3,7 @@
 #include "core/spawn.h"
 #include "render/shading.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 void set_receiver(const flat::Scene& scene, const Surface& vertex, Receiver& receiver) {
     receiver.position = vertex.position;
@@ -27,4 +27,4 @@ std::optional<DirectLight> weigh_direct_light(const flat::Scene& scene, const Su
                        f.value * emission * (power_heuristic(vertex_odds * light.pdf, f.pdf) / light.pdf)};
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

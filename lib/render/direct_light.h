@@ -12,7 +12,7 @@
 #include "render/light_choice.h"
 #include "render/light_sampling.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // Three numbers that choose a light and a point on it.
 struct LightNumbers {
@@ -47,4 +47,4 @@ inline double power_heuristic(double a, double b) {
     return 1 / (1 + ratio * ratio);
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

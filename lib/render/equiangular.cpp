@@ -5,7 +5,7 @@
 
 #include "render/shading.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::optional<DirectLight> prepare_scattered_light(const flat::Scene& scene, con
     return direct;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

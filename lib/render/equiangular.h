@@ -10,7 +10,7 @@
 #include "render/direct_light.h"
 #include "render/media.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // Equiangular sampling: a point of a line is drawn such that its direction, as seen from a pivot, has a uniform angle.
 // Kulla and Fajardo, Importance Sampling Techniques for Path Tracing in Participating Media, Computer Graphics Forum
@@ -56,4 +56,4 @@ struct SegmentNumbers {
 std::optional<DirectLight> prepare_scattered_light(const flat::Scene& scene, const Ray& ray, const MediaAlongRay& media,
                                                    const Equiangular& along, const SegmentNumbers& random);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -9,7 +9,7 @@
 #include "render/pixel_errors.h"
 #include "render/window.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -155,4 +155,4 @@ int next_round(int samples, double upper, double target) {
     return as_samples(grown(std::max(samples, SamplePlan::kFirstPass), growth));
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -4,7 +4,7 @@
 #include "limn/render/film.h"
 #include "limn/render/render.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // The estimate of the picture's relMSE, its interval and max_sample_share; on the threads of the caller's arena, the
 // same on any number of them. `maps`, if given, gets each pixel's part.
@@ -30,4 +30,4 @@ bool is_milestone(int samples);
 // interval after `samples`, which is over `target`, or NaN where that is unknown.
 int next_round(int samples, double upper, double target);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -5,7 +5,7 @@
 
 #include "limn/render/film.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // function(name, field of a, the same field of b) for each. Those without a name may differ between films of one
 // render.
@@ -53,4 +53,4 @@ void each_part(T& value, const Function& function) {
     }
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

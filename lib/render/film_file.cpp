@@ -14,7 +14,7 @@
 #include "limn/core/error.h"
 #include "render/film_fields.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -230,16 +230,16 @@ void FilmReader::read(std::span<std::byte> to) {
 
 void FilmReader::fail(const std::string& problem) const { throw FileError(path_, problem); }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport
 
 namespace limn {
 
 bool is_film_file(const std::string& path) {
     std::error_code problem;
     if (!std::filesystem::is_regular_file(path, problem)) return false;
-    char begin[tracing::kBegin.size()] = {};
+    char begin[transport::kBegin.size()] = {};
     std::ifstream(path, std::ios::binary).read(begin, sizeof begin);
-    return std::string_view(begin, sizeof begin) == tracing::kBegin;
+    return std::string_view(begin, sizeof begin) == transport::kBegin;
 }
 
 }  // namespace limn

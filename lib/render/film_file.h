@@ -17,7 +17,7 @@
 #include "core/replace_file.h"
 #include "limn/render/film.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // Raised when the same scene, settings, seed and number give another sample than before: sums of both are of neither.
 inline constexpr std::uint32_t kSampleVersion = 1;
@@ -74,4 +74,4 @@ private:
     double seconds_ = 0;
 };
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

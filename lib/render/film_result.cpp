@@ -6,7 +6,7 @@ namespace limn {
 
 RenderResult render_result(const Film& film, std::optional<double> error) {
     RenderResult r{film.image(), {}, {}, {}};
-    r.error = tracing::estimate_error(film, &r.maps);
+    r.error = transport::estimate_error(film, &r.maps);
     r.error.target = error;
     r.error.reached = error && r.error.ci95_high <= *error;
     const FilmInfo& info = film.info();

@@ -9,7 +9,7 @@
 #include "flat/scene.h"
 #include "limn/core/error.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -67,4 +67,4 @@ FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const Rende
             .shard = settings.shard};
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

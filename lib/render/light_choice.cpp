@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
 using flat::LightNode;
 using flat::LightTable;
 
-using kernels::kAlikeSpread, kernels::kAlikeSquared;
+using shade::kAlikeSpread, shade::kAlikeSquared;
 
 struct Importance {
     double value;
@@ -105,30 +105,30 @@ std::optional<LightChoice> choose_light(const LightTable& lights, const Receiver
     const bool found = descend(lights, receiver, at, [&](const LightNode&, double share) {
         const bool left = pick < share;
         // What is left of the number is as good as a new one.
-        pick = std::min(left ? pick / share : (pick - share) / (1 - share), kernels::kLargestPick);
+        pick = std::min(left ? pick / share : (pick - share) / (1 - share), shade::kLargestPick);
         return left;
     });
     if (!found) return std::nullopt;
     return choose_alike(lights, at, pick);
 }
 
-void choose_lights(const LightTable& lights, kernels::Lobe lobe, const kernels::VertexLanes& vertices,
+void choose_lights(const LightTable& lights, shade::Lobe lobe, const shade::VertexLanes& vertices,
                    LightChoice* choices) {
     if (lights.nodes.empty()) {
         std::fill_n(choices, vertices.count, LightChoice{0, 1});
         return;
     }
-    if (lights.nodes.size() > kernels::kMostNodes) {
+    if (lights.nodes.size() > shade::kMostNodes) {
         for (std::size_t i = 0; i < vertices.count; ++i) {
-            const Vec3 normal = lobe == kernels::Lobe::lambertian ? vertices.normal.get<Vec3>(i) : Vec3{};
+            const Vec3 normal = lobe == shade::Lobe::lambertian ? vertices.normal.get<Vec3>(i) : Vec3{};
             const auto choice =
                 choose_light(lights, {vertices.position.get<Point3>(i), normal}, vertices.numbers[0][i]);
             choices[i] = choice.value_or(LightChoice{0, 0});
         }
         return;
     }
-    kernels::LightWays ways;
-    kernels::descend_lights(lights, lobe, vertices, ways);
+    shade::LightWays ways;
+    shade::descend_lights(lights, lobe, vertices, ways);
     for (std::size_t i = 0; i < vertices.count; ++i)
         choices[i] = ways.probability[i] > 0
                          ? choose_alike(lights, {ways.node[i], ways.begin[i], ways.probability[i]}, ways.pick[i])
@@ -145,4 +145,4 @@ double probability_of(const LightTable& lights, const Receiver& receiver, std::s
     return at.probability * (before[rank + 1] - before[rank]) / (before[end] - before[at.begin]);
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "flat/scene.h"
-#include "kernels/light_choice.h"
+#include "shade/light_choice.h"
 #include "limn/core/vec.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // What lights are chosen for: a point, and the side on which light counts.
 struct Receiver {
@@ -27,10 +27,10 @@ struct LightChoice {
 std::optional<LightChoice> choose_light(const flat::LightTable& lights, const Receiver& receiver, double pick);
 
 // The same for each of `vertices`, by numbers[0]; a probability of 0 means none.
-void choose_lights(const flat::LightTable& lights, kernels::Lobe lobe, const kernels::VertexLanes& vertices,
+void choose_lights(const flat::LightTable& lights, shade::Lobe lobe, const shade::VertexLanes& vertices,
                    LightChoice* choices);
 
 // With which probability choose_light gives this rank.
 double probability_of(const flat::LightTable& lights, const Receiver& receiver, std::size_t rank);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -9,7 +9,7 @@
 #include "predicates/mesh_triangle.h"
 #include "render/planar_light.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -116,4 +116,4 @@ double pdf_light(const flat::Scene& scene, const Receiver& receiver, double time
     return pdf > 0 ? pdf * probability_of(scene.lights, receiver, found->rank) : 0;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -7,7 +7,7 @@
 #include "limn/core/surface.h"
 #include "render/light_choice.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // A point on an emitter. `point` is complete but for front_face, which no emitter asks for: they are two-sided; and for
 // texture coordinates where the radiance is the same everywhere.
@@ -31,4 +31,4 @@ std::optional<LightSample> sample_chosen_light(const flat::Scene& scene, const f
 double pdf_light(const flat::Scene& scene, const Receiver& receiver, double time, std::uint64_t number,
                  const Point3& hit);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

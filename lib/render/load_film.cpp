@@ -10,7 +10,7 @@
 
 namespace limn {
 
-using tracing::FilmReader;
+using transport::FilmReader;
 
 namespace {
 
@@ -83,7 +83,7 @@ FilmInfo check_headers(std::span<const std::string> paths) {
 
 std::string difference(const FilmInfo& film, const FilmInfo& other) {
     std::string found;
-    tracing::each_field(film, other, [&found](const std::string& name, const auto& a, const auto& b) {
+    transport::each_field(film, other, [&found](const std::string& name, const auto& a, const auto& b) {
         if (!found.empty() || name.empty() || a == b) return;
         found = "its " + name + " is " + (text(a).empty() ? "another" : text(a) + ", not " + text(b));
     });
@@ -116,7 +116,7 @@ Film Film::merge(std::span<const std::string> paths) {
 }
 
 void Film::save(const std::string& path) const {
-    tracing::FilmWriter writer(path, *this);
+    transport::FilmWriter writer(path, *this);
     for (const std::uint32_t tile : tiles_) writer.tile(tile_bytes(tile));
     writer.finish(plan_, plan_.rates, seconds_);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -20,11 +20,11 @@ bool same_point(double a, double b) { return std::abs(a - b) <= 0x1p-40 * std::a
 
 // For each place where crossings are, in order, one of them, and whether the others there go the same way. It goes into
 // `places`, replacing what is there.
-void gather(std::vector<kernels::Crossing>& crossings, std::vector<MediaAlongRay::Place>& places) {
+void gather(std::vector<trace::Crossing>& crossings, std::vector<MediaAlongRay::Place>& places) {
     std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
     places.clear();
     for (std::size_t i = 0; i < crossings.size();) {
-        const kernels::Crossing& first = crossings[i];
+        const trace::Crossing& first = crossings[i];
         bool agree = true;
         for (; i < crossings.size() && same_point(first.t, crossings[i].t); ++i)
             agree = agree && crossings[i].inward == first.inward;
@@ -38,7 +38,7 @@ void MediaAlongRay::trace(const flat::Scene& scene, const Ray& ray) {
     scene_ = &scene;
     t_max_ = ray.t_max;
     steps_.clear();
-    kernels::media_met(scene, ray, met_);
+    trace::media_met(scene, ray, met_);
     for (const std::uint32_t medium : met_) add_intervals(scene, medium, ray);
     if (steps_.empty()) return;
     speed_ = length(ray.direction);
@@ -50,7 +50,7 @@ void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium
     if (extinction == 0) return;
     Ray beyond = ray;
     beyond.t_max = kInfinity;
-    kernels::crossings(scene, scene.media[medium], beyond, crossings_);
+    trace::crossings(scene, scene.media[medium], beyond, crossings_);
     gather(crossings_, places_);
     // From the far end, which is outside, to the near one.
     bool inside = false;
@@ -80,7 +80,7 @@ bool MediaAlongRay::is_inside(const flat::Scene& scene, std::uint32_t medium, co
     const double middle = std::max(from, to - 1 - std::abs(to)) / 2 + to / 2;  // `from` may be -infinity
     const Ray aside{ray.at(middle), kAside, 0, kInfinity, ray.time};
     if (!is_usable(aside)) return false;
-    kernels::crossings(scene, scene.media[medium], aside, crossings_);
+    trace::crossings(scene, scene.media[medium], aside, crossings_);
     gather(crossings_, places_aside_);
     return std::count_if(places_aside_.begin(), places_aside_.end(), [](const Place& p) { return p.is_crossed; }) % 2;
 }
@@ -193,4 +193,4 @@ std::optional<Stretch> MediaAlongRay::scattering_stretch(double deepest, double 
     return found;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "kernels/traverse.h"
+#include "trace/traverse.h"
 #include "limn/core/ray.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // How far a path gets through media.
 struct FreeFlight {
@@ -76,9 +76,9 @@ private:
     const flat::Scene* scene_ = nullptr;
     double t_max_ = 0, speed_ = 1;  // t is in units of the ray's direction, `speed_` long
     std::vector<std::uint32_t> met_;
-    std::vector<kernels::Crossing> crossings_;
+    std::vector<trace::Crossing> crossings_;
     std::vector<Place> places_, places_aside_;
     std::vector<Step> steps_;  // sorted by t; every medium entered is left again at t_max_ at the latest
 };
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -12,7 +12,7 @@
 
 #include "core/float_environment.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 /// Calls function(0) ... function(count - 1), each once, on the threads of the caller's arena, until the context is
 /// cancelled. What a call throws cancels the others and comes out here.
@@ -52,4 +52,4 @@ void with_threads(int threads, const Function& function) {
     arena.execute(function);
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

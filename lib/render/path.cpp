@@ -8,7 +8,7 @@
 #include "limn/scene/background.h"
 #include "render/shading.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -51,7 +51,7 @@ void PathTracer::trace(std::span<Path> paths) {
         arriving_.clear();
         find_hits();
         for (std::size_t i = 0; i < hits_.size(); ++i) follow(now_.paths[i], now_.rays[i], hits_[i]);
-        for (const kernels::Lobe lobe : kernels::kLobes) shade_group(lobe);
+        for (const shade::Lobe lobe : shade::kLobes) shade_group(lobe);
         shade_others();
         add_direct_light();
     }
@@ -72,14 +72,14 @@ void PathTracer::begin(std::uint32_t path, const Ray& ray) {
 
 void PathTracer::find_hits() {
     hits_.resize(now_.rays.size());
-    for (std::size_t i = 0; i < hits_.size(); i += kernels::kMostRays) {
-        const std::size_t some = std::min(kernels::kMostRays, hits_.size() - i);
-        kernels::closest_hits(scene_, std::span(now_.rays).subspan(i, some), &hits_[i]);
+    for (std::size_t i = 0; i < hits_.size(); i += trace::kMostRays) {
+        const std::size_t some = std::min(trace::kMostRays, hits_.size() - i);
+        trace::closest_hits(scene_, std::span(now_.rays).subspan(i, some), &hits_[i]);
     }
 }
 
 // To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
-void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit) {
+void PathTracer::follow(std::uint32_t path, const Ray& ray, const trace::Hit& hit) {
     if (!scene_.media.empty()) {
         Head& head = heads_[path];
         Ray flight = ray;
@@ -102,8 +102,8 @@ void PathTracer::follow(std::uint32_t path, const Ray& ray, const kernels::Hit& 
         paths_[path].radiance += heads_[path].throughput * background.radiance(ray.direction);
         return;
     }
-    SurfaceHit& met = next_vertex();
-    surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met);
+    query::SurfaceHit& met = next_vertex();
+    query::surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met);
     if (met.index_matched) {
         const Ray beyond = leave(met.surface, ray.direction, ray.time);
         if (count(beyond)) next_.add(path, beyond);
@@ -181,9 +181,9 @@ void PathTracer::add_shadow(std::uint32_t path, const Color& light, const Ray& r
 
 void PathTracer::add_direct_light() {
     occluded_.resize(shadows_.rays.size());
-    for (std::size_t i = 0; i < occluded_.size(); i += kernels::kMostRays) {
-        const std::size_t some = std::min(kernels::kMostRays, occluded_.size() - i);
-        kernels::are_occluded(scene_, std::span(shadows_.rays).subspan(i, some), &occluded_[i]);
+    for (std::size_t i = 0; i < occluded_.size(); i += trace::kMostRays) {
+        const std::size_t some = std::min(trace::kMostRays, occluded_.size() - i);
+        trace::are_occluded(scene_, std::span(shadows_.rays).subspan(i, some), &occluded_[i]);
     }
     for (std::size_t i = 0; i < occluded_.size(); ++i) {
         if (occluded_[i] != 0) continue;
@@ -196,4 +196,4 @@ void PathTracer::add_direct_light() {
     }
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "kernels/lobes.h"
-#include "kernels/traverse.h"
+#include "shade/lobes.h"
+#include "trace/traverse.h"
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
 #include "render/direct_light.h"
 #include "render/equiangular.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "render/surface_at.h"
+#include "query/surface_at.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // One sample of the radiance along a camera ray.
 struct Path {
@@ -73,28 +73,28 @@ private:
     };
     // Whose vertices are shaded together.
     struct Company {
-        std::array<std::uint32_t, kernels::kShaded> paths;
-        std::array<bool, kernels::kShaded> ask_lights;
-        kernels::SobolLanes samplers;
+        std::array<std::uint32_t, sampling::kShaded> paths;
+        std::array<bool, sampling::kShaded> ask_lights;
+        sampling::SobolLanes samplers;
     };
     // Vertices of one lobe.
     struct Group : Company {
-        kernels::VertexLanes lanes;
-        std::array<double, kernels::kShaded> times;
-        std::array<flat::Light, kernels::kShaded> lights;  // those that are not kept anywhere
+        shade::VertexLanes lanes;
+        std::array<double, sampling::kShaded> times;
+        std::array<flat::Light, sampling::kShaded> lights;  // those that are not kept anywhere
     };
     // Vertices on all other materials.
     struct Others : Company {
         std::size_t count = 0;
-        std::array<SurfaceHit, kernels::kShaded> hits;
-        std::array<Ray, kernels::kShaded> rays;
-        kernels::Lane light_numbers[3], numbers[3];
+        std::array<query::SurfaceHit, sampling::kShaded> hits;
+        std::array<Ray, sampling::kShaded> rays;
+        sampling::Lane light_numbers[3], numbers[3];
     };
 
     bool count(const Ray& ray);
     void begin(std::uint32_t path, const Ray& ray);
     void find_hits();
-    void follow(std::uint32_t path, const Ray& ray, const kernels::Hit& hit);
+    void follow(std::uint32_t path, const Ray& ray, const trace::Hit& hit);
     double light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown);
     void add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time);
     void shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds = 0);
@@ -103,16 +103,16 @@ private:
     void add_shadow(std::uint32_t path, const Color& light, const Ray& ray);
     void add_direct_light();
     // In path_groups.cpp.
-    SurfaceHit& next_vertex() { return others_.hits[others_.count]; }  // where the next one is filled in
+    query::SurfaceHit& next_vertex() { return others_.hits[others_.count]; }  // where the next one is filled in
     void gather_other(std::uint32_t path, const Ray& ray, bool ask_lights);
-    void gather(std::uint32_t path, const Ray& ray, kernels::Lobe lobe, const Surface& vertex, bool ask_lights);
-    void shade_group(kernels::Lobe lobe);
-    void sample_lights(kernels::Lobe lobe);
+    void gather(std::uint32_t path, const Ray& ray, shade::Lobe lobe, const Surface& vertex, bool ask_lights);
+    void shade_group(shade::Lobe lobe);
+    void sample_lights(shade::Lobe lobe);
     template <std::size_t n>
-    void draw(Company& company, std::size_t count, Use use, kernels::Lane* numbers);
+    void draw(Company& company, std::size_t count, Use use, sampling::Lane* numbers);
     void shade_others();
     void shade_other(std::size_t i);
-    Group& group_of(kernels::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }
+    Group& group_of(shade::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }
 
     const flat::Scene& scene_;
     const int max_depth_;
@@ -124,12 +124,12 @@ private:
     std::span<Path> paths_;
     std::vector<Head> heads_;  // of each
     Rays now_, next_;          // of those that go on
-    std::vector<kernels::Hit> hits_;
-    std::array<Group, std::size(kernels::kLobes)> groups_;
+    std::vector<trace::Hit> hits_;
+    std::array<Group, std::size(shade::kLobes)> groups_;
     Others others_;
     Rays shadows_;
     std::vector<Color> arriving_;  // light, if nothing is in the way of the shadow ray
     std::vector<std::uint8_t> occluded_;
 };
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -10,13 +10,13 @@
 #include "render/path.h"
 #include "render/shading.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
-using kernels::Lobe;
+using shade::Lobe;
 
-Surface surface_of(const kernels::VertexLanes& lanes, std::size_t i) {
+Surface surface_of(const shade::VertexLanes& lanes, std::size_t i) {
     Surface s;
     s.position = lanes.position.get<Point3>(i);
     s.position_error = lanes.position_error.get<Vec3>(i);
@@ -29,7 +29,7 @@ Surface surface_of(const kernels::VertexLanes& lanes, std::size_t i) {
 
 void PathTracer::gather(std::uint32_t path, const Ray& ray, Lobe lobe, const Surface& vertex, bool ask_lights) {
     Group& group = group_of(lobe);
-    kernels::VertexLanes& lanes = group.lanes;
+    shade::VertexLanes& lanes = group.lanes;
     const std::size_t i = lanes.count++;
     group.paths[i] = path;
     group.times[i] = ray.time;
@@ -47,17 +47,17 @@ void PathTracer::gather(std::uint32_t path, const Ray& ray, Lobe lobe, const Sur
     } else {
         lanes.albedo.set(i, albedo(scene_, vertex));
     }
-    if (lanes.count == kernels::kShaded) shade_group(lobe);
+    if (lanes.count == sampling::kShaded) shade_group(lobe);
 }
 
 void PathTracer::shade_group(Lobe lobe) {
     Group& group = group_of(lobe);
-    kernels::VertexLanes& lanes = group.lanes;
+    shade::VertexLanes& lanes = group.lanes;
     if (lanes.count == 0) return;
     if (sample_lights_ && lobe != Lobe::dielectric) sample_lights(lobe);
     draw<2>(group, lanes.count, Use::scattering, lanes.numbers);
-    kernels::scatter(lobe, lanes);
-    std::array<double, kernels::kShaded> survives{};
+    shade::scatter(lobe, lanes);
+    std::array<double, sampling::kShaded> survives{};
     bool roulette = false;
     for (std::size_t i = 0; i < lanes.count; ++i) {
         const Color weight = lanes.albedo.get<Color>(i);
@@ -78,10 +78,10 @@ void PathTracer::shade_group(Lobe lobe) {
 
 void PathTracer::sample_lights(Lobe lobe) {
     Group& group = group_of(lobe);
-    kernels::VertexLanes& lanes = group.lanes;
+    shade::VertexLanes& lanes = group.lanes;
     // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
     draw<3>(group, lanes.count, Use::light, lanes.numbers);
-    std::array<LightChoice, kernels::kShaded> choices;
+    std::array<LightChoice, sampling::kShaded> choices;
     choose_lights(scene_.lights, lobe, lanes, choices.data());
     std::uint32_t textured = 0;
     for (std::size_t i = 0; i < lanes.count; ++i) {
@@ -92,7 +92,7 @@ void PathTracer::sample_lights(Lobe lobe) {
         lanes.emission.set(i, radiance_of(scene_, light));
         if (light.textured) textured |= std::uint32_t{1} << i;
     }
-    kernels::sample_lights(lobe, lanes);
+    shade::sample_lights(lobe, lanes);
     for (std::uint32_t rest = lanes.lit & ~textured; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(rest));
         add_shadow(group.paths[i], lanes.arriving.get<Color>(i),
@@ -121,7 +121,7 @@ void PathTracer::gather_other(std::uint32_t path, const Ray& ray, bool ask_light
     others_.paths[i] = path;
     others_.rays[i] = ray;
     others_.ask_lights[i] = ask_lights && can_be_evaluated(scene_, others_.hits[i].surface.material);
-    if (others_.count == kernels::kShaded) shade_others();
+    if (others_.count == sampling::kShaded) shade_others();
 }
 
 void PathTracer::shade_others() {
@@ -159,7 +159,7 @@ void PathTracer::shade_other(std::size_t i) {
 }
 
 template <std::size_t n>
-void PathTracer::draw(Company& company, std::size_t count, Use use, kernels::Lane* numbers) {
+void PathTracer::draw(Company& company, std::size_t count, Use use, sampling::Lane* numbers) {
     const auto sampler_of = [&](std::size_t i) -> Sampler& {
         const std::uint32_t path = company.paths[i];
         paths_[path].sampler.seek(heads_[path].segment, use);
@@ -168,4 +168,4 @@ void PathTracer::draw(Company& company, std::size_t count, Use use, kernels::Lan
     Sampler::draw_many<n>(count, sampler_of, company.samplers, numbers);
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

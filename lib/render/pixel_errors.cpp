@@ -8,7 +8,7 @@
 #include "render/parallel.h"
 #include "render/window.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -162,4 +162,4 @@ PixelErrors pixel_errors(const Film& film) {
     return errors;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -5,7 +5,7 @@
 
 #include "limn/render/film.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // The relMSE of a pixel is its variance over r^2 + 0.01, r its true value. The difference of the replicates gives the
 // variance without bias, but the pixel's own mean is a bad r: where samples are skewed, variance and mean of the same
@@ -35,4 +35,4 @@ struct PixelErrors {
 // \pre each replicate of each pixel has a sample. Runs on the threads of the caller's arena, the same on any number.
 PixelErrors pixel_errors(const Film& film);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/spherical_rectangle.h"
-#include "render/spherical_triangle.h"
+#include "sampling/spherical_rectangle.h"
+#include "sampling/spherical_triangle.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -34,13 +34,13 @@ double pdf_by_area(const Light& light, const Vec3& scaled_normal, const Vec3& wa
     return projected > 0 ? distance_squared * std::sqrt(distance_squared) / projected : 0;
 }
 
-SphericalTriangle seen(const Point3& from, const Point3& a, const Point3& b, const Point3& c) {
+sampling::SphericalTriangle seen(const Point3& from, const Point3& a, const Point3& b, const Point3& c) {
     return {normalize(a - from), normalize(b - from), normalize(c - from)};
 }
 
 // The parts that a parallelogram without right angles is made of: origin, u, v and what is opposite.
 struct Halves {
-    SphericalTriangle lower, upper;
+    sampling::SphericalTriangle lower, upper;
 
     Halves(const Light& light, const Point3& from)
         : lower(seen(from, light.origin + light.edge_u, light.origin, light.origin + light.edge_v)),
@@ -72,13 +72,13 @@ std::optional<PlanarSample> sample_planar(const Light& light, const Point3& from
     if (!is_far(light, from)) {
         switch (light.kind) {
             case LightKind::rectangle: {
-                const SphericalRectangle rectangle(light.origin, light.edge_u, light.edge_v, from);
+                const sampling::SphericalRectangle rectangle(light.origin, light.edge_u, light.edge_v, from);
                 solid_angle = rectangle.solid_angle();
                 if (solid_angle >= flat::kSmallSolidAngle) s.weights = rectangle.sample(u, v);
                 break;
             }
             case LightKind::triangle: {
-                const SphericalTriangle triangle =
+                const sampling::SphericalTriangle triangle =
                     seen(from, light.origin, light.origin + light.edge_u, light.origin + light.edge_v);
                 solid_angle = triangle.solid_angle();
                 if (solid_angle >= flat::kSmallSolidAngle) s.weights = weights_of(light, from, triangle.sample(u, v));
@@ -112,7 +112,7 @@ double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
     double solid_angle = 0;
     switch (light.kind) {
         case LightKind::rectangle:
-            solid_angle = SphericalRectangle(light.origin, light.edge_u, light.edge_v, from).solid_angle();
+            solid_angle = sampling::SphericalRectangle(light.origin, light.edge_u, light.edge_v, from).solid_angle();
             break;
         case LightKind::triangle:
             solid_angle =
@@ -124,4 +124,4 @@ double pdf_planar(const Light& light, const Point3& from, const Vec3& way) {
     return solid_angle >= flat::kSmallSolidAngle ? 1 / solid_angle : pdf_by_area(light, normal, way);
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

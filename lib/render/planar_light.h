@@ -6,7 +6,7 @@
 #include "flat/lights.h"
 #include "limn/core/vec.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 struct PlanarSample {
     Uv weights;  // of the light's two edges
@@ -22,4 +22,4 @@ std::optional<PlanarSample> sample_planar(const flat::Light& light, const Point3
 // With which density sample_planar draws the way to a point of the light; 0 where it never does.
 double pdf_planar(const flat::Light& light, const Point3& from, const Vec3& way);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -31,11 +31,11 @@ public:
     Impl(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings)
         : scene_(scene),
           settings_(settings),
-          film_(tracing::film_info(scene, camera, settings)),
+          film_(transport::film_info(scene, camera, settings)),
           renderer_(scene.flat(), film_.info()) {}
 
     void load(const std::string& path) {
-        tracing::FilmReader reader = checked_reader(path, tracing::FilmContent::film);
+        transport::FilmReader reader = checked_reader(path, transport::FilmContent::film);
         Film film(film_.info());
         reader.read_tiles(film);
         take_plan(reader, film);
@@ -45,7 +45,7 @@ public:
     }
 
     void load_plan(const std::string& path) {
-        tracing::FilmReader reader = checked_reader(path, tracing::FilmContent::plan);
+        transport::FilmReader reader = checked_reader(path, transport::FilmContent::plan);
         const SamplePlan before = film_.plan();
         take_plan(reader, film_);
         const SamplePlan& plan = film_.plan();
@@ -73,7 +73,7 @@ public:
     }
 
     void save(const std::string& path) const {
-        tracing::FilmWriter writer(path, film_);
+        transport::FilmWriter writer(path, film_);
         for (const std::uint32_t tile : film_.tiles()) {
             std::unique_lock lock(tile_mutex(tile));
             const std::vector<std::byte> bytes = film_.tile_bytes(tile);
@@ -107,7 +107,7 @@ public:
 
     RenderResult result() const {
         RenderResult r;
-        tracing::with_threads(settings_.threads, [&] { r = render_result(film_, settings_.error); });
+        transport::with_threads(settings_.threads, [&] { r = render_result(film_, settings_.error); });
         r.report.threads = settings_.threads > 0 ? settings_.threads : tbb::this_task_arena::max_concurrency();
         r.report.compile_seconds = scene_.stats().seconds;
         r.report.memory_bytes += scene_.stats().memory_bytes;
@@ -117,15 +117,15 @@ public:
     }
 
 private:
-    tracing::FilmReader checked_reader(const std::string& path, tracing::FilmContent content) const {
-        tracing::FilmReader reader(path, content);
+    transport::FilmReader checked_reader(const std::string& path, transport::FilmContent content) const {
+        transport::FilmReader reader(path, content);
         if (const std::string other = difference(reader.info(), film_.info()); !other.empty())
             reader.fail("is not of this render: " + other);
         if (!std::ranges::includes(reader.tiles(), film_.tiles())) reader.fail("lacks tiles that this render has");
         return reader;
     }
 
-    static void take_plan(tracing::FilmReader& reader, Film& film) {
+    static void take_plan(transport::FilmReader& reader, Film& film) {
         SamplePlan plan = reader.finish();
         const std::vector<float> rates = std::move(plan.rates);
         plan.rates.clear();
@@ -143,7 +143,7 @@ private:
         };
         {
             const End end{*this};
-            tracing::with_threads(settings_.threads, [this] { run_passes(); });
+            transport::with_threads(settings_.threads, [this] { run_passes(); });
         }
         if (!interrupted_) {
             finished_ = true;
@@ -177,7 +177,7 @@ private:
             if (samples > 0) {
                 render_pass();
                 if (ended()) return;
-                if (error_ && tracing::next_check(samples - 1, film_.plan().upper_error, *error_) == samples)
+                if (error_ && transport::next_check(samples - 1, film_.plan().upper_error, *error_) == samples)
                     check_error();
             }
             if (ended() || samples >= most_samples_) return;
@@ -189,7 +189,7 @@ private:
     int next_samples(int samples) const {
         if (samples < SamplePlan::kFirstPass) return std::min(SamplePlan::kFirstPass, most_samples_);
         const int pass = std::min({samples, kLargestPass, most_samples_ - samples});
-        const int check = error_ ? tracing::next_check(samples, film_.plan().upper_error, *error_) : most_samples_;
+        const int check = error_ ? transport::next_check(samples, film_.plan().upper_error, *error_) : most_samples_;
         return std::min(samples + pass, check);
     }
 
@@ -199,9 +199,9 @@ private:
             throw ArgumentError("render: a shard whose pixels have rates goes on by a plan alone");
         std::vector<float> rates;
         const bool adapts = (settings_.error || settings_.time_limit) && !settings_.uniform;
-        if (adapts && plan.rates.empty() && samples > SamplePlan::kFirstPass) rates = tracing::sample_rates(film_);
+        if (adapts && plan.rates.empty() && samples > SamplePlan::kFirstPass) rates = transport::sample_rates(film_);
         const std::span<const float> all = plan.rates.empty() ? rates : plan.rates;
-        const double scale = all.empty() ? 0 : tracing::scale_for(film_, all, samples, samples == most_samples_);
+        const double scale = all.empty() ? 0 : transport::scale_for(film_, all, samples, samples == most_samples_);
         const std::scoped_lock lock(plan_mutex_);
         if (!rates.empty()) film_.plan().rates = std::move(rates);
         film_.plan().samples = samples;
@@ -210,7 +210,7 @@ private:
 
     void render_pass() {
         const bool may_end = film_.plan().samples > SamplePlan::kFirstPass;
-        tracing::for_each_index(film_.tiles().size(), *context_, [&](std::size_t i) {
+        transport::for_each_index(film_.tiles().size(), *context_, [&](std::size_t i) {
             if (interrupted_) return;
             // The first pass is for all pixels, whatever it takes, so that there is a picture and an estimate.
             if (settings_.time_limit && may_end && seconds_of_run() >= *settings_.time_limit) timed_out_ = true;
@@ -223,13 +223,13 @@ private:
     }
 
     void check_error() {
-        const ErrorEstimate e = tracing::check_error(film_);
+        const ErrorEstimate e = transport::check_error(film_);
         const double upper = e.reason.empty() ? e.ci95_high : std::numeric_limits<double>::infinity();
         reached_ = upper <= *error_;
         const int samples = film_.plan().samples;
         // Where independent samples would reach it: where this stands in between tells how far the render has come.
         samples_needed_ = samples * std::max(1.0, upper / *error_);
-        if (!tracing::is_milestone(samples)) return;
+        if (!transport::is_milestone(samples)) return;
         const std::scoped_lock lock(plan_mutex_);
         film_.plan().upper_error = upper;
     }
@@ -274,7 +274,7 @@ private:
     const CompiledScene& scene_;
     const RenderSettings settings_;
     Film film_;
-    const tracing::TileRenderer renderer_;
+    const transport::TileRenderer renderer_;
     bool is_planned_ = false;  // by a plan from outside
 
     // Who adds to a tile or saves it has its mutex; who saves the plan or changes it while the job runs, the plan's.

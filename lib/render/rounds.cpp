@@ -13,10 +13,10 @@ void plan_next_round(const Film& film, const ErrorEstimate& error, const std::st
     require(film.fewest_samples() >= SamplePlan::kFirstPass, "plan_next_round: the film has pixels with fewer than " +
                                                                  std::to_string(SamplePlan::kFirstPass) + " samples");
     SamplePlan plan = film.plan();
-    plan.samples = tracing::next_round(plan.samples, error.ci95_high, *error.target);
-    if (plan.rates.empty() && !film.info().uniform) plan.rates = tracing::sample_rates(film);
-    if (!plan.rates.empty()) plan.scale = tracing::scale_for(film, plan.rates, plan.samples, false);
-    tracing::FilmWriter(path, film, tracing::FilmContent::plan).finish(plan, plan.rates, film.seconds());
+    plan.samples = transport::next_round(plan.samples, error.ci95_high, *error.target);
+    if (plan.rates.empty() && !film.info().uniform) plan.rates = transport::sample_rates(film);
+    if (!plan.rates.empty()) plan.scale = transport::scale_for(film, plan.rates, plan.samples, false);
+    transport::FilmWriter(path, film, transport::FilmContent::plan).finish(plan, plan.rates, film.seconds());
 }
 
 }  // namespace limn

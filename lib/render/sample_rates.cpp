@@ -7,7 +7,7 @@
 #include "image/compare_values.h"
 #include "render/parallel.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -82,4 +82,4 @@ double scale_for(const Film& film, std::span<const float> rates, int samples, bo
     return low;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -6,7 +6,7 @@
 
 #include "limn/render/film.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // Of the mean. What the first pass has not seen is still found, at worst with four times the variance.
 inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
@@ -28,4 +28,4 @@ std::vector<float> sample_rates(const Film& film);
 // that number alone, so that a render may stop anywhere on its way.
 double scale_for(const Film& film, std::span<const float> rates, int samples, bool exact);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/sobol.h"
-#include "kernels/sobol.h"
+#include "sampling/sobol.h"
+#include "sampling/sobol_lanes.h"
 #include "limn/core/surface.h"
 #include "limn/core/vec.h"
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // What a vertex of a path draws numbers for.
 enum class Use : std::uint32_t { light, scattering, roulette, segment, flight };
@@ -58,10 +58,10 @@ public:
     std::array<double, 5> next_5d() { return draw<5>(); }
 
     // What many samplers of one kind draw next, side by side: the first n numbers of a group, numbers[d][i] those of
-    // sampler_at(i). `lanes` is room for the work. \pre count <= kernels::kShaded
+    // sampler_at(i). `lanes` is room for the work. \pre count <= kShaded
     template <std::size_t n, class SamplerAt>
-    static void draw_many(std::size_t count, const SamplerAt& sampler_at, kernels::SobolLanes& lanes,
-                          kernels::Lane* numbers) {
+    static void draw_many(std::size_t count, const SamplerAt& sampler_at, sampling::SobolLanes& lanes,
+                          sampling::Lane* numbers) {
         for (std::size_t i = 0; i < count; ++i) {
             Sampler& sampler = sampler_at(i);
             if (sampler.kind_ == SamplerKind::independent) {
@@ -69,7 +69,7 @@ public:
                 for (std::size_t d = 0; d < n; ++d) numbers[d][i] = drawn[d];
             } else {
                 lanes.base[i] = sampler.base_, lanes.index[i] = sampler.index_, lanes.group[i] = sampler.group_++;
-                if (i + 1 == count) kernels::draw_sobol(lanes, count, n, numbers);
+                if (i + 1 == count) sampling::draw_sobol(lanes, count, n, numbers);
             }
         }
     }
@@ -107,4 +107,4 @@ private:
     std::uint64_t seed_, pixel_, sample_, base_ = 0;
 };
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

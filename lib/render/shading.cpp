@@ -8,7 +8,7 @@
 #include "pattern/image_lookup.h"
 #include "pattern/perlin.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
@@ -136,4 +136,4 @@ bool scatters_back_only(const flat::Scene& scene, const MaterialRef& material) {
     return false;
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "flat/scene.h"
-#include "kernels/lobes.h"
+#include "shade/lobes.h"
 #include "limn/core/surface.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s);
 
@@ -32,12 +32,12 @@ inline bool can_emit(const flat::Scene& scene, const MaterialRef& material) {
 }
 
 // By which a material scatters that is shaded side by side with others; it does not emit.
-inline std::optional<kernels::Lobe> lobe_of(const flat::Scene& scene, const MaterialRef& material) {
+inline std::optional<shade::Lobe> lobe_of(const flat::Scene& scene, const MaterialRef& material) {
     if (material.id == MaterialRef::kNone) return std::nullopt;
     switch (kind_of(scene, material)) {
-        case MaterialKind::lambertian: return kernels::Lobe::lambertian;
-        case MaterialKind::isotropic: return kernels::Lobe::isotropic;
-        case MaterialKind::dielectric: return kernels::Lobe::dielectric;
+        case MaterialKind::lambertian: return shade::Lobe::lambertian;
+        case MaterialKind::isotropic: return shade::Lobe::isotropic;
+        case MaterialKind::dielectric: return shade::Lobe::dielectric;
         case MaterialKind::metal:
         case MaterialKind::diffuse_light:
         case MaterialKind::foreign: break;
@@ -55,4 +55,4 @@ Color radiance_of(const flat::Scene& scene, const flat::Light& light);
 // media, which have no sides.
 bool scatters_back_only(const flat::Scene& scene, const MaterialRef& material);
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -4,7 +4,7 @@
 
 #include "render/sampler.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 namespace {
 
@@ -53,10 +53,10 @@ void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
 
 void TileRenderer::set_camera_rays(std::span<Path> paths, const Pixels& pixels) const {
     // In the pixel, on the lens, in time.
-    kernels::SobolLanes lanes;
-    kernels::Lane numbers[5] = {};
-    for (std::size_t first = 0; first < paths.size(); first += kernels::kShaded) {
-        const std::span some = paths.subspan(first, std::min(kernels::kShaded, paths.size() - first));
+    sampling::SobolLanes lanes;
+    sampling::Lane numbers[5] = {};
+    for (std::size_t first = 0; first < paths.size(); first += sampling::kShaded) {
+        const std::span some = paths.subspan(first, std::min(sampling::kShaded, paths.size() - first));
         const auto sampler_at = [&](std::size_t i) -> Sampler& { return some[i].sampler; };
         if (has_lens_or_motion_)
             Sampler::draw_many<5>(some.size(), sampler_at, lanes, numbers);
@@ -71,4 +71,4 @@ void TileRenderer::set_camera_rays(std::span<Path> paths, const Pixels& pixels) 
     }
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -13,7 +13,7 @@
 #include "limn/scene/camera.h"
 #include "render/path.h"
 
-namespace limn::tracing {
+namespace limn::transport {
 
 class TileRenderer {
 public:
@@ -35,4 +35,4 @@ private:
     const bool has_lens_or_motion_;
 };
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

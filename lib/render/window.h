@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace limn::tracing {
+namespace limn::transport {
 
 // Calls use(x, sum, count) for each pixel of row y, from left to right: the sum of value_at(i, j) over the square of
 // 2 reach + 1 pixels a side around it, itself among them, and how many of these lie in the picture. Values are added
@@ -25,4 +25,4 @@ void for_each_window(int width, int height, int y, int reach, const ValueAt& val
     }
 }
 
-}  // namespace limn::tracing
+}  // namespace limn::transport

@@ -42,6 +42,10 @@ struct Cut {
     FloatBox lower, upper;
 };
 
+FloatBox to_box(const accel::Bounds& b) {
+    return {{b.lower[0], b.lower[1], b.lower[2]}, {b.upper[0], b.upper[1], b.upper[2]}};
+}
+
 // The cost of cutting after the first `middle` in the order of centres along an axis, times the area of all.
 Cut cut_at(std::vector<FloatBox> boxes, std::size_t axis, std::size_t middle, std::uint32_t leaf_width) {
     std::sort(boxes.begin(), boxes.end(), [&](const FloatBox& a, const FloatBox& b) {
@@ -81,11 +85,10 @@ TEST_CASE("best_split: of all splits along all axes it takes the one of least co
                 longest = std::max(longest, double{range.bounds.upper[a]} - range.bounds.lower[a]);
             const double slack = std::ceil(double(count) / leaf_width + 1) * 7 * 0x1p-12 * longest * longest;
             RC_ASSERT(chosen.cost <= least + slack);
-            RC_ASSERT(std::abs(split.cost * half_area(accel::to_box(range.bounds)) - least) <=
-                      2 * slack + 1e-3 * least);
+            RC_ASSERT(std::abs(split.cost * half_area(to_box(range.bounds)) - least) <= 2 * slack + 1e-3 * least);
             std::uint32_t numbers = 0;
             for (std::uint32_t i = 0; i < sorted.size(); ++i) {
-                const FloatBox box = accel::to_box(sorted[i].bounds());
+                const FloatBox box = to_box(sorted[i]);
                 RC_ASSERT(test::contains(i < middle ? chosen.lower : chosen.upper, box));
                 numbers |= 1u << (sorted[i].index() - 7);
             }

@@ -11,7 +11,7 @@ using accel::SplitNode;
 namespace {
 
 int depth_of(const SplitNode& node) {
-    return node.left == nullptr ? 1 : 1 + std::max(depth_of(*node.left), depth_of(*node.right));
+    return node.children == nullptr ? 1 : 1 + std::max(depth_of((*node.children)[0]), depth_of((*node.children)[1]));
 }
 
 }  // namespace
@@ -31,8 +31,9 @@ TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the re
             std::vector<std::uint32_t> indices(size);
             std::vector<BuildPrimitive> spare(size);
             SplitNode root;
+            root.depth = static_cast<std::uint8_t>(above);
             accel::SubtreeBuilder builder(settings, indices.data());
-            builder.build(primitives.data(), spare.data(), accel::range_over(primitives.data(), 0, size), above, root);
+            builder.build(primitives.data(), spare.data(), accel::range_over(primitives.data(), 0, size), root);
             const int depth = above - 1 + depth_of(root);
             CHECK(depth <= accel::kMaxSplitDepth);
             CHECK(depth > accel::kMaxSplitDepth - 5);

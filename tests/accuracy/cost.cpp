@@ -3,7 +3,7 @@
 #include <chrono>
 #include <functional>
 
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/shape/quad.h"
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"

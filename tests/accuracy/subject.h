@@ -8,7 +8,7 @@
 
 #include "accuracy/near_triangles.h"
 #include "accuracy/question.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "support/exact_truth.h"
 
 namespace limn::accuracy {

@@ -81,7 +81,7 @@ TEST_CASE("The floors are read as they are written", "[architecture]") {
     CHECK(floors.allows("pattern", "image", false));  // the second chain of its line
     CHECK_FALSE(floors.allows("accel", "image", true));
     CHECK_FALSE(floors.allows("texture", "material", true));  // up
-    CHECK_FALSE(floors.allows("kernels", "shape", true));
+    CHECK_FALSE(floors.allows("trace", "shape", true));
     CHECK_FALSE(floors.allows("render", "shape", true));
     CHECK_FALSE(floors.allows("flat", "compile", true));
     CHECK_FALSE(floors.allows("core", "image", true));
@@ -97,17 +97,17 @@ TEST_CASE("An include up the stairs is reported", "[architecture]") {
                           {"include/limn/shape/b.h", "#pragma once\n#include \"limn/core/a.h\"\n"},
                           {"include/limn/limn.h", ""},
                           {"lib/accel/tree.h", "#include \"limn/limn.h\"\n"},
-                          {"lib/shape/b.cpp", "#include \"accel/tree.h\"\n// #include \"kernels/traverse.h\"\n"},
+                          {"lib/shape/b.cpp", "#include \"accel/tree.h\"\n// #include \"trace/traverse.h\"\n"},
                           {"lib/shape/b.h", "  #  include \"accel/tree.h\"\n"},
-                          {"lib/kernels/traverse.h", ""},
-                          {"lib/shape/c.cpp", "#include \"kernels/traverse.h\"\n"},
+                          {"lib/trace/traverse.h", ""},
+                          {"lib/shape/c.cpp", "#include \"trace/traverse.h\"\n"},
                           {"lib/records/record_sink.cpp", "#include \"limn/shape/b.h\"\n"},
                           {"lib/cellar/wine.h", ""}};
     CHECK(check_floors(tree, the_floors()) ==
           Violations{"include/limn/core/a.h:2: core -> shape is no arrow of the floors",
                      "lib/accel/tree.h:1: a room includes the umbrella",
                      "lib/shape/b.h:1: shape -> accel is no arrow of the floors",
-                     "lib/shape/c.cpp:1: shape -> kernels is no arrow of the floors",
+                     "lib/shape/c.cpp:1: shape -> trace is no arrow of the floors",
                      "lib/records/record_sink.cpp:1: record_sink -> shape is no arrow of the floors",
                      "lib/cellar/wine.h:1: the floors do not know the room cellar"});
 }
@@ -183,29 +183,29 @@ TEST_CASE("An object in the flat scene is reported", "[architecture]") {
 
 TEST_CASE("A pointer that reaches beyond its member is reported", "[architecture]") {
     const SourceTree tree{
-        {"lib/kernels/a.h",
+        {"lib/trace/a.h",
          "double d = (&v.x)[axis];\nconst double* p = &ray.origin.x;\nload(&rays[i].direction.x);\nload(&p->y, &x);\n"
          "const float* p = &color.r;\nconst double* q = &hit.u;\n"},
-        {"lib/kernels/b.h",
+        {"lib/trace/b.h",
          "auto* f = reinterpret_cast<const float*>(words);\n"
          "auto* c = reinterpret_cast<const char*>(words);\nauto* g = (&t.row)[1];\nvoid h(int (&row)[2]);\n"},
-        {"lib/kernels/light_choice.cpp",
+        {"lib/shade/light_choice.cpp",
          "g = hn::GatherIndex(Floats(),\n  reinterpret_cast<const float*>(nodes) + i / 4, at);\n"
          "auto* f = reinterpret_cast<const float*>(nodes);\n"},
-        {"lib/kernels/c.h", "bool b = a.y && p.x;\nauto n = bits & m.x;\nauto* q = &x;\nfloat& r = v.x;\n"},
+        {"lib/trace/c.h", "bool b = a.y && p.x;\nauto n = bits & m.x;\nauto* q = &x;\nfloat& r = v.x;\n"},
         {"apps/bench/d.cpp", "double d = (&v.x)[1];\n"}};
     CHECK(check_pointers(tree) ==
-          Violations{"lib/kernels/a.h:1: no pointer to one coordinate reaches another: &v.x",
-                     "lib/kernels/a.h:2: no pointer to one coordinate reaches another: &ray.origin.x",
-                     "lib/kernels/a.h:3: no pointer to one coordinate reaches another: &rays[i].direction.x",
-                     "lib/kernels/a.h:4: no pointer to one coordinate reaches another: &p->y",
-                     "lib/kernels/a.h:5: no pointer to one coordinate reaches another: &color.r",
-                     "lib/kernels/a.h:6: no pointer to one coordinate reaches another: &hit.u",
-                     "lib/kernels/a.h:1: no pointer to a member reaches another: (&v.x)[",
-                     "lib/kernels/b.h:3: no pointer to a member reaches another: (&t.row)[",
-                     "lib/kernels/b.h:1: objects are read as what they are, or as bytes: "
+          Violations{"lib/trace/a.h:1: no pointer to one coordinate reaches another: &v.x",
+                     "lib/trace/a.h:2: no pointer to one coordinate reaches another: &ray.origin.x",
+                     "lib/trace/a.h:3: no pointer to one coordinate reaches another: &rays[i].direction.x",
+                     "lib/trace/a.h:4: no pointer to one coordinate reaches another: &p->y",
+                     "lib/trace/a.h:5: no pointer to one coordinate reaches another: &color.r",
+                     "lib/trace/a.h:6: no pointer to one coordinate reaches another: &hit.u",
+                     "lib/trace/a.h:1: no pointer to a member reaches another: (&v.x)[",
+                     "lib/trace/b.h:3: no pointer to a member reaches another: (&t.row)[",
+                     "lib/trace/b.h:1: objects are read as what they are, or as bytes: "
                      "reinterpret_cast<const float*>",
-                     "lib/kernels/light_choice.cpp:3: objects are read as what they are, or as bytes: "
+                     "lib/shade/light_choice.cpp:3: objects are read as what they are, or as bytes: "
                      "reinterpret_cast<const float*>"});
 }
 

@@ -8,7 +8,7 @@
 #include "catch.h"
 #include "figures.h"
 #include "limn/core/error.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 
 using namespace limn;
 using Json = nlohmann::json;

@@ -1,6 +1,6 @@
 // The compiled scene finds what the described objects find: the same object, element, t, u and v, bit for bit.
 #include "catch.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 

@@ -3,7 +3,7 @@
 
 #include "catch.h"
 #include "flat/scene.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 

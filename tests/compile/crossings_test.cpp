@@ -4,8 +4,8 @@
 
 #include "catch.h"
 #include "compile/compile.h"
-#include "kernels/traverse.h"
-#include "limn/render/compiled_scene.h"
+#include "trace/traverse.h"
+#include "limn/query/compiled_scene.h"
 #include "property.h"
 #include "support/grid.h"
 #include "support/scene_zoo.h"
@@ -13,7 +13,7 @@
 
 using namespace limn;
 using namespace limn::test;
-using kernels::Crossing;
+using trace::Crossing;
 
 namespace {
 
@@ -23,7 +23,7 @@ flat::Scene flatten(const std::vector<Object>& objects) { return compiler::flatt
 
 std::vector<Crossing> crossings(const flat::Scene& scene, const Ray& ray, std::size_t medium = 0) {
     std::vector<Crossing> found{{7, true}};  // to be replaced
-    kernels::crossings(scene, scene.media.at(medium), ray, found);
+    trace::crossings(scene, scene.media.at(medium), ray, found);
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
     return found;
 }
@@ -81,7 +81,7 @@ TEST_CASE("Crossings: the same as by asking the described boundary again and aga
             const auto expected = walk(*boundary, ray);
             tally.hits += expected.size();
             if (!same(crossings(scene, ray), expected)) tally.fault(ray, "other crossings");
-            const flat::RawHit first = kernels::closest_boundary(scene, scene.media[0], ray);
+            const flat::RawHit first = trace::closest_boundary(scene, scene.media[0], ray);
             if (expected.empty() ? first.primitive != flat::RawHit::kMiss : first.t != expected[0].t)
                 tally.fault(ray, "another first boundary");
         }
@@ -149,7 +149,7 @@ TEST_CASE("Crossings: each medium of a scene has its own, wherever instances put
     CHECK(scene.media[0].bounds.contains(Box{{-2, 18, -2}, {2, 22, 2}}));
     CHECK(Box{{-2.1, 17.9, -2.1}, {2.1, 22.1, 2.1}}.contains(scene.media[0].bounds));
     const auto number = [&](std::size_t medium, double y) {
-        return kernels::closest_boundary(scene, scene.media[medium], {.origin = {0, y, 9}, .direction = {0, 0, -1}})
+        return trace::closest_boundary(scene, scene.media[medium], {.origin = {0, y, 9}, .direction = {0, 0, -1}})
             .primitive;
     };
     CHECK((number(0, 20) == 2 && number(1, 0) == 3));
@@ -174,10 +174,10 @@ TEST_CASE("are_occluded: boundaries that light passes straight through stop noth
     const Ray ray{.origin = {0, 0, 9}, .direction = {0, 0, -1}};
     const auto occluded = [&](const std::vector<Object>& objects, const Ray& r) {
         std::uint8_t found = 0;
-        kernels::are_occluded(flatten(objects), std::span(&r, 1), &found);
+        trace::are_occluded(flatten(objects), std::span(&r, 1), &found);
         return found != 0;
     };
-    const auto any = [&](const std::vector<Object>& objects) { return kernels::any_hit(flatten(objects), ray); };
+    const auto any = [&](const std::vector<Object>& objects) { return trace::any_hit(flatten(objects), ray); };
     CHECK_FALSE(occluded({boundary}, ray));
     CHECK(any({boundary}));  // which asks for surfaces of any kind
     CHECK_FALSE(occluded({fog(ball({}, 2))}, ray));

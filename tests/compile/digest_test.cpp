@@ -7,7 +7,7 @@
 #include "limn/material/dielectric.h"
 #include "limn/material/isotropic.h"
 #include "limn/material/metal.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"

@@ -6,7 +6,7 @@
 
 #include "catch.h"
 #include "limn/material/lambertian.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"
 #include "limn/texture/image_texture.h"

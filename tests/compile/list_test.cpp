@@ -1,7 +1,7 @@
 // Scenes of few primitives, which are listed: what stands in the list, and that all are asked as through a tree.
 #include "catch.h"
 #include "flat/scene.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 

@@ -1,7 +1,7 @@
 // Scenes that nest, repeat and reach without end.
 #include "catch.h"
 #include "limn/core/error.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"
 #include "limn/shape/quad.h"

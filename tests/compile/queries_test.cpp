@@ -1,7 +1,7 @@
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/material/diffuse_light.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/texture/checker.h"
 #include "support/scene_zoo.h"
 

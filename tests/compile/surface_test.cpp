@@ -1,6 +1,6 @@
 // surface_at(): how far off the true surface the position may be, and which side is which.
 #include "catch.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "support/real.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"

@@ -7,7 +7,7 @@
 #include "compile/compile.h"
 #include "limn/core/error.h"
 #include "limn/material/diffuse_light.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
 #include "support/scene_zoo.h"

@@ -160,17 +160,17 @@ TEST_CASE("side_of: spheres that it says a ray leaves or ends before are not met
         const SphereHits exact = exact_sphere(c, r, frame, nullptr, nullptr, {0, ray.t_max});
         const SphereHits ever = exact_sphere(c, r, frame, nullptr, nullptr, {-kInfinity, kInfinity});
         PlanarHit hit{};
-        switch (kernels::side_of(c, r, ray)) {
-            case kernels::Side::missed:
+        switch (side_of(c, r, ray)) {
+            case Side::missed:
                 ++missed;
                 wrong += exact.near_found || exact.far_found;
                 wrong += intersect(sphere_of<double>(c, r), frame, {0, ray.t_max}, hit);
                 break;
-            case kernels::Side::inside:
+            case Side::inside:
                 ++inside;
                 wrong += !ever.near_found || !ever.far_found || ever.near > 0 || ever.far < 0;
                 break;
-            case kernels::Side::unknown: ++unknown; break;
+            case Side::unknown: ++unknown; break;
         }
     }
     CHECK(wrong == 0);

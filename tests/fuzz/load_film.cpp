@@ -18,6 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     });
     limn::fuzz::attempt<limn::Error>([&] { limn::Film::merge(paths).image(); });
     limn::fuzz::attempt<limn::Error>(
-        [&] { limn::tracing::FilmReader(paths[0], limn::tracing::FilmContent::plan).finish(); });
+        [&] { limn::transport::FilmReader(paths[0], limn::transport::FilmContent::plan).finish(); });
     return 0;
 }

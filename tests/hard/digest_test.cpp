@@ -6,10 +6,9 @@
 #include <cstdio>
 
 #include "catch.h"
-#include "compile/compile.h"
 #include "flat/scene.h"
 #include "hard/corpus.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -181,9 +180,9 @@ TEST_CASE("Digest: so does a mesh that is larger than the cache", "[hard][digest
     for (std::size_t i = 0; i < data.vertices.size(); i += 97)
         corpus.points.push_back(vertex(data, static_cast<std::uint32_t>(i)));
     corpus.balls.push_back({{0, 0, 0}, 3});
-    auto flat = std::make_unique<flat::Scene>(compiler::flatten(corpus.scene));
-    CHECK(flat->is_larger_than_cache);
-    check_part(kLargeMesh, CompiledScene(std::move(flat)), corpus, random, /*ask_described*/ false);
+    const CompiledScene compiled = compile(corpus.scene);
+    CHECK(compiled.flat().is_larger_than_cache);
+    check_part(kLargeMesh, compiled, corpus, random, /*ask_described*/ false);
 }
 
 TEST_CASE("Digest: the described objects answer them with the same bits as the compiled scene", "[hard][digest]") {

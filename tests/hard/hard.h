@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/shape/hittable_list.h"
 #include "support/exact_truth.h"
 #include "support/tally.h"

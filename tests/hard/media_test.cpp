@@ -7,8 +7,8 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::FreeFlight;
-using tracing::MediaAlongRay;
+using transport::FreeFlight;
+using transport::MediaAlongRay;
 
 namespace {
 

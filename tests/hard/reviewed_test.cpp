@@ -3,7 +3,7 @@
 
 #include "catch.h"
 #include "limn/core/error.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/shape/bvh.h"
 #include "limn/shape/hittable_list.h"
 #include "limn/shape/instance.h"

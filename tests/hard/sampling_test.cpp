@@ -12,18 +12,18 @@
 #include "render/light_sampling.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "render/spherical_rectangle.h"
+#include "sampling/spherical_rectangle.h"
 #include "support/chi_square.h"
 #include "support/pictures.h"
 #include "support/real.h"
 
 using namespace limn;
 using namespace limn::test;
-using tracing::LightSample;
-using tracing::pdf_light;
-using tracing::sample_light;
-using tracing::Sampler;
-using tracing::SphericalRectangle;
+using transport::LightSample;
+using transport::pdf_light;
+using transport::sample_light;
+using transport::Sampler;
+using sampling::SphericalRectangle;
 
 namespace {
 
@@ -248,16 +248,16 @@ TEST_CASE("Media: free paths are exponential in mean and distribution, and so is
     // One endless medium of extinction 2, at depth 0 from the start.
     const Object fog = std::make_shared<ConstantMedium>(sphere({0, 0, 0}, 1e6, nullptr), 2, Color{1, 1, 1});
     const CompiledScene scene = compile_with(sky(0), {fog});
-    tracing::MediaAlongRay media;
+    transport::MediaAlongRay media;
     media.trace(scene.flat(), {.origin = {0, 0, 0}, .direction = {0, 3, 0}});
     const int draws = count(1e8);
     KolmogorovSmirnov whole, tail;
     double sum = 0, tail_sum = 0;
     int missing = 0;
     for (int i = 0; i < draws; ++i) {
-        tracing::Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
+        transport::Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
         const double u = sampler.next(), in_tail = 1 - std::ldexp(1 - sampler.next(), -24);
-        const tracing::FreeFlight path = media.sample(-std::log1p(-u), 0.5),
+        const transport::FreeFlight path = media.sample(-std::log1p(-u), 0.5),
                                   far = media.sample(-std::log1p(-in_tail), 0.5);
         if (!path.scatters || !far.scatters) {
             ++missing;

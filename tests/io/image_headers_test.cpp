@@ -1,7 +1,7 @@
 // No decoder is handed a file whose format was not told by its contents and whose header was not checked: decoders
 // believe what a header says, and take memory for it, or write beyond their arrays.
-#include "io/exr_header.h"
 #include "io/file_kind.h"
+#include "io/picture_checks.h"
 #include "judge_image.h"
 #include "make_png.h"
 #include "peak_memory.h"
@@ -39,7 +39,12 @@ std::string exr(const std::string& attributes, char flags = 0, std::size_t behin
     return "\x76\x2f\x31\x01\x02" + std::string(1, flags) + zeros(2) + attributes + zeros(1) + zeros(behind);
 }
 
-std::string fault_of(const std::string& file) { return exr_fault(std::as_bytes(std::span(file))); }
+std::string fault_of(const std::string& file) try {
+    check_exr(std::as_bytes(std::span(file)));
+    return "";
+} catch (const Fault& fault) {
+    return fault.text;
+}
 
 }  // namespace
 

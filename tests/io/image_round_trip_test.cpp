@@ -6,7 +6,7 @@
 
 #include "catch.h"
 #include "formats.h"
-#include "io/png_chunks.h"
+#include "io/picture_checks.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
 #include "support/folder.h"

@@ -70,22 +70,22 @@ TEST_CASE("Determinism: a path is the same alone and among any number of others"
     const CompiledScene scene = busy_scene();
     const CameraRays camera(kView, 40, 40);
     const auto path_of = [&](std::uint64_t i) {
-        return tracing::Path{
-            tracing::Sampler(3, i, 1),
+        return transport::Path{
+            transport::Sampler(3, i, 1),
             camera.ray(static_cast<double>(i % 40) + 0.3, static_cast<double>(i / 40) + 0.6, 0, 0, 0.4)};
     };
     std::vector<Color> alone;
     for (std::uint64_t i = 0; i < 1600; ++i) {
-        tracing::PathTracer tracer(scene.flat(), 8, Estimator::path);
-        tracing::Path path = path_of(i);
+        transport::PathTracer tracer(scene.flat(), 8, Estimator::path);
+        transport::Path path = path_of(i);
         tracer.trace({&path, 1});
         alone.push_back(path.radiance);
     }
     for (const std::size_t together : {2u, 17u, 300u, 1600u}) {
-        tracing::PathTracer tracer(scene.flat(), 8, Estimator::path);
+        transport::PathTracer tracer(scene.flat(), 8, Estimator::path);
         std::size_t differing = 0;
         for (std::size_t first = 0; first < alone.size(); first += together) {
-            std::vector<tracing::Path> paths;
+            std::vector<transport::Path> paths;
             for (std::size_t i = first; i < std::min(first + together, alone.size()); ++i) paths.push_back(path_of(i));
             tracer.trace(paths);
             for (std::size_t i = 0; i < paths.size(); ++i) differing += paths[i].radiance != alone[first + i];

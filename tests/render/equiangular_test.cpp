@@ -11,13 +11,13 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::Equiangular;
+using transport::Equiangular;
 
 namespace {
 
 struct Case {
     Ray ray;
-    tracing::Stretch stretch{};
+    transport::Stretch stretch{};
     Point3 pivot;
     double least_height = 0;
 

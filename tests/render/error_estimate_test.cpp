@@ -8,7 +8,7 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::estimate_error;
+using transport::estimate_error;
 
 namespace {
 
@@ -144,7 +144,7 @@ TEST_CASE("Error estimate: true over estimated error of n equal pixels is spread
         CAPTURE(row.values);
         const boost::math::fisher_f f(row.values, row.values);
         const double quantile = std::log(boost::math::quantile(f, 0.975));
-        CHECK(1.959964 * tracing::ratio_deviation(row.values) == Approx(quantile).epsilon(row.tolerance));
+        CHECK(1.959964 * transport::ratio_deviation(row.values) == Approx(quantile).epsilon(row.tolerance));
     }
 }
 
@@ -152,13 +152,13 @@ TEST_CASE("Error estimate: one noisy pixel is worth one value, ten thousand with
           "[render][estimate]") {
     const auto width_of = [](const ErrorEstimate& e) { return std::log(e.ci95_high / e.estimate); };
     const Film one = with_one_pixel(8, 8, {11, 10, 10, 9, 11, 9, 10, 10}, 1);
-    CHECK(width_of(estimate_error(one)) >= 1.959964 * tracing::ratio_deviation(1) * (1 - 1e-9));
+    CHECK(width_of(estimate_error(one)) >= 1.959964 * transport::ratio_deviation(1) * (1 - 1e-9));
     Random random(12);
     Film equal(100, 100);
     for (int y = 0; y < 100; ++y)
         for (int x = 0; x < 100; ++x)
             for (int i = 0; i < 8; ++i) equal.add(x, y, grey_of(1000 + normal(random)));
-    const double width = width_of(estimate_error(equal)), ideal = 1.959964 * tracing::ratio_deviation(1e4);
+    const double width = width_of(estimate_error(equal)), ideal = 1.959964 * transport::ratio_deviation(1e4);
     // No more values count than there are pixels. The sum of squares counts as a standard error larger; where noise
     // makes pixels differ by chance, these count by their own squares.
     CHECK(width >= ideal * (1 - 1e-9));
@@ -241,21 +241,21 @@ TEST_CASE("Error estimate: the pixels' own errors have the estimate as their mea
         for (const float v : maps.error) sum += v;
         CHECK(sum / 35 == Approx(e.estimate).epsilon(1e-6));
         CHECK((maps.samples[0] == 8 && maps.samples[1] == 12 && maps.samples[7] == 8));
-        CHECK(tracing::check_error(film).estimate == e.estimate);
-        CHECK(tracing::check_error(film).ci95_high == e.ci95_high);
+        CHECK(transport::check_error(film).estimate == e.estimate);
+        CHECK(transport::check_error(film).ci95_high == e.ci95_high);
     }
 }
 
 TEST_CASE("Checks: they come in multiples of two, close to each other where the target may be near",
           "[render][estimate]") {
-    CHECK(tracing::next_check(0, kInfinity, 1) == 8);
-    CHECK(tracing::next_check(7, std::nan(""), 1) == 8);
+    CHECK(transport::next_check(0, kInfinity, 1) == 8);
+    CHECK(transport::next_check(7, std::nan(""), 1) == 8);
     for (const double ratio : {0.5, 1.0, 1.01, 1.2, 1.5, 2.0, 100.0, double{kInfinity}, std::nan("")}) {
         CAPTURE(ratio);
         int last_milestone = 8;
         for (int samples = 8; samples < 200000;) {
-            if (tracing::is_milestone(samples)) last_milestone = samples;
-            const int next = tracing::next_check(samples, ratio, 1);
+            if (transport::is_milestone(samples)) last_milestone = samples;
+            const int next = transport::next_check(samples, ratio, 1);
             CHECK(next % 2 == 0);
             CHECK(next >= samples + 2);
             CHECK(next <= std::max(samples * 1.25, samples + 2.0));
@@ -265,41 +265,41 @@ TEST_CASE("Checks: they come in multiples of two, close to each other where the 
             samples = next;
         }
     }
-    CHECK(tracing::next_check(std::numeric_limits<int>::max() - 7, 4, 1) > 0);
-    CHECK(tracing::next_check(std::numeric_limits<int>::max() - 7, 1, 1) > 0);
+    CHECK(transport::next_check(std::numeric_limits<int>::max() - 7, 4, 1) > 0);
+    CHECK(transport::next_check(std::numeric_limits<int>::max() - 7, 1, 1) > 0);
 }
 
 TEST_CASE("Checks: milestones are the same whatever the target, and what is checked depends on no other check",
           "[render][estimate]") {
     std::vector<int> milestones;
-    for (int samples = 8; samples < 100000; samples = tracing::next_check(samples, kInfinity, 1))
+    for (int samples = 8; samples < 100000; samples = transport::next_check(samples, kInfinity, 1))
         milestones.push_back(samples);
     CHECK((milestones[0] == 8 && milestones[1] == 10));
     for (std::size_t i = 0; i + 1 < milestones.size(); ++i) {
         for (const double ratio : {0.5, 1.0, 3.0}) {
             int samples = milestones[i];
             while (samples < milestones[i + 1]) {
-                CHECK(tracing::is_milestone(samples) == (samples == milestones[i]));
-                samples = tracing::next_check(samples, ratio, 1);
+                CHECK(transport::is_milestone(samples) == (samples == milestones[i]));
+                samples = transport::next_check(samples, ratio, 1);
             }
             CHECK(samples == milestones[i + 1]);
         }
         // From between two checks the next one is the same.
-        const int next = tracing::next_check(milestones[i], 1, 1);
-        for (int samples = milestones[i]; samples < next; ++samples) CHECK(tracing::next_check(samples, 1, 1) == next);
+        const int next = transport::next_check(milestones[i], 1, 1);
+        for (int samples = milestones[i]; samples < next; ++samples) CHECK(transport::next_check(samples, 1, 1) == next);
     }
 }
 
 TEST_CASE("Rounds: further than checks, but never beyond the target", "[render][estimate]") {
     for (const int samples : {8, 30, 1000})
         for (const double ratio : {1.01, 1.3, 4.0, 12.0}) {
-            const int next = tracing::next_round(samples, ratio, 1);
+            const int next = transport::next_round(samples, ratio, 1);
             CHECK(next % 2 == 0);
             CHECK(next >= samples + 2);
             CHECK(next <= std::max(samples + 2.0, samples * std::max(1.05, std::sqrt(ratio))));
         }
-    CHECK(tracing::next_round(100, 1e9, 1) == 400);
-    CHECK(tracing::next_round(100, kInfinity, 1) == 200);
+    CHECK(transport::next_round(100, 1e9, 1) == 400);
+    CHECK(transport::next_round(100, kInfinity, 1) == 200);
 }
 
 TEST_CASE("Error estimate: the largest share of a sample is that of the pixel behind 99.9 % of the others",

@@ -7,10 +7,10 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::choose_light;
-using tracing::LightChoice;
-using tracing::probability_of;
-using tracing::Receiver;
+using transport::choose_light;
+using transport::LightChoice;
+using transport::probability_of;
+using transport::Receiver;
 
 namespace {
 

@@ -9,9 +9,9 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::LightSample;
-using tracing::pdf_light;
-using tracing::sample_light;
+using transport::LightSample;
+using transport::pdf_light;
+using transport::sample_light;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Vertices shaded side by side: the same as one by one, whatever the vectors and the company.
-#include "kernels/lobes.h"
+#include "shade/lobes.h"
 
 #include <array>
 
@@ -8,34 +8,34 @@
 #include "bsdf/lambertian.h"
 #include "catch.h"
 #include "core/spawn.h"
-#include "kernels/targets.h"
 #include "limn/limn.h"
 #include "render/direct_light.h"
 #include "render/light_sampling.h"
 #include "render/sampler.h"
 #include "support/random_geometry.h"
+#include "trace/targets.h"
 
 using namespace limn;
 using namespace limn::test;
 using flat::Light;
 using flat::LightKind;
-using kernels::kShaded;
-using kernels::Lobe;
-using kernels::VertexLanes;
-using tracing::Sampler;
+using sampling::kShaded;
+using shade::Lobe;
+using shade::VertexLanes;
+using transport::Sampler;
 
 namespace {
 
 // Runs check(name) on each instruction set that this processor has, and goes back to the best.
 template <class Check>
 void on_every_target(const Check& check) {
-    const std::vector<std::string> names = kernels::targets();
+    const std::vector<std::string> names = trace::targets();
     for (const std::string& name : names) {
-        REQUIRE(kernels::force_target(name));
+        REQUIRE(trace::force_target(name));
         INFO(name);
         check();
     }
-    kernels::force_target(names.front());
+    trace::force_target(names.front());
 }
 
 Light random_light(Random& random) {
@@ -119,14 +119,14 @@ std::array<double, 20> answers(const VertexLanes& v, std::size_t i) {
                                v.direction.y[i], v.direction.z[i], lit,           bit(v.open)};
     std::size_t n = 10;
     if (lit == 0) return all;
-    for (const kernels::Lanes3* three : {&v.arriving, &v.shadow_origin, &v.shadow_direction})
+    for (const shade::Lanes3* three : {&v.arriving, &v.shadow_origin, &v.shadow_direction})
         for (const double x : {three->x[i], three->y[i], three->z[i]}) all[n++] = x;
     return all;
 }
 
-void shade(Lobe lobe, VertexLanes& lanes) {
-    kernels::scatter(lobe, lanes);
-    if (lobe != Lobe::dielectric) kernels::sample_lights(lobe, lanes);
+void shade_vertices(Lobe lobe, VertexLanes& lanes) {
+    shade::scatter(lobe, lanes);
+    if (lobe != Lobe::dielectric) shade::sample_lights(lobe, lanes);
 }
 
 }  // namespace
@@ -135,14 +135,14 @@ TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][s
     const SamplerKind kind = GENERATE(SamplerKind::sobol, SamplerKind::independent);
     on_every_target([kind] {
         std::size_t wrong = 0;
-        kernels::SobolLanes room;
-        kernels::Lane numbers[5];
+        sampling::SobolLanes room;
+        sampling::Lane numbers[5];
         for (std::uint64_t round = 0; round < 40; ++round) {
             std::vector<Sampler> samplers;
             const std::size_t count = round < kShaded ? round + 1 : kShaded;
             for (std::uint64_t i = 0; i < count; ++i) {
                 samplers.emplace_back(round, i, (i * i + round) << (i % 24), kind);
-                samplers.back().seek(static_cast<int>(i % 7), static_cast<tracing::Use>(i % 4));
+                samplers.back().seek(static_cast<int>(i % 7), static_cast<transport::Use>(i % 4));
             }
             std::vector<Sampler> alone = samplers;
             const auto at = [&](std::size_t i) -> Sampler& { return samplers[i]; };
@@ -175,7 +175,7 @@ TEST_CASE("Lobes: vertices scatter as their materials do", "[render][shading][lo
         std::size_t directions = 0, densities = 0, origins = 0, absorbed = 0;
         for (int round = 0; round < 2000; ++round) {
             Scenery s(random, lobe);
-            kernels::scatter(lobe, s.lanes);
+            shade::scatter(lobe, s.lanes);
             for (std::size_t i = 0; i < kShaded; ++i) {
                 const auto alone = s.sample(lobe, i);
                 const Vec3 in = s.lanes.direction.get<Vec3>(i);
@@ -208,7 +208,7 @@ TEST_CASE("Lobes: vertices draw light as one by one, or leave it to that", "[ren
         std::size_t lights = 0, rays = 0, missing = 0, left = 0, lit = 0, dark = 0;
         for (int round = 0; round < 2000; ++round) {
             Scenery s(random, lobe);
-            kernels::sample_lights(lobe, s.lanes);
+            shade::sample_lights(lobe, s.lanes);
             for (std::size_t i = 0; i < kShaded; ++i) {
                 const VertexLanes& v = s.lanes;
                 const bool is_lit = v.lit >> i & 1, is_open = v.open >> i & 1;
@@ -222,8 +222,8 @@ TEST_CASE("Lobes: vertices draw light as one by one, or leave it to that", "[ren
                     continue;
                 }
                 const Surface at = s.surface(i);
-                const auto drawn = tracing::sample_chosen_light(none, light, v.probability[i], {at.position, {}}, 0,
-                                                                v.numbers[1][i], v.numbers[2][i]);
+                const auto drawn = transport::sample_chosen_light(none, light, v.probability[i], {at.position, {}}, 0,
+                                                                  v.numbers[1][i], v.numbers[2][i]);
                 const ScatterValue f = drawn ? s.value(lobe, i, drawn->direction) : ScatterValue{};
                 if (is_lit != !is_black(f.value)) {
                     missing += f.pdf > 1e-9;
@@ -231,7 +231,7 @@ TEST_CASE("Lobes: vertices draw light as one by one, or leave it to that", "[ren
                 }
                 ++(is_lit ? lit : dark);
                 if (!is_lit) continue;
-                const double weight = tracing::power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
+                const double weight = transport::power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
                 const Color wanted = f.value * v.emission.get<Color>(i) * weight;
                 // A cosine near 0 has lost digits; so has a place on a light seen almost edge-on, or at its rim.
                 const double tolerance = 1e-9 + 1e-13 / f.pdf;
@@ -264,18 +264,18 @@ TEST_CASE("Lobes: a vertex gets the same bits alone, in any company and on any i
         for (int round = 0; round < 200; ++round) {
             Scenery s(random, lobe);
             VertexLanes alone = s.lanes;
-            shade(lobe, s.lanes);
+            shade_vertices(lobe, s.lanes);
             for (std::size_t i = 0; i < kShaded; ++i) together.push_back(answers(s.lanes, i));
             // In the first lane, on their own.
             alone.count = 1;
             const std::size_t at = random.index(kShaded);
             alone.eta[0] = alone.eta[at], alone.exact_fresnel[0] = alone.exact_fresnel[at];
-            for (kernels::Lanes3* three : {&alone.out, &alone.position, &alone.position_error, &alone.normal,
-                                           &alone.shading_normal, &alone.albedo, &alone.emission})
+            for (shade::Lanes3* three : {&alone.out, &alone.position, &alone.position_error, &alone.normal,
+                                         &alone.shading_normal, &alone.albedo, &alone.emission})
                 three->set(0, three->get<Vec3>(at));
             for (auto& number : alone.numbers) number[0] = number[at];
             alone.light[0] = alone.light[at], alone.probability[0] = alone.probability[at];
-            shade(lobe, alone);
+            shade_vertices(lobe, alone);
             differing += answers(alone, 0) != answers(s.lanes, at);
         }
         CHECK(differing == 0);
@@ -305,11 +305,11 @@ TEST_CASE("Lobes: many vertices at once choose the lights that each chooses alon
         for (int round = 0; round < 300; ++round) {
             Scenery s(random, lobe);
             s.lanes.count = 1 + random.index(kShaded);
-            std::array<tracing::LightChoice, kShaded> together;
-            tracing::choose_lights(lights, lobe, s.lanes, together.data());
+            std::array<transport::LightChoice, kShaded> together;
+            transport::choose_lights(lights, lobe, s.lanes, together.data());
             for (std::size_t i = 0; i < s.lanes.count; ++i) {
-                const tracing::Receiver receiver{s.lanes.position.get<Point3>(i), s.lanes.normal.get<Vec3>(i)};
-                const auto alone = tracing::choose_light(lights, receiver, s.lanes.numbers[0][i]);
+                const transport::Receiver receiver{s.lanes.position.get<Point3>(i), s.lanes.normal.get<Vec3>(i)};
+                const auto alone = transport::choose_light(lights, receiver, s.lanes.numbers[0][i]);
                 none += !alone;
                 wrong += alone ? alone->rank != together[i].rank || alone->probability != together[i].probability
                                : together[i].probability != 0;

@@ -14,7 +14,7 @@ Object smoke(const Object& boundary) { return std::make_shared<ConstantMedium>(b
 // How much of a ray lies in media of extinction 1.
 double depth_along(const Ray& ray, const Object& object) {
     const CompiledScene scene = compile_with(sky(0), {object});
-    tracing::MediaAlongRay media;
+    transport::MediaAlongRay media;
     media.trace(scene.flat(), ray);
     return -std::log(media.transmittance());
 }

@@ -9,8 +9,8 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::PathTracer;
-using tracing::Sampler;
+using transport::PathTracer;
+using transport::Sampler;
 
 namespace {
 

@@ -9,8 +9,8 @@ using namespace limn;
 using namespace limn::test;
 using flat::Light;
 using flat::LightKind;
-using tracing::pdf_planar;
-using tracing::sample_planar;
+using transport::pdf_planar;
+using transport::sample_planar;
 
 namespace {
 

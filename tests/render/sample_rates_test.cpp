@@ -31,7 +31,7 @@ Film piloted(int width, int height, const Noise& noise, std::uint64_t seed = 1) 
 
 // Row by row.
 std::vector<float> rates_of(const Film& film) {
-    const std::vector<float> rates = tracing::sample_rates(film);
+    const std::vector<float> rates = transport::sample_rates(film);
     std::vector<float> rows;
     for (int y = 0; y < film.height(); ++y)
         for (int x = 0; x < film.width(); ++x) rows.push_back(rates[film.place(x, y)]);
@@ -76,7 +76,7 @@ TEST_CASE("Sample rates: they grow as the standard deviation, and none falls und
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 96; ++x) {
             const double rate = rates[static_cast<std::size_t>(96 * y + x)];
-            CHECK(rate >= tracing::kSmallestRate);
+            CHECK(rate >= transport::kSmallestRate);
             if (x % 32 >= 3 && x % 32 < 29) sums[x / 32] += rate / (26 * 32);
         }
     CHECK(std::abs(sums[0] - 0.25) < 1e-9);
@@ -90,7 +90,7 @@ TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[re
     for (int i = 0; i < SamplePlan::kFirstPass; ++i) film.add(7, 7, Color{1, 1, 1} * (i == 0 ? 1e4 : 1));
     const std::vector<float> after = rates_of(film);
     // All of the others share one factor, that of the mean, which the pixels around it have moved.
-    const auto noise = [](float rate) { return rate - tracing::kSmallestRate; };
+    const auto noise = [](float rate) { return rate - transport::kSmallestRate; };
     const double factor = noise(after[0]) / noise(before[0]);
     CHECK(factor < 0.9);
     CHECK(std::abs(noise(after[7 * 15 + 7]) / noise(before[7 * 15 + 7]) / factor - 1) < 1e-4);
@@ -102,12 +102,12 @@ TEST_CASE("Sample plans: the mean is what was asked for, and no pixel loses samp
     const bool exact = GENERATE(false, true);
     SamplePlan plan;
     const Film film = piloted(width, height, [](int x, int) { return x < 6 ? 0.01 : 0.5; });
-    plan.rates = tracing::sample_rates(film);
+    plan.rates = transport::sample_rates(film);
     std::vector<std::uint32_t> before(film.pixels(), SamplePlan::kFirstPass);
     for (const int samples : {8, 9, 12, 17, 20, 64, 65, 131, 1000, 100000}) {
         CAPTURE(samples);
         plan.samples = samples;
-        plan.scale = tracing::scale_for(film, plan.rates, samples, exact);
+        plan.scale = transport::scale_for(film, plan.rates, samples, exact);
         double sum = 0;
         bool grows = true, is_even = true, is_near = true;
         for (std::size_t i = 0; i < before.size(); ++i) {

@@ -7,8 +7,8 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::Sampler;
-using tracing::Use;
+using transport::Sampler;
+using transport::Use;
 
 namespace {
 

@@ -120,7 +120,7 @@ TEST_CASE("Shading: a packed texture has the described one's value, bit for bit"
         for (std::size_t i = 0; i < described.size(); ++i) {
             Surface s = random_surface(random);
             s.material = packed.rows[i];
-            RC_ASSERT(tracing::emitted(packed.scene.flat(), s) == described[i]->value(s));
+            RC_ASSERT(transport::emitted(packed.scene.flat(), s) == described[i]->value(s));
         }
     });
 }
@@ -139,11 +139,11 @@ TEST_CASE("Shading: a packed material emits, samples and scatters as the describ
             const Vec3 out = above(random, s), in = random.unit();
             const double x = random.uniform(), y = random.uniform();
             const Random3 r{x, y, random.uniform()};
-            RC_ASSERT(tracing::emitted(scene, s) == described[i]->emitted(s));
-            RC_ASSERT(same(tracing::sample_material(scene, s, out, r), described[i]->sample(s, out, r)));
-            const ScatterValue a = tracing::material_value(scene, s, out, in), b = described[i]->value(s, out, in);
+            RC_ASSERT(transport::emitted(scene, s) == described[i]->emitted(s));
+            RC_ASSERT(same(transport::sample_material(scene, s, out, r), described[i]->sample(s, out, r)));
+            const ScatterValue a = transport::material_value(scene, s, out, in), b = described[i]->value(s, out, in);
             RC_ASSERT(a.value == b.value && a.pdf == b.pdf);
-            if (!is_black(b.value)) RC_ASSERT(tracing::can_be_evaluated(scene, s.material));
+            if (!is_black(b.value)) RC_ASSERT(transport::can_be_evaluated(scene, s.material));
         }
     });
 }
@@ -153,7 +153,7 @@ TEST_CASE("Shading: lights are sampled for what scatters into more than a direct
     const bool expected[] = {true, false, true, true, false, false, false, true, true};
     for (std::size_t i = 0; i < packed.rows.size(); ++i) {
         CAPTURE(i);
-        CHECK(tracing::can_be_evaluated(packed.scene.flat(), packed.rows[i]) == expected[i]);
+        CHECK(transport::can_be_evaluated(packed.scene.flat(), packed.rows[i]) == expected[i]);
     }
 }
 
@@ -162,20 +162,20 @@ TEST_CASE("Shading: a surface without a material neither emits nor scatters", "[
     const flat::Scene& scene = packed.scene.flat();
     Surface s;
     s.normal = s.shading_normal = {0, 0, 1};
-    CHECK(is_black(tracing::emitted(scene, s)));
-    CHECK_FALSE(tracing::sample_material(scene, s, {0, 0, 1}, {0.5, 0.5, 0.5}));
-    CHECK(is_black(tracing::material_value(scene, s, {0, 0, 1}, {0, 0, 1}).value));
-    CHECK_FALSE(tracing::can_be_evaluated(scene, s.material));
+    CHECK(is_black(transport::emitted(scene, s)));
+    CHECK_FALSE(transport::sample_material(scene, s, {0, 0, 1}, {0.5, 0.5, 0.5}));
+    CHECK(is_black(transport::material_value(scene, s, {0, 0, 1}, {0, 0, 1}).value));
+    CHECK_FALSE(transport::can_be_evaluated(scene, s.material));
 }
 
 TEST_CASE("Shading: a ray that meets nothing brings the background of its direction, to the bit", "[render]") {
     const Background background = Background::gradient({0.9, 0.1, 0.2}, {0, 0.3, 0.8});
     const CompiledScene scene = compile_with(background, {});
-    tracing::PathTracer tracer(scene.flat(), 1, Estimator::path);
+    transport::PathTracer tracer(scene.flat(), 1, Estimator::path);
     Random random(17);
     for (std::uint64_t i = 0; i < 100; ++i) {
         const Vec3 direction = random.unit();
-        tracing::Sampler numbers(1, 2, i);
+        transport::Sampler numbers(1, 2, i);
         CHECK(tracer.radiance(Ray{{1, 2, 3}, direction}, numbers) == background.radiance(direction));
     }
 }

@@ -15,10 +15,10 @@ inline const Vec3 kOut = normalize(Vec3{0, 0.4, 0.3});
 /// The mean radiance of all channels over samples of one ray, and its standard error.
 inline Measured along(const CompiledScene& scene, const Ray& ray, int depth, Estimator estimator,
                       std::uint64_t samples) {
-    tracing::PathTracer tracer(scene.flat(), depth, estimator);
+    transport::PathTracer tracer(scene.flat(), depth, estimator);
     double sum = 0, squares = 0;
     for (std::uint64_t i = 0; i < samples; ++i) {
-        tracing::Sampler sampler(300, i, 0);
+        transport::Sampler sampler(300, i, 0);
         const Color c = tracer.radiance(ray, sampler);
         const double value = (c.r + c.g + c.b) / 3;
         sum += value, squares += value * value;

@@ -1,6 +1,6 @@
 // Owen-scrambled Sobol points: against Boost's sequence, against the definition of a net, and by how fast sums
 // converge.
-#include "core/sobol.h"
+#include "sampling/sobol.h"
 
 #include <boost/random/sobol.hpp>
 #include <functional>
@@ -12,7 +12,7 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::Sampler;
+using transport::Sampler;
 
 namespace {
 
@@ -26,7 +26,7 @@ std::array<std::uint32_t, sobol::kDimensions> point(std::uint32_t index) {
 // Number `sample` of the group that this vertex scatters by.
 std::array<double, 5> numbers(std::uint64_t pixel, std::uint64_t sample, int vertex = 1) {
     Sampler sampler(17, pixel, sample);
-    sampler.seek(vertex, tracing::Use::scattering);
+    sampler.seek(vertex, transport::Use::scattering);
     return sampler.next_5d();
 }
 

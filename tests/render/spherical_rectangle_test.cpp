@@ -1,5 +1,5 @@
 // The rectangle on the sphere of directions: its area there, and that samples divide it as they should.
-#include "render/spherical_rectangle.h"
+#include "sampling/spherical_rectangle.h"
 
 #include "limn/core/frame.h"
 #include "limn/core/math.h"
@@ -9,7 +9,7 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::SphericalRectangle;
+using sampling::SphericalRectangle;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The triangle on the sphere of directions: its area there, and that samples divide it as they should.
-#include "render/spherical_triangle.h"
+#include "sampling/spherical_triangle.h"
 
 #include "limn/core/math.h"
 #include "property.h"
@@ -8,7 +8,7 @@
 
 using namespace limn;
 using namespace limn::test;
-using tracing::SphericalTriangle;
+using sampling::SphericalTriangle;
 
 namespace {
 

@@ -22,25 +22,25 @@ TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities 
     const Ray eye{{0, 1, 0}, {0, -1, 0}};
     const Surface floor = scene.surface_at(eye, scene.closest_hit(eye).value());
     const Vec3 out{0, 1, 0};
-    const tracing::Receiver receiver{floor.position, Vec3(floor.normal)};
-    tracing::PathTracer tracer(scene.flat(), 2, Estimator::path);
+    const transport::Receiver receiver{floor.position, Vec3(floor.normal)};
+    transport::PathTracer tracer(scene.flat(), 2, Estimator::path);
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
-        tracing::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
-        same_numbers.seek(1, tracing::Use::light);
+        transport::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
+        same_numbers.seek(1, transport::Use::light);
         const Random3 pick = same_numbers.next_3d();
-        const auto drawn = tracing::sample_light(scene.flat(), receiver, 0, pick.x, pick.y, pick.z);
+        const auto drawn = transport::sample_light(scene.flat(), receiver, 0, pick.x, pick.y, pick.z);
         REQUIRE(drawn.has_value());
-        const ScatterValue f = tracing::material_value(scene.flat(), floor, out, drawn->direction);
+        const ScatterValue f = transport::material_value(scene.flat(), floor, out, drawn->direction);
         double expected = f.value.r * kRadiance * power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
 
-        same_numbers.seek(1, tracing::Use::scattering);
-        const auto scattered = tracing::sample_material(scene.flat(), floor, out, same_numbers.next_3d());
+        same_numbers.seek(1, transport::Use::scattering);
+        const auto scattered = transport::sample_material(scene.flat(), floor, out, same_numbers.next_3d());
         REQUIRE(scattered.has_value());
         const Ray ray = floor.spawn_ray(scattered->direction, 0);
         if (const auto hit = scene.closest_hit(ray)) {
             const double pdf =
-                tracing::pdf_light(scene.flat(), receiver, 0, hit->primitive, scene.surface_at(ray, *hit).position);
+                transport::pdf_light(scene.flat(), receiver, 0, hit->primitive, scene.surface_at(ray, *hit).position);
             expected += kAlbedo * kRadiance * power_heuristic(scattered->pdf, pdf);
             ++found;
         }
@@ -56,8 +56,8 @@ TEST_CASE("Lamps: a ball in a scaled instance is sampled like the scaled ball", 
         compile_with(sky(0), {std::make_shared<Instance>(sphere({0, 2, 0}, 1, lamp(1)), Transform::scale(3, 3, 3))});
     for (const double u : {0.0, 0.3, 0.9})
         for (const double v : {0.0, 0.2, 0.7}) {
-            const auto a = tracing::sample_light(plain.flat(), {}, 0, 0.5, u, v);
-            const auto b = tracing::sample_light(scaled.flat(), {}, 0, 0.5, u, v);
+            const auto a = transport::sample_light(plain.flat(), {}, 0, 0.5, u, v);
+            const auto b = transport::sample_light(scaled.flat(), {}, 0, 0.5, u, v);
             REQUIRE((a && b));
             CHECK(b->pdf == Approx(a->pdf).epsilon(1e-13));
             CHECK(length(b->point.position - a->point.position) <= 1e-13);

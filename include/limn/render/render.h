@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limn/image/image.h"
-#include "limn/render/compiled_scene.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
 #include "limn/scene/camera.h"

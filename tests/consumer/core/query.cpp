@@ -1,5 +1,5 @@
 // Asks two rays what they hit.
-#include <limn/render/compiled_scene.h>
+#include <limn/query/compiled_scene.h>
 #include <limn/shape/sphere.h>
 
 int main() {

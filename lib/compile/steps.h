@@ -1,0 +1,30 @@
+// What compile.cpp takes one after the other, in files of their own.
+#pragma once
+
+#include "flat/scene.h"
+#include "limn/core/hash128.h"
+#include "limn/records.h"
+#include "limn/scene/background.h"
+
+namespace limn::compiler {
+
+// Of all that a scene's pictures depend on: the same from every compiler, instruction set and number of threads.
+Hash128 digest(const SceneRecords& records, const Background& background);
+
+// Builds the tree of every group. \pre the tables and the groups' ranges are filled
+void build_trees(flat::Scene& scene);
+
+// Of that, the tree over the primitives of one group: the BLAS of an instance, or the scene's own. Sets the group's
+// root, bounds, extent and scale; of the scene itself Scene::list, too. The groups of its instances are built already.
+// \throws ArgumentError if there are too many
+void build_group_tree(flat::Scene& scene, flat::Group& group);
+
+// Lists every medium where instances put it. \pre the trees are built
+void place_media(flat::Scene& scene);
+
+// Fills scene.lights with every emitter that can be sampled: triangles, quads and spheres of a diffuse light, not under
+// a moving instance, spheres not under one that bends them, none with a foreign texture. What is left out is found by
+// scattering alone.
+void collect_lights(flat::Scene& scene);
+
+}  // namespace limn::compiler

@@ -1,0 +1,161 @@
+#include "limn/query/compiled_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compile/compile.h"
+#include "core/float_environment.h"
+#include "limn/core/error.h"
+#include "query/surface_at.h"
+#include "trace/traverse.h"
+
+namespace limn {
+
+namespace {
+
+// Media are apart, and not inlined: scenes without them pay for a comparison alone.
+
+// Puts the hit of a medium's boundary in place of `best` where it comes first.
+[[gnu::noinline]] void nearer_boundary(const flat::Scene& scene, const Ray& ray, trace::Hit& best) {
+    for (const flat::Medium& medium : scene.media) {
+        Ray rest = ray;
+        rest.t_max = std::min(ray.t_max, best.t);
+        trace::Hit hit = trace::closest_boundary(scene, medium, rest);
+        hit.index_matched = true;
+        if (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)) best = hit;
+    }
+}
+
+[[gnu::noinline]] bool meets_boundary(const flat::Scene& scene, const Ray& ray) {
+    return std::ranges::any_of(scene.media, [&](const flat::Medium& medium) {
+        return trace::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
+    });
+}
+
+RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
+    std::size_t object = 0;
+    if (!scene.object_of.empty()) {
+        object = scene.object_of[hit.primitive];
+    } else if (scene.first_of_object.size() > 1) {
+        const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
+        object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
+    }
+    return {.t = hit.t,
+            .object = static_cast<std::uint32_t>(object),
+            .element = hit.primitive - scene.first_of_object[object],
+            .u = hit.u,
+            .v = hit.v,
+            .index_matched = hit.index_matched,
+            .primitive = hit.primitive};
+}
+
+// is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
+bool is_fit(const Ray& r) {
+    const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
+    const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
+    return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
+}
+
+// \pre is_usable(ray), as below. Inlined although batches with media call it too.
+[[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
+    trace::Hit hit = trace::closest_hit(scene, ray);
+    if (!scene.media.empty()) nearer_boundary(scene, ray, hit);
+    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
+    return complete(scene, hit);
+}
+
+bool find_any(const flat::Scene& scene, const Ray& ray) {
+    return trace::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
+}
+
+// answer(first, count) for every run of rays that can be used, at most trace::kMostRays long, and refuse(i) for each
+// of the others; how many those are.
+template <class Answer, class Refuse>
+std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer, const Refuse& refuse) {
+    const FloatEnvironment environment;
+    std::size_t unusable = 0;
+    for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
+        while (end < rays.size() && end - first < trace::kMostRays && is_fit(rays[end])) ++end;
+        if (end > first) answer(first, end - first);
+        if (end < rays.size() && !is_fit(rays[end])) refuse(end++), ++unusable;
+    }
+    return unusable;
+}
+
+SceneStats stats_of(const flat::Scene& s) {
+    return {.memory_bytes = s.memory_bytes,
+            .primitives = s.primitives,
+            .stored_primitives = s.stored_primitives,
+            .degenerate = s.degenerate,
+            .lights = s.lights.size(),
+            .seconds = s.compile_seconds};
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene(std::unique_ptr<const flat::Scene> scene)
+    : scene_(std::move(scene)), stats_(stats_of(*scene_)) {}
+CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
+CompiledScene& CompiledScene::operator=(CompiledScene&&) noexcept = default;
+CompiledScene::~CompiledScene() = default;
+
+std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray) const {
+    const FloatEnvironment environment;
+    return is_fit(ray) ? find_closest(*scene_, ray) : std::nullopt;
+}
+
+bool CompiledScene::any_hit(const Ray& ray) const {
+    const FloatEnvironment environment;
+    return is_fit(ray) && find_any(*scene_, ray);
+}
+
+std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
+    if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
+    const auto refuse = [&](std::size_t i) { hits[i] = {}; };
+    if (!scene_->media.empty())
+        return answer_runs(
+            rays,
+            [&](std::size_t first, std::size_t count) {
+                for (std::size_t i = first; i < first + count; ++i)
+                    hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
+            },
+            refuse);
+    std::array<trace::Hit, trace::kMostRays> found;
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            trace::closest_hits(*scene_, rays.subspan(first, count), found.data());
+            for (std::size_t i = 0; i < count; ++i)
+                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(*scene_, found[i]);
+        },
+        refuse);
+}
+
+std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+    if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            if (scene_->media.empty()) return trace::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
+            for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
+        },
+        [&](std::size_t i) { occluded[i] = 0; });
+}
+
+Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
+    const FloatEnvironment environment;
+    return query::surface_at(*scene_, ray, {{hit.t, hit.primitive}, hit.u, hit.v}).surface;
+}
+
+const std::string& CompiledScene::features() const { return scene_->feature_names; }
+const std::string& CompiledScene::name() const { return scene_->name; }
+const Hash128& CompiledScene::digest() const { return scene_->digest; }
+bool CompiledScene::has_untagged() const { return scene_->untagged; }
+
+CompiledScene compile(const Scene& scene, const CompileSettings& /*settings*/) {
+    const FloatEnvironment environment;
+    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
+}
+
+}  // namespace limn

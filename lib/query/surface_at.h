@@ -1,0 +1,23 @@
+#pragma once
+
+#include "flat/scene.h"
+#include "limn/core/ray.h"
+#include "limn/core/surface.h"
+#include "trace/traverse.h"
+
+namespace limn::query {
+
+// The second step of a hit, made once for the winner: its point in the primitive's own space, taken outward through the
+// instances.
+struct SurfaceHit {
+    Surface surface;
+    bool index_matched = false;  // the boundary of a medium, or a foreign shape that says so
+};
+
+// \pre `hit` was found for `ray` in `scene`
+// \param with_uv false leaves out a sphere's texture coordinates, which cost more than the rest of it
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, bool with_uv = true);
+// The same for an object that is used again, so that what is not asked for is not set either.
+void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, bool with_uv, SurfaceHit& out);
+
+}  // namespace limn::query

@@ -1,0 +1,42 @@
+// What the kernels share. Per-target include guard, as Highway has it.
+#if defined(LIMN_TRACE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_TRACE_LANES_INL_H
+#undef LIMN_TRACE_LANES_INL_H
+#else
+#define LIMN_TRACE_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "flat/tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::trace::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Eight floats where the processor has them, else four.
+using Lanes = hn::CappedTag<float, flat::kWidth>;
+using V = hn::Vec<Lanes>;
+using M = hn::Mask<Lanes>;
+
+// Of up to 16 lanes.
+template <class D>
+HWY_INLINE std::uint32_t bits(D d, hn::Mask<D> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    return bytes[0] | (hn::MaxLanes(D()) > 8 ? std::uint32_t{bytes[1]} << 8 : 0u);
+}
+HWY_INLINE std::uint32_t bits(M mask) { return bits(Lanes(), mask); }
+
+// From a row of a block, whose words stand for floats.
+HWY_INLINE V load_floats(const std::uint32_t* words) {
+    return hn::BitCast(Lanes(), hn::LoadU(hn::RebindToUnsigned<Lanes>(), words));
+}
+
+}  // namespace limn::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

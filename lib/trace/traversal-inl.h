@@ -1,0 +1,361 @@
+// One ray through one group. Per-target include guard, as Highway has it.
+#if defined(LIMN_TRACE_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_TRACE_TRAVERSAL_INL_H
+#undef LIMN_TRACE_TRAVERSAL_INL_H
+#else
+#define LIMN_TRACE_TRAVERSAL_INL_H
+#endif
+
+#include <utility>
+
+#include "core/sphere_uv.h"
+#include "predicates/sphere_side.h"
+#include "trace/box_ray-inl.h"
+#include "trace/deferred_hits-inl.h"
+#include "trace/node-inl.h"
+#include "trace/queries.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::trace::HWY_NAMESPACE {
+
+// kKinds: the primitive kinds that the scene has; code for the others is left out.
+//
+// Boxes and packed primitives are tested in float. What those tests leave undecided is intersected exactly at once. Of
+// hits that they are sure of, `bound_` keeps a t that none of interest lies beyond, and only those that may be the
+// nearest are intersected exactly, at the end: mostly one.
+template <unsigned kKinds, class Query>
+class Traversal {
+public:
+    // `ray`, which is the frame's, `frame` and `query` are kept by reference. `deferred` takes the sure hits of a
+    // batch, and is null for single rays.
+    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const BoxRay& ray, const RayFrame& frame,
+                         std::uint64_t first_number, Query& query, DeferredHits* deferred)
+        : scene_(scene),
+          group_(group),
+          frame_(frame),
+          box_ray_(ray),
+          first_number_(first_number),
+          query_(query),
+          deferred_(deferred),
+          node_test_(ray),
+          bound_(box_ray_.upper(query.limit())),
+          possible_after_(below(box_ray_.t_min)),
+          certain_after_(above(box_ray_.lower(larger(frame.ray.t_min, -kEndless)) + 2 * box_ray_.t_error)),
+          certain_before_(below(box_ray_.upper(limn::smaller(query.limit(), kEndless)) - 2 * box_ray_.t_error)) {
+        if constexpr (has_planar()) planar_ = PlanarRay(box_ray_, packed_error());
+        if constexpr (has_spheres()) round_ = sphere_ray(box_ray_, packed_error());
+    }
+
+    // A part of run(), which ends where memory is about to be waited for. False at the end. `next`, at first the root,
+    // is the caller's.
+    HWY_INLINE bool advance(flat::Child& next) {
+        for (;;) {
+            if (!(next & flat::kLeaf)) {
+                next = node_test_.visit(scene_, next, bound_, stack_);
+                if (next != flat::kNothing) {
+                    prefetch(scene_, next);
+                    return true;
+                }
+            } else if (next != flat::kNothing && leaf(next)) {
+                return false;
+            }
+            do {
+                if (stack_.size == 0) {
+                    finish();
+                    return false;
+                }
+                --stack_.size;
+            } while (stack_.near[stack_.size] > bound_);
+            next = stack_.child[stack_.size];
+        }
+    }
+
+    // True if the query ended the search.
+    bool run() {
+        if (group_.root == flat::kNothing) return false;
+        flat::Child next = group_.root;
+        for (;;) {
+            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
+            if (next != flat::kNothing && leaf(next)) return true;
+            do {
+                if (stack_.size == 0) {
+                    finish();
+                    return false;
+                }
+                --stack_.size;
+            } while (stack_.near[stack_.size] > bound_);
+            next = stack_.child[stack_.size];
+        }
+    }
+
+private:
+    static constexpr bool has(PrimitiveKind kind) { return (kKinds & flat::bit(kind)) != 0; }
+    static constexpr unsigned kRoundKinds = flat::bit(PrimitiveKind::sphere) | flat::bit(PrimitiveKind::moving_sphere);
+    static constexpr bool has_planar() { return (kKinds & flat::kPlanarKinds) != 0; }
+    static constexpr bool has_spheres() { return (kKinds & kRoundKinds) != 0; }
+    // Where t may overflow, and a hit be none.
+    static constexpr double kEndless = 1e300;
+    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : group_.packed_error; }
+
+    // A hit for sure, not intersected exactly yet.
+    struct Pending {
+        flat::BlockView block;
+        std::uint32_t lane;
+        float near;
+    };
+    static constexpr std::size_t kMaxPending = 8;
+
+    HWY_INLINE bool leaf(flat::Child child) {
+        flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
+        for (;;) {
+            const flat::Block header = block.header();
+            if (test(block, header)) return true;
+            if (header.last) return false;
+            block.words += flat::words_of(header.kind, header.count);
+        }
+    }
+
+    HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header) {
+        if constexpr (kKinds == flat::bit(PrimitiveKind::mesh)) {
+            return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)), block,
+                        header);
+        } else {
+            switch (header.kind) {
+                case PrimitiveKind::mesh:
+                case PrimitiveKind::triangle:
+                    if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
+                        return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)),
+                                    block, header);
+                    break;
+                case PrimitiveKind::quad:
+                    if constexpr (has(PrimitiveKind::quad))
+                        return take(test_planar<true>(block, header.count, *planar_, possible_after_, above(bound_)),
+                                    block, header);
+                    break;
+                case PrimitiveKind::sphere:
+                    if constexpr (has(PrimitiveKind::sphere))
+                        return take(test_spheres<false>(block, header.count, *round_, 0, possible_after_,
+                                                        certain_after_, above(bound_)),
+                                    block, header);
+                    break;
+                case PrimitiveKind::moving_sphere:
+                    if constexpr (has(PrimitiveKind::moving_sphere))
+                        return take(test_spheres<true>(block, header.count, *round_, time(), possible_after_,
+                                                       certain_after_, above(bound_)),
+                                    block, header);
+                    break;
+                default:
+                    if constexpr ((kKinds & ~(flat::kPlanarKinds | kRoundKinds)) != 0)
+                        return intersect_boxes(block, header);
+            }
+            return false;
+        }
+    }
+
+    // As interpolate() clamps it.
+    float time() const { return static_cast<float>(std::clamp(frame_.ray.time, 0.0, 1.0)); }
+
+    HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block, const flat::Block& header) {
+        for (std::uint32_t possible = found.possible; possible != 0; possible &= possible - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(possible));
+            const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
+                                 found.far[lane] < certain_before_;
+            if (certain && Query::kFirstHit) return query_.report({}, 0, false);
+            if (certain && Query::kNearest) {
+                if (found.near[lane] > above(bound_)) continue;  // another lane's hit is nearer
+                bound_ = smaller(bound_, above(found.far[lane] + box_ray_.t_error));
+                postpone({block, lane, found.near[lane]});
+            } else if (intersect_in_block(block, header, lane)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    // One by one, the nearest box first.
+    bool intersect_boxes(const flat::BlockView& block, const flat::Block& header) {
+        const Candidates found = node_test_.test_boxes(block, header.count, bound_);
+        for (std::uint32_t possible = found.possible; possible != 0;) {
+            auto next = static_cast<std::uint32_t>(std::countr_zero(possible));
+            for (std::uint32_t rest = possible & (possible - 1); rest != 0; rest &= rest - 1) {
+                const auto other = static_cast<std::uint32_t>(std::countr_zero(rest));
+                if (found.near[other] < found.near[next]) next = other;
+            }
+            if (found.near[next] > bound_) return false;
+            if (intersect_in_block(block, header, next)) return true;
+            possible &= ~(1u << next);
+        }
+        return false;
+    }
+
+    static float smaller(float a, float b) { return a < b ? a : b; }
+
+    HWY_INLINE void postpone(const Pending& hit) {
+        if (pending_count_ == kMaxPending) intersect_pending();
+        pending_[pending_count_++] = hit;
+    }
+
+    // Makes the query's limit say all that is known.
+    void update_limit() {
+        if constexpr (Query::kNearest) {
+            if (box_ray_.is_taken_as_it_is)
+                query_.lower_limit(double{above(bound_)});
+            else
+                intersect_pending();
+        }
+    }
+
+    // Nothing is left to be visited.
+    void finish() {
+        if constexpr (Query::kNearest) {
+            is_deferring_ = deferred_ != nullptr && box_ray_.is_taken_as_it_is;
+            if (is_deferring_) query_.lower_limit(double{above(bound_)});
+            intersect_pending();
+        }
+    }
+
+    void intersect_pending() {
+        for (std::size_t i = 0; i < pending_count_; ++i) {
+            const Pending& hit = pending_[i];
+            if (hit.near <= above(bound_)) intersect_in_block(hit.block, hit.block.header(), hit.lane);
+        }
+        pending_count_ = 0;
+    }
+
+    // Exactly.
+    bool intersect_in_block(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
+        const std::uint32_t id = block.id(lane);
+        bool end = false;
+        if constexpr (has(PrimitiveKind::mesh)) {
+            if (header.kind == PrimitiveKind::mesh) {
+                const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
+                end = intersect_shape(triangle_of<double>(v.a, v.b, v.c),
+                                      first_number_ + scene_.ranges[header.range].first_number + id);
+            }
+        }
+        if constexpr (kKinds != flat::bit(PrimitiveKind::mesh)) {
+            if (header.kind != PrimitiveKind::mesh) end = intersect_reference(scene_.references[id]);
+        }
+        bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+        return end;
+    }
+
+    bool intersect_reference(const flat::Reference& reference) {
+        const PrimitiveRange& range = scene_.ranges[reference.range];
+        const std::uint64_t number = first_number_ + range.first_number + reference.element;
+        const std::uint32_t row = range.first_row + reference.element;
+        if constexpr (has(PrimitiveKind::instance)) {
+            if (range.kind == PrimitiveKind::instance) {
+                const flat::Instance& instance = scene_.instances[range.first_row];
+                update_limit();
+                return inside(instance, frame_, [&](const RayFrame& frame) {
+                    return is_usable(frame.ray) && run_inside(flat::group_at(scene_, instance.group), frame, number);
+                });
+            }
+        }
+        if constexpr (has(PrimitiveKind::foreign)) {
+            if (range.kind == PrimitiveKind::foreign) {
+                update_limit();
+                return intersect_user_defined(scene_.foreign[row], number);
+            }
+        }
+        constexpr unsigned kOthers = kKinds & ~flat::bit(PrimitiveKind::mesh);  // see above
+        return with_shape<kOthers>(scene_, range.kind, row, 0, frame_.ray.time,
+                                   [&](const auto& shape) { return intersect_shape(shape, number); });
+    }
+
+    bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
+        BoxRay ray;
+        set_up(frame.ray, frame, group, ray);
+        return Traversal(scene_, group, ray, frame, number, query_, deferred_).run();
+    }
+
+    template <class Shape>
+    HWY_INLINE bool defer(const Shape& shape, std::uint64_t number) {
+        if constexpr (Query::kNearest) {
+            if (is_deferring_) deferred_->add(shape, frame_, query_, number);
+            return is_deferring_;
+        }
+        return false;
+    }
+
+    Search search() const { return {frame_.ray.t_min, query_.limit()}; }
+
+    template <class Shape>
+    HWY_NOINLINE bool intersect_shape(const Shape& shape, std::uint64_t number) {
+        if (defer(shape, number)) return false;
+        PlanarHit hit;
+        if (!intersect(shape, frame_, search(), hit)) return false;
+        bool inward = false;
+        if constexpr (Query::kEveryHit) inward = dot(shape.outward(), broadcast<double>(frame_.ray.direction)) < 0;
+        return query_.report(hit, number, inward);
+    }
+
+    template <class Kind>
+    HWY_NOINLINE bool intersect_shape(std::reference_wrapper<const Kind> row, std::uint64_t number) {
+        PlanarHit hit;
+        Surface surface;
+        for (Search rest = search(); row.get().intersect(frame_, rest, hit); rest.t_min = hit.t) {
+            if constexpr (Query::kEveryHit) row.get().surface(frame_.ray, hit, false, surface);
+            const bool inward = dot(Vec3(surface.normal), frame_.ray.direction) < 0;
+            const bool end = query_.report(hit, number, inward);
+            if (end || !Query::kEveryHit) return end;
+        }
+        return false;
+    }
+
+    HWY_NOINLINE bool intersect_shape(const SpherePredicate<double>& sphere, std::uint64_t number) {
+        if constexpr (Query::kEveryHit) {
+            const SphereHits hits = sphere.hits(frame_, search());
+            return (hits.near_found && query_.report({hits.near, 0, 0}, number, sphere.radius > 0)) ||
+                   (hits.far_found && query_.report({hits.far, 0, 0}, number, sphere.radius < 0));
+        } else {
+            if (defer(sphere, number)) return false;
+            const Ray& ray = frame_.ray;
+            const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
+            if (frame_.outer == nullptr && ray.t_min >= 0 &&
+                side_of(center, std::abs(sphere.radius), ray) == Side::missed)
+                return false;
+            PlanarHit hit;
+            return intersect(sphere, frame_, search(), hit) && query_.report(hit, number, false);
+        }
+    }
+
+    bool intersect_user_defined(const flat::Foreign& shape, std::uint64_t number) {
+        Ray rest = frame_.with_frame();  // it may consist of limn's own shapes
+        rest.t_max = query_.limit();
+        ForeignHit hit;
+        while (shape.hit(*shape.object, rest, hit)) {
+            if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
+            const bool passes = query_.passes(hit);
+            const bool inward = Query::kEveryHit && dot(Vec3(hit.normal), frame_.ray.direction) < 0;
+            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward, hit.index_matched)) return true;
+            if (!passes && !Query::kEveryHit) return false;
+            rest.t_min = hit.t;
+        }
+        return false;
+    }
+
+    const flat::Scene& scene_;
+    const flat::Group& group_;
+    const RayFrame& frame_;
+    const BoxRay& box_ray_;
+    std::optional<PlanarRay> planar_;
+    std::optional<SphereFloatRay<float>> round_;
+    const std::uint64_t first_number_;
+    Query& query_;
+    DeferredHits* const deferred_;
+    const NodeTest node_test_;
+    float bound_;  // in BoxRay's t: no hit of interest is beyond
+    // By t_min and t_max: hits before the first do not count, those that lie between the others do.
+    const float possible_after_, certain_after_, certain_before_;
+    std::size_t pending_count_ = 0;
+    bool is_deferring_ = false;  // what is intersected from now on
+    Pending pending_[kMaxPending];
+    Stack stack_;
+};
+
+}  // namespace limn::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

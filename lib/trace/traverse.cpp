@@ -1,0 +1,118 @@
+#include "trace/traverse.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trace/traverse.cpp"
+#include <hwy/foreach_target.h>
+
+#include <array>
+
+#include "accel/slab.h"
+#include "trace/searches-inl.h"
+
+#if HWY_TARGETS & ~LIMN_SEARCH_TARGETS
+#error "Highway builds for an instruction set that lib/trace/CMakeLists.txt does not name"
+#endif
+
+#if HWY_ONCE
+
+namespace limn::trace {
+
+namespace {
+
+HWY_EXPORT(search_closest);
+HWY_EXPORT(search_any);
+HWY_EXPORT(search_every);
+HWY_EXPORT(search_closest_of_many);
+HWY_EXPORT(search_any_of_many);
+
+Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
+    Closest query{frame.ray.t_max};
+    HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
+    return query.best;
+}
+
+// visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
+// hit.
+template <class Visit>
+void inside_medium(const flat::Scene& scene, const flat::Medium& medium, const RayFrame& frame, const Visit& visit,
+                   std::uint32_t level = 0) {
+    if (level < medium.instance_count) {
+        const std::uint32_t instance = scene.medium_instances[medium.first_instance + level];
+        return inside(scene.instances[instance], frame,
+                      [&](const RayFrame& inner) { inside_medium(scene, medium, inner, visit, level + 1); });
+    }
+    if (is_usable(frame.ray)) visit(frame);
+}
+
+void find_any(const flat::Scene& scene, std::span<const Ray> rays, bool passes_boundaries, std::uint8_t* found) {
+    std::array<Any, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max, passes_boundaries};
+    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
+}
+
+GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
+    return scene.medium_shapes[medium.shape].boundary;
+}
+
+bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
+    double near = 0;
+    return accel::SlabRay(ray, accel::finite_extent(medium.bounds)).meets(medium.bounds, ray.t_max, near);
+}
+
+}  // namespace
+
+Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
+    return nearest(scene, GroupId::root, ray, RayFrame(ray), 0);
+}
+
+bool any_hit(const flat::Scene& scene, const Ray& ray) {
+    Any query{ray.t_max};
+    HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+    return query.found;
+}
+
+void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
+    std::array<Closest, kMostRays> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max};
+    HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].best;
+}
+
+void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
+    find_any(scene, rays, false, found);
+}
+
+void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
+    find_any(scene, rays, true, found);
+}
+
+Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray) {
+    Hit hit;
+    if (!meets_bounds(medium, ray)) return hit;
+    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+        hit = nearest(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number);
+    });
+    return hit;
+}
+
+void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media) {
+    media.clear();
+    const accel::SlabRay slabs(ray, scene.media_extent);
+    double near = 0;
+    for (std::uint32_t i = 0; i < scene.media.size(); ++i)
+        if (slabs.meets(scene.media[i].bounds, ray.t_max, near)) media.push_back(i);
+}
+
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+    out.clear();
+    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+        Every query{ray.t_max, out};
+        HWY_DYNAMIC_DISPATCH(search_every)
+        (scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+    });
+}
+
+}  // namespace limn::trace
+
+#endif

@@ -1,0 +1,55 @@
+// Rays against the compiled scene, exactly: whatever the SIMD kernels find or leave undecided is decided by the
+// definitions that the described shapes use too, lib/predicates.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "flat/scene.h"
+#include "limn/core/ray.h"
+
+namespace limn::trace {
+
+struct Hit : flat::RawHit {
+    double u = 0, v = 0;         // of triangles and quads, and as user-defined shapes say
+    bool index_matched = false;  // as user-defined shapes say
+};
+
+// The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre
+// is_usable(ray)
+Hit closest_hit(const flat::Scene& scene, const Ray& ray);
+bool any_hit(const flat::Scene& scene, const Ray& ray);
+
+// The same for each of up to kMostRays rays: those that follow each other and go much the same way are traced together.
+inline constexpr std::size_t kMostRays = 256;  // so that what is kept for each stays in the cache
+void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits);
+void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
+// Whether something stops light on the way: user-defined shapes that say their boundary is index-matched do not.
+void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
+
+// The same for the boundary of a medium.
+Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
+
+// Where a ray passes through a medium's boundary.
+struct Crossing {
+    double t;
+    bool inward;  // against the outward normal
+};
+
+// The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
+void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
+
+// Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
+
+// visit(frame) with the ray as an instance's group sees it, and the answer of that.
+template <class Visit>
+auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
+    if (!instance.moving)
+        return visit(RayFrame(outside, instance.world_from_object0, instance.object_from_world, instance.lost));
+    const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.ray.time);
+    return visit(RayFrame(outside, m));
+}
+
+}  // namespace limn::trace
