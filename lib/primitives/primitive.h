@@ -12,7 +12,7 @@
 //                                                    place: a copy would wait for what was just written
 //     bool intersect(frame, search, hit) const       the first hit, unless trace/shapes-inl.h knows its predicate
 //
-// Where leaves test several at once in float (trace/leaf-inl.h), in place of the box and one by one:
+// Where leaves test several at once in float (a case in trace/traversal-inl.h), in place of the box and one by one:
 //
 //     std::array<float, n> pack() const              its rows in a block: see flat::rows_of
 //     double packed_error() const                    how far what they stand for moves by that
