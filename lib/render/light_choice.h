@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "flat/scene.h"
-#include "shade/light_choice.h"
 #include "limn/core/vec.h"
+#include "shade/light_choice.h"
 
 namespace limn::transport {
 

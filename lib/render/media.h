@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "trace/traverse.h"
 #include "limn/core/ray.h"
+#include "trace/traverse.h"
 
 namespace limn::transport {
 

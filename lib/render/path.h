@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "shade/lobes.h"
-#include "trace/traverse.h"
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
+#include "query/surface_at.h"
 #include "render/direct_light.h"
 #include "render/equiangular.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "query/surface_at.h"
+#include "shade/lobes.h"
+#include "trace/traverse.h"
 
 namespace limn::transport {
 

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <utility>
 
-#include "sampling/sobol.h"
-#include "sampling/sobol_lanes.h"
 #include "limn/core/surface.h"
 #include "limn/core/vec.h"
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
+#include "sampling/sobol.h"
+#include "sampling/sobol_lanes.h"
 
 namespace limn::transport {
 

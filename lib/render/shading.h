@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "flat/scene.h"
-#include "shade/lobes.h"
 #include "limn/core/surface.h"
+#include "shade/lobes.h"
 
 namespace limn::transport {
 

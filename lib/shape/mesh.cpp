@@ -5,8 +5,8 @@
 
 #include "core/float_environment.h"
 #include "predicates/hit_error.h"
-#include "predicates/mesh_triangle.h"
 #include "predicates/intersect.h"
+#include "predicates/mesh_triangle.h"
 #include "shape/arguments.h"
 
 namespace limn {

@@ -3,8 +3,8 @@
 #include "core/float_environment.h"
 #include "limn/shape/hittable_list.h"
 #include "predicates/bounds.h"
-#include "predicates/plane_normal.h"
 #include "predicates/intersect.h"
+#include "predicates/plane_normal.h"
 #include "shape/arguments.h"
 
 namespace limn {

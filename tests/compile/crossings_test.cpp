@@ -4,12 +4,12 @@
 
 #include "catch.h"
 #include "compile/compile.h"
-#include "trace/traverse.h"
 #include "limn/query/compiled_scene.h"
 #include "property.h"
 #include "support/grid.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
+#include "trace/traverse.h"
 
 using namespace limn;
 using namespace limn::test;

@@ -19,11 +19,11 @@
 
 using namespace limn;
 using namespace limn::test;
+using sampling::SphericalRectangle;
 using transport::LightSample;
 using transport::pdf_light;
 using transport::sample_light;
 using transport::Sampler;
-using sampling::SphericalRectangle;
 
 namespace {
 
@@ -258,7 +258,7 @@ TEST_CASE("Media: free paths are exponential in mean and distribution, and so is
         transport::Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
         const double u = sampler.next(), in_tail = 1 - std::ldexp(1 - sampler.next(), -24);
         const transport::FreeFlight path = media.sample(-std::log1p(-u), 0.5),
-                                  far = media.sample(-std::log1p(-in_tail), 0.5);
+                                    far = media.sample(-std::log1p(-in_tail), 0.5);
         if (!path.scatters || !far.scatters) {
             ++missing;
             continue;

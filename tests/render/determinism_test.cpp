@@ -70,9 +70,8 @@ TEST_CASE("Determinism: a path is the same alone and among any number of others"
     const CompiledScene scene = busy_scene();
     const CameraRays camera(kView, 40, 40);
     const auto path_of = [&](std::uint64_t i) {
-        return transport::Path{
-            transport::Sampler(3, i, 1),
-            camera.ray(static_cast<double>(i % 40) + 0.3, static_cast<double>(i / 40) + 0.6, 0, 0, 0.4)};
+        return transport::Path{transport::Sampler(3, i, 1), camera.ray(static_cast<double>(i % 40) + 0.3,
+                                                                       static_cast<double>(i / 40) + 0.6, 0, 0, 0.4)};
     };
     std::vector<Color> alone;
     for (std::uint64_t i = 0; i < 1600; ++i) {

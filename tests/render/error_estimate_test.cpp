@@ -286,7 +286,8 @@ TEST_CASE("Checks: milestones are the same whatever the target, and what is chec
         }
         // From between two checks the next one is the same.
         const int next = transport::next_check(milestones[i], 1, 1);
-        for (int samples = milestones[i]; samples < next; ++samples) CHECK(transport::next_check(samples, 1, 1) == next);
+        for (int samples = milestones[i]; samples < next; ++samples)
+            CHECK(transport::next_check(samples, 1, 1) == next);
     }
 }
 
