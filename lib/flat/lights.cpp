@@ -55,14 +55,22 @@ Box bounds_of(const Light& light) {
     return box;
 }
 
+namespace {
+
+PrimitiveKind primitive_of(const Light& light) {
+    return light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
+}
+
+}  // namespace
+
 double share_of(const Light& light) {
-    const PrimitiveKind kind = light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
-    return primitives::ask_kind(kind, 1.0, []<class Kind>(std::type_identity<Kind>) { return Kind::kShare; });
+    return primitives::ask_kind(primitive_of(light), 1.0,
+                                []<class Kind>(std::type_identity<Kind>) { return Kind::kShare; });
 }
 
 Uv sample_area(const Light& light, double u, double v) {
-    const PrimitiveKind kind = light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
-    return primitives::ask_kind(kind, Uv{}, [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
+    return primitives::ask_kind(primitive_of(light), Uv{},
+                                [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
 }
 
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,

@@ -59,8 +59,8 @@ struct DiskPredicate {
         const N t = -a / b;
         const N t_error = (2 * (a_error + abs(t) * b_error) / slope + 2 * kRoundoff * abs(t)) * (1 + 0x1p-30);
         const Judgement<N> j = judge(t, t_error, within);
-        return {.hit = Mask<N>(inside & j.accurate & j.within & !j.beyond),
-                .miss = Mask<N>(missed | (inside & (j.beyond | (j.accurate & !j.within)))),
+        return {.hit = Mask<N>(inside & j.hit()),
+                .miss = Mask<N>(missed | (inside & j.miss())),
                 .t = t,
                 .u = N(0.0),
                 .v = N(0.0)};

@@ -88,13 +88,10 @@ HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& w
                                   const InsideHit<N>& h) {
     const N z_error = 2 * (h.weight_error * h.depth + h.coordinate_error) + ray.direction_error * abs(h.z);
     const N t = h.z / ray.direction.z;
-    const Judgement<N> j = judge(t, z_error / abs(ray.direction.z), within);
-    const auto is_accurate = j.accurate & (h.weight_error <= kAccurateWeight);
-    return {.hit = Mask<N>(inside & is_accurate & j.within & !j.beyond),
-            .miss = Mask<N>(missed | (inside & (j.beyond | (is_accurate & !j.within)))),
-            .t = t,
-            .u = h.u,
-            .v = h.v};
+    Judgement<N> j = judge(t, z_error / abs(ray.direction.z), within);
+    j.accurate = j.accurate & (h.weight_error <= kAccurateWeight);
+    return {
+        .hit = Mask<N>(inside & j.hit()), .miss = Mask<N>(missed | (inside & j.miss())), .t = t, .u = h.u, .v = h.v};
 }
 
 // Whether a plane lies behind the ray's origin: a surface behind the ray that leaves it, which the t of a search, close

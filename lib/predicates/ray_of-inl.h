@@ -51,6 +51,9 @@ struct FilterResult {
 template <class N>
 struct Judgement {
     Mask<N> beyond, accurate, within;
+
+    HWY_INLINE Mask<N> hit() const { return accurate & within & !beyond; }
+    HWY_INLINE Mask<N> miss() const { return beyond | (accurate & !within); }
 };
 template <class N>
 HWY_INLINE Judgement<N> judge(N t, N error, const Interval<N>& within) {

@@ -84,13 +84,9 @@ struct SpherePredicate {
         const SphereRoots<N> r = roots(ray);
         const Judgement<N> first = judge(r.near, r.near_error, within);
         const Judgement<N> last = judge(r.far, r.far_error, within);
-        const auto first_hit = first.accurate & first.within & !first.beyond;
-        const auto first_miss = first.beyond | (first.accurate & !first.within);
-        const auto last_hit = last.accurate & last.within & !last.beyond;
-        const auto last_miss = last.beyond | (last.accurate & !last.within);
-        return {.hit = Mask<N>(r.known & (first_hit | (first_miss & last_hit))),
-                .miss = Mask<N>(r.missed | (r.known & first_miss & last_miss)),
-                .t = select(first_hit, r.near, r.far),
+        return {.hit = Mask<N>(r.known & (first.hit() | (first.miss() & last.hit()))),
+                .miss = Mask<N>(r.missed | (r.known & first.miss() & last.miss())),
+                .t = select(first.hit(), r.near, r.far),
                 .u = N(0.0),
                 .v = N(0.0)};
     }

@@ -6,11 +6,10 @@
 #define LIMN_TRACE_LANES_INL_H
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstdint>
 
 #include "flat/tree.h"
+#include "lanes/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
@@ -22,14 +21,7 @@ using Lanes = hn::CappedTag<float, flat::kWidth>;
 using V = hn::Vec<Lanes>;
 using M = hn::Mask<Lanes>;
 
-// Of up to 16 lanes.
-template <class D>
-HWY_INLINE std::uint32_t bits(D d, hn::Mask<D> mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    return bytes[0] | (hn::MaxLanes(D()) > 8 ? std::uint32_t{bytes[1]} << 8 : 0u);
-}
-HWY_INLINE std::uint32_t bits(M mask) { return bits(Lanes(), mask); }
+HWY_INLINE std::uint32_t bits(M mask) { return bits(limn::HWY_NAMESPACE::WideMask<Lanes>{mask}); }
 
 // From a row of a block, whose words stand for floats.
 HWY_INLINE V load_floats(const std::uint32_t* words) {

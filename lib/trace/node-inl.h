@@ -44,6 +44,16 @@ struct Stack {
         near[size++] = t;
     }
 
+    // The last one that is entered up to `bound`. False where there is none.
+    HWY_INLINE bool pop(float bound, flat::Child& next) {
+        do {
+            if (size == 0) return false;
+            --size;
+        } while (near[size] > bound);
+        next = child[size];
+        return true;
+    }
+
 #if HWY_MAX_BYTES >= 32
     // Those of eight lanes whose mask is set, in their order.
     HWY_INLINE void push_some(V children, V t, M mask) {

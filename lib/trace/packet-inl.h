@@ -105,11 +105,7 @@ public:
         for (;;) {
             while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack_);
             if (next != flat::kNothing && leaf(next)) farthest = farthest_bound();
-            do {
-                if (stack_.size == 0) return defer_pending();
-                --stack_.size;
-            } while (stack_.near[stack_.size] > farthest);
-            next = stack_.child[stack_.size];
+            if (!stack_.pop(farthest, next)) return defer_pending();
         }
     }
 

@@ -59,14 +59,10 @@ public:
             } else if (next != flat::kNothing && leaf(next)) {
                 return false;
             }
-            do {
-                if (stack_.size == 0) {
-                    finish();
-                    return false;
-                }
-                --stack_.size;
-            } while (stack_.near[stack_.size] > bound_);
-            next = stack_.child[stack_.size];
+            if (!stack_.pop(bound_, next)) {
+                finish();
+                return false;
+            }
         }
     }
 
@@ -77,14 +73,10 @@ public:
         for (;;) {
             while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
             if (next != flat::kNothing && leaf(next)) return true;
-            do {
-                if (stack_.size == 0) {
-                    finish();
-                    return false;
-                }
-                --stack_.size;
-            } while (stack_.near[stack_.size] > bound_);
-            next = stack_.child[stack_.size];
+            if (!stack_.pop(bound_, next)) {
+                finish();
+                return false;
+            }
         }
     }
 
@@ -294,10 +286,13 @@ private:
     template <class Kind>
     HWY_NOINLINE bool intersect_shape(std::reference_wrapper<const Kind> row, std::uint64_t number) {
         PlanarHit hit;
-        Surface surface;
         for (Search rest = search(); row.get().intersect(frame_, rest, hit); rest.t_min = hit.t) {
-            if constexpr (Query::kEveryHit) row.get().surface(frame_.ray, hit, false, surface);
-            const bool inward = dot(Vec3(surface.normal), frame_.ray.direction) < 0;
+            bool inward = false;
+            if constexpr (Query::kEveryHit) {
+                Surface surface;
+                row.get().surface(frame_.ray, hit, false, surface);
+                inward = dot(Vec3(surface.normal), frame_.ray.direction) < 0;
+            }
             const bool end = query_.report(hit, number, inward);
             if (end || !Query::kEveryHit) return end;
         }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <tuple>
 
 #include "trace/list_packet-inl.h"
 #include "trace/list_ray-inl.h"
