@@ -76,23 +76,21 @@ private:
 
     Json medium(const MediumRecord& m, const Transform& place) const {
         const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
-        if (phase.kind != MaterialKind::isotropic) refuse("phase functions of other classes");
+        if (phase.kind != "isotropic") refuse("phase functions of other classes");
         return {{"boundary", group(m.boundary, place)}, {"density", m.density}, {"albedo", texture(phase.texture)}};
     }
 
     Json material(MaterialId id) const {
         const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
-        switch (m.kind) {
-            case MaterialKind::lambertian: return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
-            case MaterialKind::diffuse_light: return {{"kind", "light"}, {"color", texture(m.texture)}};
-            case MaterialKind::metal:
-                if (m.parameter != 0) refuse("metal that is not a mirror");
-                return {{"kind", "mirror"}, {"color", texture(m.texture)}};
-            case MaterialKind::dielectric:
-                if (m.fresnel != Fresnel::exact) refuse("Schlick's approximation");
-                return {{"kind", "glass"}, {"index", m.parameter}};
-            case MaterialKind::isotropic:
-            case MaterialKind::foreign: break;
+        if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
+        if (m.kind == "diffuse-light") return {{"kind", "light"}, {"color", texture(m.emission)}};
+        if (m.kind == "metal") {
+            if (m.parameter != 0) refuse("metal that is not a mirror");
+            return {{"kind", "mirror"}, {"color", texture(m.texture)}};
+        }
+        if (m.kind == "dielectric") {
+            if (m.fresnel != Fresnel::exact) refuse("Schlick's approximation");
+            return {{"kind", "glass"}, {"index", m.parameter}};
         }
         refuse("materials of other classes");
     }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limn/core/box.h"
@@ -25,6 +26,9 @@ namespace limn {
 
 class Hittable;
 class Texture;
+namespace bsdf {
+struct Lobe;
+}
 
 /// Rows of the tables of SceneRecords.
 ///@{
@@ -55,9 +59,6 @@ static_assert(sizeof(TextureRecord) == 64);
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
-/// The built-in materials, and `foreign` for everybody else's.
-enum class MaterialKind : std::uint8_t { lambertian, metal, dielectric, diffuse_light, isotropic, foreign };
-
 /// How to call somebody else's material.
 struct MaterialThunks {
     /// Material::emitted, Material::sample and Material::value.
@@ -68,16 +69,21 @@ struct MaterialThunks {
     ///@}
 };
 
-/// One material; each field is of the kinds named beside it.
+/// The `kind` of user-defined materials.
+inline constexpr std::string_view kUserDefinedMaterial = "user-defined";
+
+/// One material.
 struct MaterialRecord {
-    MaterialKind kind = MaterialKind::lambertian;  ///< decides which fields count
-    Fresnel fresnel = Fresnel::exact;              ///< dielectric
-    TextureId texture = TextureId::none;           ///< albedo, or radiance of a light
-    double parameter = 0;                          ///< metal: fuzz; dielectric: index of refraction
-    const Material* object = nullptr;              ///< foreign; not owning
-    const MaterialThunks* thunks = nullptr;        ///< foreign: how to call it; of static lifetime
+    std::string_view kind = "";              ///< "lambertian", "diffuse-light", ...; of static lifetime
+    const bsdf::Lobe* lobe = nullptr;        ///< how it scatters; null: it absorbs all light
+    TextureId texture = TextureId::none;     ///< albedo, which scales what the lobe scatters; none: white
+    TextureId emission = TextureId::none;    ///< radiance on both sides; none: it does not emit
+    double parameter = 0;                    ///< of the lobe. metal: fuzz; dielectric: index of refraction
+    Fresnel fresnel = Fresnel::exact;        ///< dielectric
+    bool specular = false;                   ///< Material::value is zero for all directions
+    const Material* object = nullptr;        ///< user-defined; not owning
+    const MaterialThunks* thunks = nullptr;  ///< user-defined: how to call it; of static lifetime
 };
-static_assert(sizeof(MaterialRecord) == 32);
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
 

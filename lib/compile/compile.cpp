@@ -63,7 +63,7 @@ void gather_features(flat::Scene& s) {
         f.foreign_textures |= t.kind == TextureKind::foreign;
         f.texture_coordinates |= t.kind == TextureKind::image;
     }
-    for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == MaterialKind::foreign;
+    for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == kUserDefinedMaterial;
     f.texture_coordinates |= f.foreign_textures || f.foreign_materials || f.foreign_shapes;
     f.background = !is_black(s.background_bottom) || !is_black(s.background_top);
 

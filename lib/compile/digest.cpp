@@ -61,7 +61,10 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
         for (const auto* permutation : {&lattice->perm_x, &lattice->perm_y, &lattice->perm_z})
             for (const std::uint8_t entry : *permutation) sum.add(entry);
     });
-    sum.table(r.materials, [&](const MaterialRecord& m) { sum.add(m.kind, m.fresnel, m.texture, m.parameter); });
+    sum.table(r.materials, [&](const MaterialRecord& m) {
+        sum.text(std::string(m.kind));
+        sum.add(m.fresnel, m.texture, m.emission, m.parameter);
+    });
 }
 
 void add_meshes(const SceneRecords& r, SceneChecksum& sum) {

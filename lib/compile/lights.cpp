@@ -74,8 +74,8 @@ class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
         for (const MaterialRecord& m : scene.materials) {
-            const bool is_sampled = m.kind == MaterialKind::diffuse_light && !is_foreign(scene, m.texture);
-            brightness_.push_back(is_sampled ? typical_brightness(scene, m.texture) : 0);
+            const bool is_sampled = m.emission != TextureId::none && !is_foreign(scene, m.emission);
+            brightness_.push_back(is_sampled ? typical_brightness(scene, m.emission) : 0);
         }
         emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
         visit(GroupId::root, 0, {});
@@ -209,7 +209,7 @@ private:
         if (light.kind == flat::LightKind::sphere)
             return {box, {{0, 0, 1}, flat::kNoNormals}, radiance * kPi * light.radius * light.radius};
         const Vec3 normal = cross(light.edge_u, light.edge_v), axis = normalize(normal);
-        return {box, {axis, is_finite(axis) ? 1.0 : 0.0}, radiance * length(normal) * flat::share_of(light)};
+        return {box, {axis, is_finite(axis) ? 1.0 : 0.0}, radiance * length(normal) * light.share};
     }
 
     // A point's place under a product of matrices, each linear in time, lies in the hull of its places for all

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/sphere_uv.h"
 #include "flat/scene.h"
 #include "predicates/hit_error.h"
 
@@ -20,7 +21,7 @@ void describe(const Scene& scene, const PrimitiveRange& range, std::uint64_t ele
         if constexpr (requires { primitive.patch(); }) {
             const primitives::Patch patch = primitive.patch();
             light.origin = patch.corner, light.edge_u = patch.edge_u, light.edge_v = patch.edge_v;
-            light.primitive = Kind::kKind;
+            light.primitive = Kind::kKind, light.share = Kind::kShare;
             light.kind = Kind::kShare == 1                        ? LightKind::parallelogram
                          : Kind::kKind == PrimitiveKind::triangle ? LightKind::triangle
                                                                   : LightKind::patch;
@@ -37,7 +38,8 @@ void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t eleme
 }  // namespace
 
 bool is_plain(const Scene& scene, MaterialId material) {
-    const TextureId texture = scene.materials[static_cast<std::size_t>(material)].texture;
+    const MaterialRecord& m = scene.materials[static_cast<std::size_t>(material)];
+    const TextureId texture = m.emission != TextureId::none ? m.emission : m.texture;
     return scene.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
 }
 
@@ -55,21 +57,8 @@ Box bounds_of(const Light& light) {
     return box;
 }
 
-namespace {
-
-PrimitiveKind primitive_of(const Light& light) {
-    return light.kind == LightKind::triangle ? PrimitiveKind::triangle : light.primitive;
-}
-
-}  // namespace
-
-double share_of(const Light& light) {
-    return primitives::ask_kind(primitive_of(light), 1.0,
-                                []<class Kind>(std::type_identity<Kind>) { return Kind::kShare; });
-}
-
 Uv sample_area(const Light& light, double u, double v) {
-    return primitives::ask_kind(primitive_of(light), Uv{},
+    return primitives::ask_kind(light.primitive, Uv{},
                                 [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
 }
 
@@ -90,7 +79,14 @@ Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room) {
     const LightTable& table = scene.lights;
     const LightRef ref = table.refs[rank];
-    if (ref.place == LightRef::kOwn) return table.own[ref.element];
+    if (ref.place == LightRef::kOwn) {
+        const Light& own = table.own[ref.element];
+        if (own.kind != LightKind::sphere || own.edge_u == Vec3{}) return own;
+        room = own;
+        room.origin = interpolate(own.origin, own.origin + own.edge_u, time);
+        room.edge_u = {};
+        return room;
+    }
     const LightPlace& place = table.places[ref.place];
     const PrimitiveRange& range = scene.ranges[place.range];
     room = {};

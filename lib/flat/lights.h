@@ -26,13 +26,14 @@ enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere
 // An emitter in world space.
 struct Light {
     LightKind kind = LightKind::triangle;
-    PrimitiveKind primitive = PrimitiveKind::quad;  // what a patch is of
-    bool textured = false;                          // its radiance is not the same everywhere
+    PrimitiveKind primitive = PrimitiveKind::quad;
+    bool textured = false;  // its radiance is not the same everywhere
     MaterialId material = MaterialId::none;
     std::uint64_t number = 0;  // of its primitive
     Point3 origin;             // a triangle's first vertex, a patch's corner, a sphere's centre at time 0
     Vec3 edge_u, edge_v;       // of triangle and patch; of a sphere edge_u is the motion of its centre
     double radius = 0;
+    double share = 1;     // of planar ones: how much of the parallelogram they are
     Vec3 position_error;  // of points computed on it
 };
 
@@ -96,11 +97,10 @@ bool is_plain(const Scene& scene, MaterialId material);
 // Of all that it covers while the shutter is open.
 Box bounds_of(const Light& light);
 
-// Of planar ones: the share of the parallelogram, and a point by area, as weights of the edges.
-double share_of(const Light& light);
+// A point of a planar one by area, as weights of the edges.
 Uv sample_area(const Light& light, double u, double v);
 
-// One of the table, or made in `room`. \pre rank < scene.lights.size()
+// The light of a rank as it stands at a time: of the table, or made in `room`. \pre rank < scene.lights.size()
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);
 
 // A planar one of a place under a matrix; without edges where the primitive is not planar.

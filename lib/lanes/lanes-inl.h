@@ -159,6 +159,8 @@ HWY_INLINE double sqrt(double a) { return std::sqrt(a); }
 HWY_INLINE double min(double a, double b) { return a < b ? a : b; }
 HWY_INLINE double max(double a, double b) { return a > b ? a : b; }
 HWY_INLINE double copy_sign(double size, double sign) { return std::copysign(size, sign); }
+HWY_INLINE double floor(double a) { return std::floor(a); }
+HWY_INLINE double round(double a) { return std::nearbyint(a); }
 HWY_INLINE double rounded_to_float(double x) { return static_cast<double>(static_cast<float>(x)); }
 
 // Points, directions and normals alike.
@@ -180,7 +182,15 @@ struct Vector {
     friend LIMN_ALWAYS_INLINE Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
     friend LIMN_ALWAYS_INLINE Vector abs(const Vector& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
     friend LIMN_ALWAYS_INLINE N length_squared(const Vector& a) { return dot(a, a); }
-    friend LIMN_ALWAYS_INLINE Vector normalize(const Vector& a) { return a / sqrt(length_squared(a)); }
+    // As limn::normalize: right for any finite length but 0.
+    friend LIMN_ALWAYS_INLINE Vector normalize(const Vector& a) {
+        const N squared = length_squared(a);
+        const Mask<N> extreme = !((squared > N(1e-200)) & (squared < N(1e200)));
+        const Vector unit = a / sqrt(squared);
+        if (!any(extreme)) return unit;
+        const Vector scaled = select(squared > N(1.0), N(0x1p-700), N(0x1p700)) * a;
+        return select(extreme, scaled / sqrt(length_squared(scaled)), unit);
+    }
     friend LIMN_ALWAYS_INLINE Vector select(const Mask<N>& mask, const Vector& yes, const Vector& no) {
         return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
     }

@@ -24,8 +24,8 @@ std::optional<ScatterSample> DiffuseLight::sample(const Surface&, const Vec3&, c
 
 MaterialRecord DiffuseLight::lower(RecordSink& sink) const {
     MaterialRecord record;
-    record.kind = MaterialKind::diffuse_light;
-    record.texture = lower_texture(sink, radiance_);
+    record.kind = "diffuse-light";
+    record.emission = lower_texture(sink, radiance_);
     return record;
 }
 

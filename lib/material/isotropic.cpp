@@ -1,27 +1,65 @@
 #include "limn/material/isotropic.h"
 
-#include "bsdf/isotropic.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "material/isotropic.cpp"
+#include <hwy/foreach_target.h>
+
+#include "bsdf/lobe-inl.h"
 #include "material/albedo.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace limn::isotropic::HWY_NAMESPACE {
+
+using namespace bsdf::HWY_NAMESPACE;
+
+// The isotropic phase function, albedo / (4 pi); no cosine.
+struct Phase {
+    template <class N>
+    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>&) {
+        const N pdf = 1 / (4 * kPi);
+        return {pdf * s.albedo, pdf};
+    }
+    template <class N>
+    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+        return {uniform_cone<N>(random.x, random.y, 2.0), s.albedo, 1 / (4 * kPi)};
+    }
+};
+
+LIMN_LOBE_STAGES(Phase)
+
+}  // namespace limn::isotropic::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace limn {
+
+namespace isotropic {
+
+LIMN_LOBE(.one_sided = false, .numbers = 2)
+
+}  // namespace isotropic
+
+namespace formulas = isotropic::HWY_NAMESPACE;
 
 Isotropic::Isotropic(const Color& albedo) : albedo_(checked_albedo(albedo, "Isotropic")) {}
 
 Isotropic::Isotropic(std::shared_ptr<const Texture> albedo) : albedo_(checked_albedo(std::move(albedo), "Isotropic")) {}
 
-std::optional<ScatterSample> Isotropic::sample(const Surface& s, const Vec3&, const Random3& random) const {
-    return bsdf::sample_isotropic(albedo_->value(s), random);
+std::optional<ScatterSample> Isotropic::sample(const Surface& s, const Vec3& out, const Random3& random) const {
+    return formulas::sample_one<formulas::Phase>(formulas::input_of(s, out, albedo_->value(s)), random);
 }
 
-ScatterValue Isotropic::value(const Surface& s, const Vec3&, const Vec3&) const {
-    return bsdf::value_isotropic(albedo_->value(s));
+ScatterValue Isotropic::value(const Surface& s, const Vec3& out, const Vec3& in) const {
+    return formulas::value_one<formulas::Phase>(formulas::input_of(s, out, albedo_->value(s)), in);
 }
 
 MaterialRecord Isotropic::lower(RecordSink& sink) const {
     MaterialRecord record;
-    record.kind = MaterialKind::isotropic;
+    record.kind = "isotropic";
+    record.lobe = &isotropic::kLobe;
     record.texture = lower_texture(sink, albedo_);
     return record;
 }
 
 }  // namespace limn
+#endif

@@ -1,5 +1,7 @@
 #include "limn/material/material.h"
 
+#include "bsdf/lobe.h"
+
 namespace limn {
 
 namespace {
@@ -16,7 +18,8 @@ constexpr MaterialThunks kVirtualCalls{
 MaterialRecord Material::lower(RecordSink& sink) const {
     sink.identify(dynamic_cast<const Tagged*>(this));
     MaterialRecord record;
-    record.kind = MaterialKind::foreign;
+    record.kind = kUserDefinedMaterial;
+    record.lobe = &bsdf::kUserDefined;
     record.object = this;
     record.thunks = &kVirtualCalls;
     return record;

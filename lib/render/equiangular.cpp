@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/shading.h"
-
 namespace limn::transport {
 
 namespace {
@@ -62,24 +60,6 @@ std::optional<Equiangular> LightsAsPivot::along(const Ray& ray, const MediaAlong
     if (!stretch) return std::nullopt;
     const Equiangular along(ray, *stretch, pivot_, radius_);
     return along.angle() > kLeastAngle ? std::optional(along) : std::nullopt;
-}
-
-std::optional<DirectLight> prepare_scattered_light(const flat::Scene& scene, const Ray& ray, const MediaAlongRay& media,
-                                                   const Equiangular& along, const SegmentNumbers& random) {
-    const FreeFlight flight = media.scatter_at(along.sample(random.along), random.choose);
-    if (!flight.scatters) return std::nullopt;
-    Surface point;
-    point.position = ray.at(flight.t);
-    point.material = {static_cast<std::uint32_t>(flight.phase), nullptr, nullptr};
-    if (!can_be_evaluated(scene, point.material)) return std::nullopt;
-    const double odds = along.pdf(flight.t) / flight.density;
-    if (!(odds > 0)) return std::nullopt;
-    Receiver receiver;
-    set_receiver(scene, point, receiver);
-    std::optional<DirectLight> direct =
-        prepare_direct_light(scene, point, receiver, -normalize(ray.direction), ray.time, random.light, odds);
-    if (direct) direct->light = direct->light * (flight.weight / odds);
-    return direct;
 }
 
 }  // namespace limn::transport

@@ -7,7 +7,6 @@
 
 #include "flat/scene.h"
 #include "limn/core/ray.h"
-#include "render/direct_light.h"
 #include "render/media.h"
 
 namespace limn::transport {
@@ -44,16 +43,5 @@ private:
     Point3 pivot_;
     double radius_ = 0;
 };
-
-// Numbers that draw a point of a segment, one of the media there, and light.
-struct SegmentNumbers {
-    double along, choose;
-    LightNumbers light;
-};
-
-// The light straight from lights that is scattered towards the ray's origin once, of the whole stretch. `media` is that
-// of the ray. \pre there are lights
-std::optional<DirectLight> prepare_scattered_light(const flat::Scene& scene, const Ray& ray, const MediaAlongRay& media,
-                                                   const Equiangular& along, const SegmentNumbers& random);
 
 }  // namespace limn::transport

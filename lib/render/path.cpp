@@ -6,7 +6,7 @@
 
 #include "core/spawn.h"
 #include "limn/scene/background.h"
-#include "render/shading.h"
+#include "shade/shading.h"
 
 namespace limn::transport {
 
@@ -23,7 +23,16 @@ constexpr double kSurvivalUnderLamps = 3, kSurvivalUnderSky = 6;
 // measurable.
 constexpr double kLargestSurvival = 0.999;
 
+constexpr sampling::Rows3 kFromEverywhere{};
+
 }  // namespace
+
+PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
+    : scene_(scene),
+      max_depth_(max_depth),
+      sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
+      pivot_(scene),
+      roulette_(estimator == Estimator::path || max_depth == kUnlimitedDepth) {}
 
 // Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
 bool PathTracer::count(const Ray& ray) {
@@ -38,11 +47,11 @@ bool PathTracer::count(const Ray& ray) {
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
 void PathTracer::trace(std::span<Path> paths) {
     paths_ = paths;
-    heads_.assign(paths.size(), {});
+    states_.assign(paths.size(), {});
     next_.clear();
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
         paths[i].radiance = {};
-        begin(i, paths[i].ray);
+        begin_segment(i, paths[i].ray);
     }
     while (!next_.paths.empty()) {
         std::swap(now_, next_);
@@ -50,22 +59,21 @@ void PathTracer::trace(std::span<Path> paths) {
         shadows_.clear();
         arriving_.clear();
         find_hits();
-        for (std::size_t i = 0; i < hits_.size(); ++i) follow(now_.paths[i], now_.rays[i], hits_[i]);
-        for (const shade::Lobe lobe : shade::kLobes) shade_group(lobe);
-        shade_others();
+        for (std::size_t i = 0; i < hits_.size(); ++i) find_vertex(now_.paths[i], now_.rays[i], hits_[i]);
+        add_weighed_emission();
+        for (Queue& queue : queues_) shade(queue);
         add_direct_light();
     }
 }
 
-// A new segment.
-void PathTracer::begin(std::uint32_t path, const Ray& ray) {
+void PathTracer::begin_segment(std::uint32_t path, const Ray& ray) {
     if (!scene_.media.empty()) {
-        Head& head = heads_[path];
+        State& state = states_[path];
         Sampler& sampler = paths_[path].sampler;
-        sampler.seek(head.segment, Use::flight);
+        sampler.seek(state.segment, Use::flight);
         const Uv random = sampler.next_2d();
-        head.depth = -std::log1p(-random.u);  // 53 bits: up to 36.7 mean free paths
-        head.choose = random.v;
+        state.depth = -std::log1p(-random.u);  // 53 bits: up to 36.7 mean free paths
+        state.choose = random.v;
     }
     if (count(ray)) next_.add(path, ray);
 }
@@ -79,104 +87,217 @@ void PathTracer::find_hits() {
 }
 
 // To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
-void PathTracer::follow(std::uint32_t path, const Ray& ray, const trace::Hit& hit) {
+void PathTracer::find_vertex(std::uint32_t path, const Ray& ray, const trace::Hit& hit) {
+    Surface& vertex = met_.surface;
     if (!scene_.media.empty()) {
-        Head& head = heads_[path];
+        State& state = states_[path];
         Ray flight = ray;
         flight.t_max = hit.t;
         media_.trace(scene_, flight);
-        const FreeFlight flown = media_.sample(head.depth, head.choose);
-        const double light_odds = light_on_the_way(path, ray, flown);
-        head.throughput = flown.weight * head.throughput;
+        const FreeFlight flown = media_.sample(state.depth, state.choose);
+        const double light_odds = want_light_on_the_way(path, ray, flown);
+        state.throughput = flown.weight * state.throughput;
         if (flown.scatters) {
-            Surface& inside = next_vertex().surface;
-            inside = {};
-            inside.position = ray.at(flown.t);
-            inside.material = {static_cast<std::uint32_t>(flown.phase), nullptr, nullptr};
-            return shade(path, ray, inside, light_odds);
+            vertex = {};
+            vertex.position = ray.at(flown.t);
+            vertex.material.id = static_cast<std::uint32_t>(flown.phase);
+            return add_vertex(path, ray, vertex, light_odds);
         }
-        head.depth -= flown.depth;
+        state.depth -= flown.depth;
     }
     if (hit.primitive == flat::RawHit::kMiss) {
         const Background background{scene_.background_bottom, scene_.background_top};
-        paths_[path].radiance += heads_[path].throughput * background.radiance(ray.direction);
+        paths_[path].radiance += states_[path].throughput * background.radiance(ray.direction);
         return;
     }
-    query::SurfaceHit& met = next_vertex();
-    query::surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met);
-    if (met.index_matched) {
-        const Ray beyond = leave(met.surface, ray.direction, ray.time);
+    query::surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met_);
+    if (met_.index_matched) {
+        const Ray beyond = leave(vertex, ray.direction, ray.time);
         if (count(beyond)) next_.add(path, beyond);
         return;
     }
-    if (can_emit(scene_, met.surface.material)) add_emission(path, met.surface, hit.primitive, ray.time);
-    shade(path, ray, met.surface);
+    if (shade::can_emit(scene_, vertex.material)) add_emission(path, vertex, hit.primitive, ray.time);
+    add_vertex(path, ray, vertex);
 }
 
-// Shadow rays for light that media scatter once on their way to the segment's begin. Where that is worth while the
-// vertex at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely
-// its place was drawn for lights; 0 where it has to ask.
-double PathTracer::light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown) {
-    const int segment = heads_[path].segment;
+// A vertex for light that media scatter once on their way to the segment's begin. Where that is worth while the vertex
+// at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely its
+// place was drawn for lights; 0 where it has to ask.
+double PathTracer::want_light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown) {
+    const int segment = states_[path].segment;
     if (!sample_lights_ || segment == max_depth_) return 0;
     const std::optional<Equiangular> along = pivot_.along(ray, media_);
     if (!along) return 0;
     Sampler& sampler = paths_[path].sampler;
     sampler.seek(segment, Use::segment);
     const auto [t, choose, pick, u, v] = sampler.next_5d();
-    if (const auto light = prepare_scattered_light(scene_, ray, media_, *along, {t, choose, {pick, {u, v}}}))
-        add_shadow(path, light->light, light->shadow);
+    const FreeFlight flight = media_.scatter_at(along->sample(t), choose);
+    const double odds = flight.scatters ? along->pdf(flight.t) / flight.density : 0;
+    Surface& point = met_.surface;
+    point = {};
+    point.position = ray.at(flight.t);
+    point.material.id = static_cast<std::uint32_t>(flight.phase);
+    if (const bsdf::Lobe* lobe = shade::lobe_of(scene_, point.material);
+        lobe && odds > 0 && !shade::is_specular(scene_, point.material)) {
+        Queue& queue = queue_of(lobe, true);
+        const std::size_t i = push(queue, path, ray, point, (flight.weight / odds) * states_[path].throughput);
+        queue.wants_light[i] = true;
+        queue.light_odds[i] = odds;
+        queue.light_numbers[0][i] = pick, queue.light_numbers[1][i] = u, queue.light_numbers[2][i] = v;
+        if (queue.vertices.count == bsdf::kShaded) shade(queue);
+    }
     return flown.scatters && flown.t <= along->stretch().to ? along->pdf(flown.t) / flown.density : 0;
 }
 
 void PathTracer::add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time) {
-    const Head& head = heads_[path];
-    const Color emission = emitted(scene_, vertex);
-    if (is_black(emission) || is_black(head.throughput)) return;
-    const double light_pdf = sample_lights_ && head.scatter_pdf > 0
-                                 ? head.light_odds * pdf_light(scene_, head.previous, time, primitive, vertex.position)
-                                 : 0;
-    const double weight = light_pdf > 0 ? power_heuristic(head.scatter_pdf, light_pdf) : 1;
-    paths_[path].radiance += head.throughput * emission * weight;
+    const State& state = states_[path];
+    const Color emission = shade::emitted(scene_, vertex);
+    if (is_black(emission) || is_black(state.throughput)) return;
+    if (!sample_lights_ || state.scatter_pdf == 0) {
+        paths_[path].radiance += state.throughput * emission;
+        return;
+    }
+    Emitters& e = emitters_;
+    const std::size_t i = e.count++;
+    e.paths[i] = path;
+    e.emission[i] = state.throughput * emission;
+    e.receiver.set(i, state.receiver), e.receiver_normal.set(i, state.receiver_normal);
+    e.time[i] = time, e.scatter_pdf[i] = state.scatter_pdf, e.light_odds[i] = state.light_odds;
+    e.hits.primitive[i] = primitive, e.hits.position.set(i, vertex.position);
+    if (e.count == bsdf::kShaded) add_weighed_emission();
 }
 
-// Leaves the vertex to others of its kind: what comes now is done for many at once. `light_odds` over 0: lights were
+void PathTracer::add_weighed_emission() {
+    Emitters& e = emitters_;
+    if (e.count == 0) return;
+    lights::find_pdf(scene_, {e.count, e.receiver, e.receiver_normal, e.time}, e.hits);
+    for (std::size_t i = 0; i < e.count; ++i) e.hits.pdf[i] *= e.light_odds[i];
+    sampling::Row weight;
+    shade::weigh_emission(e.count, e.scatter_pdf, e.hits.pdf, weight);
+    for (std::size_t i = 0; i < e.count; ++i) paths_[e.paths[i]].radiance += weight[i] * e.emission[i];
+    e.count = 0;
+}
+
+// Leaves the vertex to others of its lobe: what comes now is done for many at once. `light_odds` over 0: lights were
 // asked along the segment.
-void PathTracer::shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds) {
-    Head& head = heads_[path];
-    if (head.segment == max_depth_ || is_black(head.throughput)) return;
-    const bool ask_lights = sample_lights_ && light_odds == 0;
-    if (sample_lights_) set_receiver(scene_, vertex, head.previous);
-    head.light_odds = light_odds > 0 ? light_odds : 1;
-    if (const auto lobe = lobe_of(scene_, vertex.material)) {
-        gather(path, ray, *lobe, vertex, ask_lights);
-    } else {
-        gather_other(path, ray, ask_lights);
+void PathTracer::add_vertex(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds) {
+    State& state = states_[path];
+    const bsdf::Lobe* lobe = shade::lobe_of(scene_, vertex.material);
+    if (!lobe || state.segment == max_depth_ || is_black(state.throughput)) return;
+    state.light_odds = light_odds > 0 ? light_odds : 1;
+    state.receiver = vertex.position;
+    state.receiver_normal = lobe->one_sided ? Vec3(vertex.normal) : Vec3{};
+    Queue& queue = queue_of(lobe, false);
+    const std::size_t i = push(queue, path, ray, vertex, state.throughput);
+    queue.wants_light[i] = sample_lights_ && light_odds == 0 && !shade::is_specular(scene_, vertex.material);
+    queue.light_odds[i] = 1;
+    if (queue.vertices.count == bsdf::kShaded) shade(queue);
+}
+
+PathTracer::Queue& PathTracer::queue_of(const bsdf::Lobe* lobe, bool for_light_alone) {
+    for (Queue& queue : queues_)
+        if (queue.lobe == lobe && queue.for_light_alone == for_light_alone) return queue;
+    return queues_.emplace_back(lobe, for_light_alone);
+}
+
+std::size_t PathTracer::push(Queue& queue, std::uint32_t path, const Ray& ray, const Surface& vertex,
+                             const Color& throughput) {
+    const std::size_t i = queue.vertices.count++;
+    queue.paths[i] = path;
+    queue.time[i] = ray.time;
+    queue.throughput[i] = throughput;
+    shade::set_vertex(scene_, vertex, -normalize(ray.direction), queue.vertices, i);
+    return i;
+}
+
+void PathTracer::shade(Queue& queue) {
+    if (queue.vertices.count == 0) return;
+    // First what comes first on each path, so that its light is added up in the same order in any company.
+    if (!queue.for_light_alone)
+        for (Queue& earlier : queues_)
+            if (earlier.for_light_alone) shade(earlier);
+    if (std::find(queue.wants_light.begin(), queue.wants_light.begin() + queue.vertices.count, true) !=
+        queue.wants_light.begin() + queue.vertices.count)
+        sample_lights(queue);
+    if (!queue.for_light_alone) scatter(queue);
+    queue.vertices.count = 0;
+}
+
+void PathTracer::draw(Queue& queue, Use use, std::size_t n, sampling::Row* numbers) {
+    const auto sampler_of = [&](std::size_t i) -> Sampler& {
+        const std::uint32_t path = queue.paths[i];
+        paths_[path].sampler.seek(states_[path].segment, use);
+        return paths_[path].sampler;
+    };
+    Sampler::draw_many(n, queue.vertices.count, sampler_of, samplers_, numbers);
+}
+
+void PathTracer::sample_lights(Queue& queue) {
+    bsdf::Vertices& vertices = queue.vertices;
+    lights::LightSamples& lights = light_samples_;
+    // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
+    if (!queue.for_light_alone) draw(queue, Use::light, 3, queue.light_numbers);
+    lights.numbers = queue.light_numbers;
+    lights::sample(
+        scene_,
+        {vertices.count, vertices.position, queue.lobe->one_sided ? vertices.normal : kFromEverywhere, queue.time},
+        lights);
+    queue.lobe->value(vertices, lights.direction);
+    sampling::Rows3 emission;
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        const bool lit = queue.wants_light[i] && lights.pdf[i] > 0 && !is_black(vertices.value.get<Color>(i));
+        emission.set(i, lit ? shade::radiance_of(scene_, lights, i) : Color{});
+    }
+    shade::weigh_light(vertices, lights, emission, queue.light_odds, shadow_rows_);
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        const Color light = shadow_rows_.light.get<Color>(i);
+        if (is_black(light) || !queue.wants_light[i]) continue;
+        add_shadow(queue.paths[i], queue.throughput[i] * light,
+                   {shadow_rows_.origin.get<Point3>(i), shadow_rows_.direction.get<Vec3>(i), 0, 1 - kShadowEnd,
+                    queue.time[i]});
+    }
+}
+
+// The next segments.
+void PathTracer::scatter(Queue& queue) {
+    bsdf::Vertices& vertices = queue.vertices;
+    draw(queue, Use::scattering, queue.lobe->numbers, vertices.numbers);
+    queue.lobe->sample(vertices);
+    sampling::Rows3& origin = shadow_rows_.origin;
+    shade::find_origins(vertices, origin);
+    sampling::Row survives = {}, roulette = {};
+    bool some_end = false;
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        State& state = states_[queue.paths[i]];
+        state.throughput *= vertices.weight.get<Color>(i);
+        survives[i] = is_black(state.throughput) ? 0 : survival(state);
+        some_end = some_end || survives[i] < 1;
+    }
+    if (some_end) draw(queue, Use::roulette, 1, &roulette);
+    for (std::size_t i = 0; i < vertices.count; ++i) {
+        if (!(survives[i] == 1 || roulette[i] < survives[i])) continue;
+        State& state = states_[queue.paths[i]];
+        state.throughput = state.throughput / survives[i];
+        state.scatter_pdf = vertices.pdf[i];
+        ++state.segment;
+        begin_segment(queue.paths[i],
+                      {origin.get<Point3>(i), vertices.direction.get<Vec3>(i), 0, kInfinity, queue.time[i]});
     }
 }
 
 // With which probability Russian roulette lets the path go on.
-double PathTracer::survival(const Head& head) const {
-    if (!roulette_ || head.segment < kRouletteStart) return 1;
+double PathTracer::survival(const State& state) const {
+    if (!roulette_ || state.segment < kRouletteStart) return 1;
     const double factor = scene_.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps;
-    const double survival = factor * max_component(head.throughput);
+    const double survival = factor * max_component(state.throughput);
     if (survival < kLargestSurvival) return survival;
     return max_depth_ == kUnlimitedDepth ? kLargestSurvival : 1;
-}
-
-// The next segment.
-void PathTracer::go_on(std::uint32_t path, double survival, double pdf, const Ray& ray) {
-    Head& head = heads_[path];
-    if (survival < 1) head.throughput = head.throughput / survival;
-    head.scatter_pdf = pdf;
-    ++head.segment;
-    begin(path, ray);
 }
 
 void PathTracer::add_shadow(std::uint32_t path, const Color& light, const Ray& ray) {
     if (!count(ray)) return;
     shadows_.add(path, ray);
-    arriving_.push_back(heads_[path].throughput * light);
+    arriving_.push_back(light);
 }
 
 void PathTracer::add_direct_light() {

@@ -3,19 +3,19 @@
 
 #include <array>
 #include <cstdint>
-#include <iterator>
 #include <span>
 #include <vector>
 
+#include "bsdf/lobe.h"
 #include "flat/scene.h"
+#include "lights/lights.h"
 #include "limn/core/ray.h"
 #include "limn/render/settings.h"
 #include "query/surface_at.h"
-#include "render/direct_light.h"
 #include "render/equiangular.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "shade/lobes.h"
+#include "shade/leave.h"
 #include "trace/traverse.h"
 
 namespace limn::transport {
@@ -24,20 +24,16 @@ namespace limn::transport {
 struct Path {
     Sampler sampler;
     Ray ray{};
-    Color radiance{};  // the answer
+    Color radiance{};  // the result
 };
 
 // Estimates the radiance that arrives along camera rays, of many paths at a time: all go one segment on before any goes
-// two, so that their rays are traced together, and vertices on the commonest materials are shaded together. What a path
-// does depends on nothing but its own ray and numbers. One for each thread: it counts rays and keeps its memory.
+// two, in stages: nearest hits, media, surfaces, emission, then for the vertices of each lobe light from lamps and
+// scattering, and at last shadow rays. What a path does depends on nothing but its own ray and numbers. One for each
+// thread: it counts rays and keeps its memory.
 class PathTracer {
 public:
-    PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
-        : scene_(scene),
-          max_depth_(max_depth),
-          sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
-          pivot_(scene),
-          roulette_(estimator == Estimator::path || max_depth == kUnlimitedDepth) {}
+    PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator);
 
     // Unbiased but for paths longer than max_depth segments.
     void trace(std::span<Path> paths);
@@ -54,10 +50,11 @@ public:
 
 private:
     // Where a path stands at the beginning of a segment, but for the ray.
-    struct Head {
+    struct State {
         int segment = 1;
         Color throughput{1, 1, 1};
-        Receiver previous{};     // the vertex before, as lights saw it
+        Point3 receiver;         // the vertex before, as lights saw it
+        Vec3 receiver_normal;    //
         double scatter_pdf = 0;  // of the direction; 0: specular or from the camera, no light sampling competes
         double light_odds = 1;   // how much more densely the vertex before was drawn for lights than for scattering
         double depth = 0;        // optical, in scattering, to where media scatter the path
@@ -71,48 +68,46 @@ private:
         void clear() { paths.clear(), rays.clear(); }
         void add(std::uint32_t path, const Ray& ray) { paths.push_back(path), rays.push_back(ray); }
     };
-    // Whose vertices are shaded together.
-    struct Company {
-        std::array<std::uint32_t, sampling::kShaded> paths;
-        std::array<bool, sampling::kShaded> ask_lights;
-        sampling::SobolLanes samplers;
+    // Vertices of one lobe, where paths scatter or, on the way through media, where they ask for light alone.
+    struct Queue {
+        Queue(const bsdf::Lobe* its_lobe, bool alone) : lobe(its_lobe), for_light_alone(alone) {}
+
+        const bsdf::Lobe* lobe;
+        bool for_light_alone;
+        bsdf::Vertices vertices;
+        std::array<std::uint32_t, bsdf::kShaded> paths{};
+        std::array<bool, bsdf::kShaded> wants_light{};
+        sampling::Row time = {}, light_numbers[3] = {};
+        sampling::Row light_odds = {};
+        std::array<Color, bsdf::kShaded> throughput;  // there
     };
-    // Vertices of one lobe.
-    struct Group : Company {
-        shade::VertexLanes lanes;
-        std::array<double, sampling::kShaded> times;
-        std::array<flat::Light, sampling::kShaded> lights;  // those that are not kept anywhere
-    };
-    // Vertices on all other materials.
-    struct Others : Company {
+    // Lights that were met by scattering, and could have been drawn.
+    struct Emitters {
         std::size_t count = 0;
-        std::array<query::SurfaceHit, sampling::kShaded> hits;
-        std::array<Ray, sampling::kShaded> rays;
-        sampling::Lane light_numbers[3], numbers[3];
+        std::array<std::uint32_t, bsdf::kShaded> paths{};
+        std::array<Color, bsdf::kShaded> emission;
+        sampling::Rows3 receiver, receiver_normal;
+        sampling::Row time = {}, scatter_pdf = {}, light_odds = {};
+        lights::LightHits hits;
     };
 
     bool count(const Ray& ray);
-    void begin(std::uint32_t path, const Ray& ray);
+    void begin_segment(std::uint32_t path, const Ray& ray);
     void find_hits();
-    void follow(std::uint32_t path, const Ray& ray, const trace::Hit& hit);
-    double light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown);
+    void find_vertex(std::uint32_t path, const Ray& ray, const trace::Hit& hit);
+    double want_light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown);
     void add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time);
-    void shade(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds = 0);
-    double survival(const Head& head) const;
-    void go_on(std::uint32_t path, double survival, double pdf, const Ray& ray);
+    void add_weighed_emission();
+    void add_vertex(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds = 0);
+    Queue& queue_of(const bsdf::Lobe* lobe, bool for_light_alone);
+    std::size_t push(Queue& queue, std::uint32_t path, const Ray& ray, const Surface& vertex, const Color& throughput);
+    void shade(Queue& queue);
+    void draw(Queue& queue, Use use, std::size_t n, sampling::Row* numbers);
+    void sample_lights(Queue& queue);
+    void scatter(Queue& queue);
+    double survival(const State& state) const;
     void add_shadow(std::uint32_t path, const Color& light, const Ray& ray);
     void add_direct_light();
-    // In path_groups.cpp.
-    query::SurfaceHit& next_vertex() { return others_.hits[others_.count]; }  // where the next one is filled in
-    void gather_other(std::uint32_t path, const Ray& ray, bool ask_lights);
-    void gather(std::uint32_t path, const Ray& ray, shade::Lobe lobe, const Surface& vertex, bool ask_lights);
-    void shade_group(shade::Lobe lobe);
-    void sample_lights(shade::Lobe lobe);
-    template <std::size_t n>
-    void draw(Company& company, std::size_t count, Use use, sampling::Lane* numbers);
-    void shade_others();
-    void shade_other(std::size_t i);
-    Group& group_of(shade::Lobe lobe) { return groups_[static_cast<std::size_t>(lobe)]; }
 
     const flat::Scene& scene_;
     const int max_depth_;
@@ -122,14 +117,18 @@ private:
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
     std::span<Path> paths_;
-    std::vector<Head> heads_;  // of each
-    Rays now_, next_;          // of those that go on
+    std::vector<State> states_;  // of each
+    Rays now_, next_;            // of those that go on
     std::vector<trace::Hit> hits_;
-    std::array<Group, std::size(shade::kLobes)> groups_;
-    Others others_;
+    query::SurfaceHit met_;
+    std::vector<Queue> queues_;
+    Emitters emitters_;
+    lights::LightSamples light_samples_;
+    shade::ShadowRays shadow_rows_;
     Rays shadows_;
     std::vector<Color> arriving_;  // light, if nothing is in the way of the shadow ray
     std::vector<std::uint8_t> occluded_;
+    sampling::SobolLanes samplers_;
 };
 
 }  // namespace limn::transport

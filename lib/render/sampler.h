@@ -57,15 +57,15 @@ public:
     }
     std::array<double, 5> next_5d() { return draw<5>(); }
 
-    // What many samplers of one kind draw next, side by side: the first n numbers of a group, numbers[d][i] those of
+    // What many samplers of one kind draw next: the first n numbers of a group, up to 5, numbers[d][i] those of
     // sampler_at(i). `lanes` is room for the work. \pre count <= kShaded
-    template <std::size_t n, class SamplerAt>
-    static void draw_many(std::size_t count, const SamplerAt& sampler_at, sampling::SobolLanes& lanes,
-                          sampling::Lane* numbers) {
+    template <class SamplerAt>
+    static void draw_many(std::size_t n, std::size_t count, const SamplerAt& sampler_at, sampling::SobolLanes& lanes,
+                          sampling::Row* numbers) {
         for (std::size_t i = 0; i < count; ++i) {
             Sampler& sampler = sampler_at(i);
             if (sampler.kind_ == SamplerKind::independent) {
-                const std::array<double, n> drawn = sampler.draw<n>();
+                const std::array<double, 5> drawn = sampler.draw<5>();
                 for (std::size_t d = 0; d < n; ++d) numbers[d][i] = drawn[d];
             } else {
                 lanes.base[i] = sampler.base_, lanes.index[i] = sampler.index_, lanes.group[i] = sampler.group_++;

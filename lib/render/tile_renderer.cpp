@@ -54,14 +54,11 @@ void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
 void TileRenderer::set_camera_rays(std::span<Path> paths, const Pixels& pixels) const {
     // In the pixel, on the lens, in time.
     sampling::SobolLanes lanes;
-    sampling::Lane numbers[5] = {};
+    sampling::Row numbers[5] = {};
     for (std::size_t first = 0; first < paths.size(); first += sampling::kShaded) {
         const std::span some = paths.subspan(first, std::min(sampling::kShaded, paths.size() - first));
         const auto sampler_at = [&](std::size_t i) -> Sampler& { return some[i].sampler; };
-        if (has_lens_or_motion_)
-            Sampler::draw_many<5>(some.size(), sampler_at, lanes, numbers);
-        else
-            Sampler::draw_many<2>(some.size(), sampler_at, lanes, numbers);
+        Sampler::draw_many(has_lens_or_motion_ ? 5 : 2, some.size(), sampler_at, lanes, numbers);
         for (std::size_t i = 0; i < some.size(); ++i) {
             const auto [x, y] = pixels[first + i];
             const double dx = info_.antialias ? numbers[0][i] : 0.5;

@@ -79,7 +79,7 @@ struct ReversedColumns {
 constexpr ReversedColumns kColumns;
 
 template <std::size_t n>
-HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Lane* numbers) {
+HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Row* numbers) {
     const Words w;
     for (std::size_t i = 0; i < count; i += hn::Lanes(w)) {
         const LongWord group = hn::PromoteTo(LongWords(), hn::LoadU(w, lanes.group + i));
@@ -103,7 +103,7 @@ HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Lane* numbers) 
     }
 }
 
-void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Lane* numbers) {
+void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Row* numbers) {
     switch (dimensions) {
         case 1: return draw<1>(lanes, count, numbers);
         case 2: return draw<2>(lanes, count, numbers);
@@ -120,7 +120,7 @@ namespace limn::sampling {
 
 HWY_EXPORT(draw_sobol);
 
-void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Lane* numbers) {
+void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Row* numbers) {
     HWY_DYNAMIC_DISPATCH(draw_sobol)(lanes, count, dimensions, numbers);
 }
 

@@ -4,12 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sampling/rows.h"
+
 namespace limn::sampling {
-
-// As many paths as are shaded side by side: a multiple of every vector's lanes, few enough for the first cache.
-inline constexpr std::size_t kShaded = 32;
-
-using Lane = double[kShaded];
 
 // Where each path stands in its sequence, see Sampler in render/sampler.h.
 struct SobolLanes {
@@ -20,6 +17,6 @@ struct SobolLanes {
 
 // The first `dimensions` numbers of each of `count` paths' group, to the bits that sobol::number gives.
 // \pre count <= kShaded, 1 <= dimensions <= 5
-void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Lane* numbers);
+void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Row* numbers);
 
 }  // namespace limn::sampling

@@ -47,7 +47,7 @@ const std::vector<Library>& libraries() {
         row("oneTBB", "(tbb|oneapi)/.*", R"(\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::)", "lib/(render|compile|accel)/.*"),
         row("Random123", "Random123/.*", R"(\br123\b)", "lib/render/.*"),
         row("xxHash", "xxhash\\.h", R"(\bXXH\w+)", R"(lib/core/checksum\.cpp)"),
-        row("Highway", "hwy/.*", R"(\bhwy\b)", "lib/(lanes|predicates|sampling|shade|trace)/.*"),
+        row("Highway", "hwy/.*", R"(\bhwy\b)", "lib/(bsdf|lanes|lights|material|predicates|sampling|shade|trace)/.*"),
         row("fmt", "fmt/.*", R"(\bfmt\s*::)", "apps/.*"),
         row("CLI11", "CLI/.*", R"(\bCLI\s*::)", "apps/.*"),
         row("nlohmann-json", "nlohmann/.*", R"(\bnlohmann\b)", "apps/.*"),

@@ -27,8 +27,8 @@ QuadRecord lamp_of(const Scene& scene, Color& radiance) {
     REQUIRE(sink.records().quads.size() == 1);
     const QuadRecord q = sink.records().quads[0];
     const MaterialRecord& m = sink.records().materials.at(static_cast<std::size_t>(q.material));
-    REQUIRE(m.kind == MaterialKind::diffuse_light);
-    radiance = sink.records().textures.at(static_cast<std::size_t>(m.texture)).color;
+    REQUIRE(m.kind == "diffuse-light");
+    radiance = sink.records().textures.at(static_cast<std::size_t>(m.emission)).color;
     return q;
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("Light tree: a node's box holds its lights at all times, its cone thei
                 const double time = random.uniform();
                 const Light light = light_of(scene, rank, time);
                 if (light.kind == LightKind::sphere) {
-                    const Point3 c = light.origin + time * light.edge_u;
+                    const Point3& c = light.origin;
                     const Vec3 reach{light.radius, light.radius, light.radius};
                     RC_ASSERT(holds_point(c + reach) && holds_point(c - reach));
                     RC_ASSERT(node.cos_spread == flat::kNoNormals || node.cos_spread == 0);

@@ -82,15 +82,12 @@ private:
 
     std::string material(MaterialId id) const {
         const MaterialRecord& m = r_.materials[static_cast<std::size_t>(id)];
-        switch (m.kind) {
-            case MaterialKind::lambertian: return texture(m.texture);
-            case MaterialKind::metal: return fmt::format("metal {} {:g}", texture(m.texture), m.parameter);
-            case MaterialKind::dielectric:
-                return fmt::format("glass {:g}{}", m.parameter, m.fresnel == Fresnel::schlick ? " by Schlick" : "");
-            case MaterialKind::diffuse_light: return "lamp " + texture(m.texture);
-            case MaterialKind::isotropic: return "smoke " + texture(m.texture);
-            case MaterialKind::foreign: break;
-        }
+        if (m.kind == "lambertian") return texture(m.texture);
+        if (m.kind == "metal") return fmt::format("metal {} {:g}", texture(m.texture), m.parameter);
+        if (m.kind == "dielectric")
+            return fmt::format("glass {:g}{}", m.parameter, m.fresnel == Fresnel::schlick ? " by Schlick" : "");
+        if (m.kind == "diffuse-light") return "lamp " + texture(m.emission);
+        if (m.kind == "isotropic") return "smoke " + texture(m.texture);
         return "something else";
     }
 

@@ -1,8 +1,9 @@
 // Lobes and the bases they stand on, at the ends of what numbers, normals, angles and indices can be.
-#include "bsdf/dielectric.h"
-#include "bsdf/lambertian.h"
+#include "bsdf/fresnel-inl.h"
 #include "hard/hard.h"
 #include "limn/core/frame.h"
+#include "limn/material/dielectric.h"
+#include "limn/material/lambertian.h"
 #include "support/chi_square.h"
 #include "support/random_geometry.h"
 #include "support/real.h"
@@ -28,6 +29,7 @@ TEST_CASE("Lambertian: every sample is a unit direction above the surface, whate
     };
     int wrong = 0, skew = 0, absorbed = 0;
     const int samples = count(1e8);
+    const Lambertian white(Color{1, 1, 1});
     for (int i = 0; i < samples; ++i) {
         const double x = tilt(), y = tilt();
         const Vec3 n = normalize(Vec3{x, y, random() % 2 ? 1.0 : -1.0});
@@ -38,7 +40,7 @@ TEST_CASE("Lambertian: every sample is a unit direction above the surface, whate
         Surface s;
         s.normal = s.shading_normal = Normal3(n);
         const double u = number(), v = number();
-        const auto sample = bsdf::sample_lambertian({1, 1, 1}, s, n, {u, v, 0});
+        const auto sample = white.sample(s, n, {u, v, 0});
         absorbed += !sample;  // at the horizon, where the density is 0
         if (sample && !(std::abs(length(sample->direction) - 1) <= gamma(32) && dot(sample->direction, n) > 0 &&
                         std::isfinite(sample->pdf) && sample->pdf > 0))
@@ -82,8 +84,8 @@ TEST_CASE("Dielectric: reflectance is Fresnel's to 1e-6, and with what is transm
             case 4: c = random.chance(0.5) ? 1 + 0x1p-23 : 0.0; break;
             default: break;
         }
-        const double inside = std::clamp(c, 0.0, 1.0), r = bsdf::reflectance_exact(c, eta),
-                     cos_t = bsdf::cos_transmitted(inside, eta);
+        const double inside = std::clamp(c, 0.0, 1.0), r = bsdf::HWY_NAMESPACE::reflectance_exact(c, eta),
+                     cos_t = bsdf::HWY_NAMESPACE::cos_transmitted(inside, eta);
         // At the critical angle the curve is vertical: its value is one within a few roundings of the angle.
         Real least = 1, most = 0;
         for (const double by : {-0x1p-50, 0.0, 0x1p-50}) {
@@ -96,7 +98,7 @@ TEST_CASE("Dielectric: reflectance is Fresnel's to 1e-6, and with what is transm
         if (cos_t == 0 || inside == 0) continue;
         const double ts = 2 * inside / (inside + eta * cos_t), tp = 2 * inside / (eta * inside + cos_t);
         worst_sum = std::max(worst_sum, std::abs(r + eta * (cos_t / inside) * (ts * ts + tp * tp) / 2 - 1));
-        const double schlick = bsdf::reflectance_schlick(c, eta);
+        const double schlick = bsdf::HWY_NAMESPACE::reflectance_schlick(c, eta);
         wrong += !(schlick >= 0 && schlick <= 1);
     }
     CHECK(wrong == 0);
@@ -120,7 +122,7 @@ TEST_CASE("Dielectric: what is sampled has unit length and keeps to Snell's law,
         s.front_face = i % 2 == 0;
         const double pick = random.uniform();
         const Fresnel formula = random.chance(0.5) ? Fresnel::exact : Fresnel::schlick;
-        const auto sample = bsdf::sample_dielectric(index, formula, s, out, {pick, 0.5, 0.5});
+        const auto sample = Dielectric(index, formula).sample(s, out, {pick, 0.5, 0.5});
         if (!sample || !(std::abs(length(sample->direction) - 1) <= gamma(32)) || !(sample->weight == Color{1, 1, 1})) {
             ++wrong;
             continue;

@@ -9,20 +9,15 @@
 #include "limn/scene/camera.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/solid.h"
-#include "render/light_sampling.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "sampling/spherical_rectangle.h"
 #include "support/chi_square.h"
 #include "support/pictures.h"
 #include "support/real.h"
+#include "support/single_shading.h"
 
 using namespace limn;
 using namespace limn::test;
-using sampling::SphericalRectangle;
-using transport::LightSample;
-using transport::pdf_light;
-using transport::sample_light;
 using transport::Sampler;
 
 namespace {

@@ -36,7 +36,9 @@ struct Lowered {
     }
     Color color(std::size_t i) const { return texture(i).color; }
     const TextureRecord& texture(std::size_t i) const {
-        return sink.records().textures.at(static_cast<std::uint32_t>(materials.at(i).texture));
+        const MaterialRecord& m = materials.at(i);
+        const TextureId id = m.emission != TextureId::none ? m.emission : m.texture;
+        return sink.records().textures.at(static_cast<std::uint32_t>(id));
     }
     RecordSink sink;
     std::vector<MaterialRecord> materials;
@@ -56,10 +58,10 @@ Model load_one(const Folder& folder, const std::string& mtl) {
 }  // namespace
 
 TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io][obj][mtl]") {
-    constexpr MaterialKind kMatte = MaterialKind::lambertian, kGlass = MaterialKind::dielectric;
+    constexpr std::string_view kMatte = "lambertian", kGlass = "dielectric";
     struct Row {
         std::string mtl;
-        MaterialKind kind;
+        std::string_view kind;
         Color color;
         double parameter;
         std::vector<std::string> unused{};  // words that a warning names, with their lines
@@ -76,11 +78,11 @@ TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io
          0,
          {"5: Ks"}},
         {"Kd .125 .25 .5\nKs .5 .5 .5\nd .98\nillum 2\n", kMatte, {.125, .25, .5}, 0, {"4: d", "3: Ks"}},
-        {"illum 3\nKd .5 .5 .5\nKs .25 .5 .25\nNs 1022\n", MaterialKind::metal, {.25, .5, .25}, 0.04419417382415922},
-        {"illum 5\nKs 1 1 1\nNs 0\n", MaterialKind::metal, {1, 1, 1}, 1},
-        {"illum 8\nKs 1 1 1\nNs 6\n", MaterialKind::metal, {1, 1, 1}, 0.5},
-        {"illum 3\nKs 1 1 1\nNs -5\n", MaterialKind::metal, {1, 1, 1}, 1},
-        {"illum 3\nKs 1 1 1\nNs 6\nd .5\n", MaterialKind::metal, {1, 1, 1}, .5, {"5: d"}},
+        {"illum 3\nKd .5 .5 .5\nKs .25 .5 .25\nNs 1022\n", "metal", {.25, .5, .25}, 0.04419417382415922},
+        {"illum 5\nKs 1 1 1\nNs 0\n", "metal", {1, 1, 1}, 1},
+        {"illum 8\nKs 1 1 1\nNs 6\n", "metal", {1, 1, 1}, 0.5},
+        {"illum 3\nKs 1 1 1\nNs -5\n", "metal", {1, 1, 1}, 1},
+        {"illum 3\nKs 1 1 1\nNs 6\nd .5\n", "metal", {1, 1, 1}, .5, {"5: d"}},
         {"illum 3\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0, {"2: illum"}},
         {"illum 4\nKd 1 1 1\n", kGlass, {}, 1.5},
         {"illum 6\nNi 2\n", kGlass, {}, 2},
@@ -90,7 +92,7 @@ TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io
         {"Kd 0.5 0.25 1\n", kMatte, {0.5, 0.25, 1}, 0},
         {"Kd 0.5\n", kMatte, {0.5, 0.5, 0.5}, 0},
         {"Kd .5 .5 .5\nKs .25 .25 .25\n", kMatte, {.5, .5, .5}, 0, {"3: Ks"}},
-        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", MaterialKind::metal, {.5, .5, .5}, 0.5},
+        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", "metal", {.5, .5, .5}, 0.5},
         {"d 0.5\nNi 1.25\n", kGlass, {}, 1.25},
         {"d -halo 0.5\nNi 1.25\n", kGlass, {}, 1.25},
         {"Tr 0.5\nNi 1\n", kGlass, {}, 1.5},
@@ -99,9 +101,9 @@ TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io
         {"d 1\nTr 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
         {"Tr 1\nd 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
         {"illum 1\nTr 0.5\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, {"3: Tr"}},
-        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", MaterialKind::diffuse_light, {4, 2, 1}, 0, {"4: d", "5: illum"}},
-        {"Ke 4 2 1\nKs 1 1 1\nillum 2\n", MaterialKind::diffuse_light, {4, 2, 1}, 0},
-        {"Ke 4 2 1\nmap_Kd none.png\n", MaterialKind::diffuse_light, {4, 2, 1}, 0, {"3: map_Kd"}},
+        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", "diffuse-light", {4, 2, 1}, 0, {"4: d", "5: illum"}},
+        {"Ke 4 2 1\nKs 1 1 1\nillum 2\n", "diffuse-light", {4, 2, 1}, 0},
+        {"Ke 4 2 1\nmap_Kd none.png\n", "diffuse-light", {4, 2, 1}, 0, {"3: map_Kd"}},
         {"Ke 0 0 0\nKd 1 1 1\n", kMatte, {1, 1, 1}, 0},
     };
     const Folder folder;
@@ -129,7 +131,7 @@ TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io
         CAPTURE(rest);
         const Model model = load_one(folder, "map_Kd a.png\n" + rest);
         const Lowered lowered(model);
-        CHECK(lowered.materials[0].kind == MaterialKind::lambertian);
+        CHECK(lowered.materials[0].kind == "lambertian");
         CHECK(lowered.texture(0).kind == TextureKind::image);
         REQUIRE(model.warnings.size() == unused.size());
         for (std::size_t i = 0; i < unused.size(); ++i)
@@ -168,7 +170,7 @@ TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded f
     const Model model = load_obj(folder.write("a.obj", obj));
     CHECK(model.warnings.empty());
     const Lowered lowered(model);
-    CHECK(lowered.materials[0].kind == MaterialKind::lambertian);
+    CHECK(lowered.materials[0].kind == "lambertian");
     const TextureRecord& texture = lowered.texture(0);
     CHECK(texture.kind == TextureKind::image);
     CHECK(texture.wrap == Wrap::repeat);
@@ -213,7 +215,7 @@ TEST_CASE("MTL: faces keep their materials, those before any usemtl the default 
     CHECK(model.warnings[0] == folder.path("a.mtl") + ": line 5: material 'red' is there already; the first one stays");
     const auto glass = std::make_shared<Dielectric>(1.5);
     const Lowered with_default(load_obj(folder.path("a.obj"), {.default_material = glass}));
-    CHECK(with_default.materials[0].kind == MaterialKind::dielectric);
+    CHECK(with_default.materials[0].kind == "dielectric");
 }
 
 TEST_CASE("MTL: a material that an earlier library has is left out with a warning", "[io][obj][mtl]") {

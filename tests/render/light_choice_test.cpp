@@ -1,16 +1,11 @@
 // Which of many lights is sampled: that the probabilities are what they are said to be, and leave no light out.
-#include "render/light_choice.h"
-
 #include "property.h"
 #include "support/light_of.h"
 #include "support/pictures.h"
+#include "support/single_shading.h"
 
 using namespace limn;
 using namespace limn::test;
-using transport::choose_light;
-using transport::LightChoice;
-using transport::probability_of;
-using transport::Receiver;
 
 namespace {
 
@@ -54,8 +49,8 @@ Receiver random_receiver(Random& random) {
 }
 
 // A point on a light.
-Point3 point_on(const flat::Light& light, double time, Random& random) {
-    if (light.kind == flat::LightKind::sphere) return light.origin + time * light.edge_u + light.radius * random.unit();
+Point3 point_on(const flat::Light& light, Random& random) {
+    if (light.kind == flat::LightKind::sphere) return light.origin + light.radius * random.unit();
     double u = random.uniform(), v = random.uniform();
     if (light.kind == flat::LightKind::triangle && u + v > 1) u = 1 - u, v = 1 - v;
     return light.origin + (u * light.edge_u + v * light.edge_v);
@@ -115,7 +110,7 @@ TEST_CASE("Light choice: every light of which a point is before the receiver may
         const Receiver receiver = random_receiver(random);
         for (std::size_t rank = 0; rank < lights.size(); ++rank) {
             const double time = random.uniform();
-            const Vec3 way = point_on(light_of(scene.flat(), rank, time), time, random) - receiver.position;
+            const Vec3 way = point_on(light_of(scene.flat(), rank, time), random) - receiver.position;
             if (receiver.normal == Vec3{} || dot(receiver.normal, way) > 0)
                 RC_ASSERT(probability_of(lights, receiver, rank) > 0);
         }

@@ -1,17 +1,13 @@
 // Directions towards lights: that they lead where they say, and with which density.
-#include "render/light_sampling.h"
-
 #include "limn/texture/checker.h"
 #include "property.h"
 #include "support/chi_square.h"
 #include "support/pictures.h"
+#include "support/single_shading.h"
 #include "support/solid_angle.h"
 
 using namespace limn;
 using namespace limn::test;
-using transport::LightSample;
-using transport::pdf_light;
-using transport::sample_light;
 
 namespace {
 

@@ -1,5 +1,4 @@
 // Single rays through the path tracer: the radiance that comes back along them, against integrals.
-#include "bsdf/metal.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
 #include "limn/texture/image_texture.h"
@@ -139,9 +138,8 @@ TEST_CASE("Path: brushed metal shows a lamp as its density blurs it", "[render][
         const Color albedo{0.8, 0.8, 0.8};
         const CompiledScene scene =
             compile_with(sky(0), {floor_of(std::make_shared<Metal>(albedo, fuzz)), quad(q, u, v, lamp(4))});
-        const double truth = 4 * over_quad(q, u, v, [&](const Vec3& w) {
-                                 return bsdf::value_metal(albedo, fuzz, floor, kOut, w).value.g;
-                             });
+        const double truth =
+            4 * over_quad(q, u, v, [&](const Vec3& w) { return Metal(albedo, fuzz).value(floor, kOut, w).value.g; });
         check_both(scene, at_floor(), 2, truth, 100'000);
     }
 }

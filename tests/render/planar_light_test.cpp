@@ -1,22 +1,20 @@
 // Points on flat emitters: that near ones are drawn uniformly per solid angle, distant ones per area.
-#include "render/planar_light.h"
-
 #include "support/chi_square.h"
 #include "support/pictures.h"
+#include "support/single_shading.h"
 #include "support/solid_angle.h"
 
 using namespace limn;
 using namespace limn::test;
 using flat::Light;
 using flat::LightKind;
-using transport::pdf_planar;
-using transport::sample_planar;
 
 namespace {
 
 Light light_of(LightKind kind) {
     Light light;
     light.kind = kind;
+    if (kind == LightKind::triangle) light.primitive = PrimitiveKind::triangle, light.share = 0.5;
     light.origin = {-0.4, 1, -0.3};
     light.edge_u = {1.2, 0.1, 0.2};
     light.edge_v = kind == LightKind::rectangle ? Vec3{-0.15, 0, 0.9} : Vec3{0.3, 0.4, 0.8};
@@ -45,10 +43,10 @@ double solid_angle_p(const Light& light, const Point3& from) {
     bool density = true;
     for (int i = 0; i < kDraws; ++i) {
         const double a = uniform(random);
-        const auto s = sample_planar(light, from, a, uniform(random));
-        const Uv w = s->weights;
+        const auto s = sample_point(light, from, a, uniform(random));
+        const Uv w = s->point.uv;
         density = density && std::abs(s->pdf * total - 1) <= 1e-9 &&
-                  std::abs(pdf_planar(light, from, s->position - from) * total - 1) <= 1e-9;
+                  std::abs(pdf_point(light, from, s->point.position) * total - 1) <= 1e-9;
         const auto index = [](double x) { return std::min(static_cast<std::size_t>(x * kSide), kSide - 1); };
         const std::size_t cell = 2 * (index(w.u) * kSide + index(w.v));
         const double rest =
@@ -76,12 +74,12 @@ TEST_CASE("Planar lights: distant ones are drawn uniformly per area, with the de
         const Vec3 scaled = cross(light.edge_u, light.edge_v);
         const double area = length(scaled) * (kind == LightKind::triangle ? 0.5 : 1);
         for (const Point3& from : {Point3{2, 9, -3}, Point3{5, -6, 1}}) {
-            const auto s = sample_planar(light, from, 0.3, 0.6);
+            const auto s = sample_point(light, from, 0.3, 0.6);
             REQUIRE(s);
-            const Vec3 way = s->position - from;
+            const Vec3 way = s->point.position - from;
             const double cosine = std::abs(dot(scaled, way)) / (length(scaled) * length(way));
             CHECK(s->pdf == Approx(length_squared(way) / (cosine * area)).epsilon(1e-13));
-            CHECK(pdf_planar(light, from, way) == Approx(s->pdf).epsilon(1e-13));
+            CHECK(pdf_point(light, from, s->point.position) == Approx(s->pdf).epsilon(1e-13));
         }
     }
 }
@@ -91,8 +89,8 @@ TEST_CASE("Planar lights: from in their plane nothing is drawn", "[render][light
         Light light = light_of(kind);
         light.edge_u.y = light.edge_v.y = 0;
         for (const double x : {-1.0, 0.0, 30.0}) {
-            CHECK_FALSE(sample_planar(light, {x, 1, 0.125}, 0.3, 0.6));
-            CHECK(pdf_planar(light, {x, 1, 0.125}, {0.5, 0, 0.25}) == 0);
+            CHECK_FALSE(sample_point(light, {x, 1, 0.125}, 0.3, 0.6));
+            CHECK(pdf_point(light, {x, 1, 0.125}, {x + 0.5, 1, 0.375}) == 0);
         }
     }
 }

@@ -1,6 +1,4 @@
 // A packed material or texture answers as the described object does, bit for bit.
-#include "render/shading.h"
-
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
 #include "limn/texture/checker.h"
@@ -11,6 +9,7 @@
 #include "render/path.h"
 #include "support/pictures.h"
 #include "support/random_geometry.h"
+#include "support/single_shading.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -120,7 +119,7 @@ TEST_CASE("Shading: a packed texture has the described one's value, bit for bit"
         for (std::size_t i = 0; i < described.size(); ++i) {
             Surface s = random_surface(random);
             s.material = packed.rows[i];
-            RC_ASSERT(transport::emitted(packed.scene.flat(), s) == described[i]->value(s));
+            RC_ASSERT(shade::emitted(packed.scene.flat(), s) == described[i]->value(s));
         }
     });
 }
@@ -139,21 +138,21 @@ TEST_CASE("Shading: a packed material emits, samples and scatters as the describ
             const Vec3 out = above(random, s), in = random.unit();
             const double x = random.uniform(), y = random.uniform();
             const Random3 r{x, y, random.uniform()};
-            RC_ASSERT(transport::emitted(scene, s) == described[i]->emitted(s));
-            RC_ASSERT(same(transport::sample_material(scene, s, out, r), described[i]->sample(s, out, r)));
-            const ScatterValue a = transport::material_value(scene, s, out, in), b = described[i]->value(s, out, in);
+            RC_ASSERT(shade::emitted(scene, s) == described[i]->emitted(s));
+            RC_ASSERT(same(sample_material(scene, s, out, r), described[i]->sample(s, out, r)));
+            const ScatterValue a = material_value(scene, s, out, in), b = described[i]->value(s, out, in);
             RC_ASSERT(a.value == b.value && a.pdf == b.pdf);
-            if (!is_black(b.value)) RC_ASSERT(transport::can_be_evaluated(scene, s.material));
+            if (!is_black(b.value)) RC_ASSERT(!shade::is_specular(scene, s.material));
         }
     });
 }
 
 TEST_CASE("Shading: lights are sampled for what scatters into more than a direction", "[render][shading]") {
     const Packed packed(materials());
-    const bool expected[] = {true, false, true, true, false, false, false, true, true};
+    const bool specular[] = {false, true, false, false, true, true, false, false, false};
     for (std::size_t i = 0; i < packed.rows.size(); ++i) {
         CAPTURE(i);
-        CHECK(transport::can_be_evaluated(packed.scene.flat(), packed.rows[i]) == expected[i]);
+        CHECK(shade::is_specular(packed.scene.flat(), packed.rows[i]) == specular[i]);
     }
 }
 
@@ -162,10 +161,9 @@ TEST_CASE("Shading: a surface without a material neither emits nor scatters", "[
     const flat::Scene& scene = packed.scene.flat();
     Surface s;
     s.normal = s.shading_normal = {0, 0, 1};
-    CHECK(is_black(transport::emitted(scene, s)));
-    CHECK_FALSE(transport::sample_material(scene, s, {0, 0, 1}, {0.5, 0.5, 0.5}));
-    CHECK(is_black(transport::material_value(scene, s, {0, 0, 1}, {0, 0, 1}).value));
-    CHECK_FALSE(transport::can_be_evaluated(scene, s.material));
+    CHECK(is_black(shade::emitted(scene, s)));
+    CHECK_FALSE(sample_material(scene, s, {0, 0, 1}, {0.5, 0.5, 0.5}));
+    CHECK(is_black(material_value(scene, s, {0, 0, 1}, {0, 0, 1}).value));
 }
 
 TEST_CASE("Shading: a ray that meets nothing brings the background of its direction, to the bit", "[render]") {

@@ -1,15 +1,13 @@
 // The rectangle on the sphere of directions: its area there, and that samples divide it as they should.
-#include "sampling/spherical_rectangle.h"
-
 #include "limn/core/frame.h"
 #include "limn/core/math.h"
 #include "property.h"
 #include "support/random_geometry.h"
+#include "support/single_shading.h"
 #include "support/solid_angle.h"
 
 using namespace limn;
 using namespace limn::test;
-using sampling::SphericalRectangle;
 
 namespace {
 

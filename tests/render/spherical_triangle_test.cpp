@@ -1,14 +1,12 @@
 // The triangle on the sphere of directions: its area there, and that samples divide it as they should.
-#include "sampling/spherical_triangle.h"
-
 #include "limn/core/math.h"
 #include "property.h"
 #include "support/random_geometry.h"
+#include "support/single_shading.h"
 #include "support/solid_angle.h"
 
 using namespace limn;
 using namespace limn::test;
-using sampling::SphericalTriangle;
 
 namespace {
 

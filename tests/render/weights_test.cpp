@@ -1,9 +1,8 @@
 // What is drawn towards lamps, and what it weighs, sample by sample.
 #include "catch.h"
-#include "render/light_sampling.h"
 #include "render/path.h"
-#include "render/shading.h"
 #include "support/pictures.h"
+#include "support/single_shading.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -11,7 +10,7 @@ using namespace limn::test;
 namespace {
 
 // Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.4.
-double power_heuristic(double a, double b) { return a * a / (a * a + b * b); }
+double squares(double a, double b) { return a * a / (a * a + b * b); }
 
 }  // namespace
 
@@ -22,26 +21,26 @@ TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities 
     const Ray eye{{0, 1, 0}, {0, -1, 0}};
     const Surface floor = scene.surface_at(eye, scene.closest_hit(eye).value());
     const Vec3 out{0, 1, 0};
-    const transport::Receiver receiver{floor.position, Vec3(floor.normal)};
+    const Receiver receiver{floor.position, Vec3(floor.normal)};
     transport::PathTracer tracer(scene.flat(), 2, Estimator::path);
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
         transport::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
         same_numbers.seek(1, transport::Use::light);
         const Random3 pick = same_numbers.next_3d();
-        const auto drawn = transport::sample_light(scene.flat(), receiver, 0, pick.x, pick.y, pick.z);
+        const auto drawn = sample_light(scene.flat(), receiver, 0, pick.x, pick.y, pick.z);
         REQUIRE(drawn.has_value());
-        const ScatterValue f = transport::material_value(scene.flat(), floor, out, drawn->direction);
-        double expected = f.value.r * kRadiance * power_heuristic(drawn->pdf, f.pdf) / drawn->pdf;
+        const ScatterValue f = material_value(scene.flat(), floor, out, drawn->direction);
+        double expected = f.value.r * kRadiance * squares(drawn->pdf, f.pdf) / drawn->pdf;
 
         same_numbers.seek(1, transport::Use::scattering);
-        const auto scattered = transport::sample_material(scene.flat(), floor, out, same_numbers.next_3d());
+        const auto scattered = sample_material(scene.flat(), floor, out, same_numbers.next_3d());
         REQUIRE(scattered.has_value());
         const Ray ray = floor.spawn_ray(scattered->direction, 0);
         if (const auto hit = scene.closest_hit(ray)) {
             const double pdf =
-                transport::pdf_light(scene.flat(), receiver, 0, hit->primitive, scene.surface_at(ray, *hit).position);
-            expected += kAlbedo * kRadiance * power_heuristic(scattered->pdf, pdf);
+                pdf_light(scene.flat(), receiver, 0, hit->primitive, scene.surface_at(ray, *hit).position);
+            expected += kAlbedo * kRadiance * squares(scattered->pdf, pdf);
             ++found;
         }
         CHECK(tracer.radiance(eye, numbers).r == Approx(expected).epsilon(1e-12));
@@ -56,8 +55,8 @@ TEST_CASE("Lamps: a ball in a scaled instance is sampled like the scaled ball", 
         compile_with(sky(0), {std::make_shared<Instance>(sphere({0, 2, 0}, 1, lamp(1)), Transform::scale(3, 3, 3))});
     for (const double u : {0.0, 0.3, 0.9})
         for (const double v : {0.0, 0.2, 0.7}) {
-            const auto a = transport::sample_light(plain.flat(), {}, 0, 0.5, u, v);
-            const auto b = transport::sample_light(scaled.flat(), {}, 0, 0.5, u, v);
+            const auto a = sample_light(plain.flat(), {}, 0, 0.5, u, v);
+            const auto b = sample_light(scaled.flat(), {}, 0, 0.5, u, v);
             REQUIRE((a && b));
             CHECK(b->pdf == Approx(a->pdf).epsilon(1e-13));
             CHECK(length(b->point.position - a->point.position) <= 1e-13);

@@ -2,8 +2,6 @@
 /// A basis around a normal.
 #pragma once
 
-#include <cmath>
-
 #include "limn/core/vec.h"
 
 namespace limn {
@@ -15,13 +13,7 @@ struct Frame {
     Vec3 z;  ///< the normal
 
     /// Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017. \pre n has unit length
-    explicit Frame(const Vec3& n) : z(n) {
-        const double sign = std::copysign(1.0, n.z);
-        const double a = -1 / (sign + n.z);
-        const double b = n.x * n.y * a;
-        x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-        y = {b, sign + n.y * n.y * a, -n.y};
-    }
+    explicit Frame(const Vec3& n);
     explicit Frame(const Normal3& n) : Frame(Vec3(n)) {}  ///< the same
 
     /// Between this basis and the space that its vectors are given in; lengths stay.

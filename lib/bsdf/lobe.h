@@ -1,0 +1,52 @@
+// How materials scatter, for many vertices of paths at a time. A material of limn's own states its lobe's formulas once
+// (lib/material), in terms of lobe-inl.h; those of user-defined materials are called one by one.
+#pragma once
+
+#include <vector>
+
+#include "limn/core/surface.h"
+#include "sampling/rows.h"
+
+namespace limn::bsdf {
+
+using sampling::kShaded, sampling::Row, sampling::Rows3;
+
+struct UserDefined {
+    Surface surface;
+    const Material* object = nullptr;
+    const MaterialThunks* thunks = nullptr;
+};
+
+// Vertices on materials of one lobe.
+struct Vertices {
+    std::size_t count = 0;
+    // As in Surface. In media normals are zero.
+    Rows3 position, position_error, normal, shading_normal;
+    Row front_face = {};  // 1 or 0
+    Rows3 out;            // back along the path, unit
+    // Of the material.
+    Rows3 albedo;
+    Row parameter = {}, exact_fresnel = {};  // 1: Fresnel::exact
+    std::vector<UserDefined> user_defined;   // as many, where the lobe calls them
+
+    // For sample: three uniform numbers. Of its results the weight is black where light is absorbed, and the pdf is 0
+    // where the direction is specular.
+    Row numbers[3] = {};
+    Rows3 direction, weight;
+    Row pdf = {};
+
+    // Of value: f |cos|, and the density with which sample draws that direction.
+    Rows3 value;
+    Row value_pdf = {};
+};
+
+struct Lobe {
+    bool one_sided;       // the value is zero wherever the directions are on different sides of the geometric surface
+    std::size_t numbers;  // how many sample needs
+    void (*sample)(Vertices&);
+    void (*value)(Vertices&, const Rows3& in);
+};
+
+extern const Lobe kUserDefined;
+
+}  // namespace limn::bsdf

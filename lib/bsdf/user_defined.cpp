@@ -1,0 +1,29 @@
+#include "bsdf/lobe.h"
+#include "limn/records.h"
+
+namespace limn::bsdf {
+
+namespace {
+
+void sample(Vertices& v) {
+    for (std::size_t i = 0; i < v.count; ++i) {
+        const auto& [surface, object, thunks] = v.user_defined[i];
+        const Random3 random{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
+        const auto s = thunks->sample(*object, surface, v.out.get<Vec3>(i), random).value_or(ScatterSample{});
+        v.direction.set(i, s.direction), v.weight.set(i, s.weight), v.pdf[i] = s.pdf;
+    }
+}
+
+void value(Vertices& v, const Rows3& in) {
+    for (std::size_t i = 0; i < v.count; ++i) {
+        const auto& [surface, object, thunks] = v.user_defined[i];
+        const ScatterValue f = thunks->value(*object, surface, v.out.get<Vec3>(i), in.get<Vec3>(i));
+        v.value.set(i, f.value), v.value_pdf[i] = f.pdf;
+    }
+}
+
+}  // namespace
+
+const Lobe kUserDefined{.one_sided = false, .numbers = 3, .sample = sample, .value = value};
+
+}  // namespace limn::bsdf

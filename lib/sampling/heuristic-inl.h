@@ -1,0 +1,28 @@
+// Weights of two ways to draw the same direction. Per-target include guard, as Highway has it.
+#if defined(LIMN_SAMPLING_HEURISTIC_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_SAMPLING_HEURISTIC_INL_H
+#undef LIMN_SAMPLING_HEURISTIC_INL_H
+#else
+#define LIMN_SAMPLING_HEURISTIC_INL_H
+#endif
+
+#include "lanes/lanes-inl.h"
+#include "limn/core/math.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::sampling::HWY_NAMESPACE {
+
+using namespace limn::HWY_NAMESPACE;
+
+// Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
+// 9.2.4), for the technique with density a against the one with density b.
+template <class N>
+HWY_INLINE N power_heuristic(N a, N b) {
+    const N ratio = b / a;
+    return select(a < kInfinity, 1.0 / (1.0 + ratio * ratio), 1.0);
+}
+
+}  // namespace limn::sampling::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

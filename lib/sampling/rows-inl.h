@@ -1,0 +1,28 @@
+// Rows in lanes. Per-target include guard, as Highway has it.
+#if defined(LIMN_SAMPLING_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_SAMPLING_ROWS_INL_H
+#undef LIMN_SAMPLING_ROWS_INL_H
+#else
+#define LIMN_SAMPLING_ROWS_INL_H
+#endif
+
+#include "lanes/lanes-inl.h"
+#include "sampling/rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::HWY_NAMESPACE {
+
+// Those of as many paths as there are lanes, from the i-th on.
+template <class N>
+HWY_INLINE Vector<N> load3(const sampling::Rows3& rows, std::size_t i) {
+    return {load<N>(rows.x + i), load<N>(rows.y + i), load<N>(rows.z + i)};
+}
+template <class N>
+HWY_INLINE void store3(const Vector<N>& v, sampling::Rows3& rows, std::size_t i) {
+    store(v.x, rows.x + i), store(v.y, rows.y + i), store(v.z, rows.z + i);
+}
+
+}  // namespace limn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

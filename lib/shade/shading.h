@@ -1,0 +1,30 @@
+// Materials and textures of the compiled scene at one surface.
+#pragma once
+
+#include "bsdf/lobe.h"
+#include "flat/scene.h"
+#include "lights/lights.h"
+#include "limn/core/surface.h"
+
+namespace limn::shade {
+
+Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s);
+
+// How the material scatters; null: it absorbs all light.
+const bsdf::Lobe* lobe_of(const flat::Scene& scene, const MaterialRef& material);
+
+// Whether the material's value is zero for all directions.
+bool is_specular(const flat::Scene& scene, const MaterialRef& material);
+
+// False where the surface does not emit.
+bool can_emit(const flat::Scene& scene, const MaterialRef& material);
+Color emitted(const flat::Scene& scene, const Surface& s);
+
+// A sample of a light.
+Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
+Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
+
+// Sets what the lobe needs of vertex i. \param out unit, back along the path \pre lobe_of(scene, s.material)
+void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& out, bsdf::Vertices& vertices, std::size_t i);
+
+}  // namespace limn::shade
