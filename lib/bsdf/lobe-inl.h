@@ -56,7 +56,7 @@ HWY_INLINE Vector<N> mirror(const Vector<N>& out, const Vector<N>& normal) {
 
 HWY_INLINE LobeInput<Doubles> input_at(const Vertices& v, std::size_t i) {
     return {
-        load3<Doubles>(v.normal, i),   load3<Doubles>(v.shading_normal, i),   load3<Doubles>(v.out, i),
+        load3<Doubles>(v.normal, i),   load3<Doubles>(v.shading_normal, i),   -normalize(load3<Doubles>(v.incoming, i)),
         load3<Doubles>(v.albedo, i),   load<Doubles>(v.front_face + i) > 0.0, load<Doubles>(v.exact_fresnel + i) > 0.0,
         load<Doubles>(v.parameter + i)};
 }

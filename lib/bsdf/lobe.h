@@ -23,7 +23,7 @@ struct Vertices {
     // As in Surface. In media normals are zero.
     Rows3 position, position_error, normal, shading_normal;
     Row front_face = {};  // 1 or 0
-    Rows3 out;            // back along the path, unit
+    Rows3 incoming;       // the direction of the ray that came here, of any length
     // Of the material.
     Rows3 albedo;
     Row parameter = {}, exact_fresnel = {};  // 1: Fresnel::exact

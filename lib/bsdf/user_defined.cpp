@@ -8,8 +8,9 @@ namespace {
 void sample(Vertices& v) {
     for (std::size_t i = 0; i < v.count; ++i) {
         const auto& [surface, object, thunks] = v.user_defined[i];
+        const Vec3 out = -normalize(v.incoming.get<Vec3>(i));
         const Random3 random{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
-        const auto s = thunks->sample(*object, surface, v.out.get<Vec3>(i), random).value_or(ScatterSample{});
+        const auto s = thunks->sample(*object, surface, out, random).value_or(ScatterSample{});
         v.direction.set(i, s.direction), v.weight.set(i, s.weight), v.pdf[i] = s.pdf;
     }
 }
@@ -17,7 +18,8 @@ void sample(Vertices& v) {
 void value(Vertices& v, const Rows3& in) {
     for (std::size_t i = 0; i < v.count; ++i) {
         const auto& [surface, object, thunks] = v.user_defined[i];
-        const ScatterValue f = thunks->value(*object, surface, v.out.get<Vec3>(i), in.get<Vec3>(i));
+        const Vec3 out = -normalize(v.incoming.get<Vec3>(i));
+        const ScatterValue f = thunks->value(*object, surface, out, in.get<Vec3>(i));
         v.value.set(i, f.value), v.value_pdf[i] = f.pdf;
     }
 }

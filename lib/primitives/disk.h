@@ -32,7 +32,8 @@ struct Disk : DiskRecord, Primitive {
         return {center - (radius * axes.x + radius * axes.y), 2 * radius * axes.x, 2 * radius * axes.y};
     }
     void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const {
-        on_patch(patch(), Normal3(normalize(normal)), found, s);
+        const Patch all = patch();
+        on_patch(all, Normal3(normalize(normal)), planar_error(all.corner, all.edge_u, all.edge_v), found, s);
     }
 };
 

@@ -52,9 +52,9 @@ struct Patch {
     Vec3 edge_u, edge_v;
 };
 
-inline void on_patch(const Patch& patch, const Normal3& normal, const PlanarHit& found, Surface& s) {
+inline void on_patch(const Patch& patch, const Normal3& normal, const Vec3& error, const PlanarHit& found, Surface& s) {
     s.position = patch.corner + (found.u * patch.edge_u + found.v * patch.edge_v);
-    s.position_error = planar_error(patch.corner, patch.edge_u, patch.edge_v);
+    s.position_error = error;
     s.normal = s.shading_normal = normal;
     s.uv = {found.u, found.v};
 }

@@ -15,14 +15,18 @@ struct Quad : QuadRecord, Primitive {
     static auto fields(const QuadRecord& q) { return std::tie(q.corner, q.edge_u, q.edge_v, q.material); }
 
     Normal3 normal;  // unit
+    Vec3 error;      // of points on it
 
-    explicit Quad(const QuadRecord& q) : QuadRecord(q), normal(quad_normal(q.edge_u, q.edge_v)) {}
+    explicit Quad(const QuadRecord& q)
+        : QuadRecord(q), normal(quad_normal(q.edge_u, q.edge_v)), error(planar_error(q.corner, q.edge_u, q.edge_v)) {}
 
     Box bounds() const { return quad_bounds(corner, edge_u, edge_v); }
     double packed_error() const { return std::max({lost(corner), lost(corner, edge_u), lost(corner, edge_v)}); }
     auto pack() const { return Triangle(TriangleVertices{corner, corner + edge_u, corner + edge_v}).pack(); }
     Patch patch() const { return {corner, edge_u, edge_v}; }
-    void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const { on_patch(patch(), normal, found, s); }
+    void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const {
+        on_patch(patch(), normal, error, found, s);
+    }
 };
 
 }  // namespace limn::primitives

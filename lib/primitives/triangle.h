@@ -25,7 +25,7 @@ struct Triangle : TriangleRecord, Primitive {
     std::array<float, 9> pack() const { return to_floats(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z); }
     Patch patch() const { return {a, b - a, c - a}; }
     void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const {
-        on_patch(patch(), triangle_normal(a, b, c), found, s);
+        on_patch(patch(), triangle_normal(a, b, c), planar_error(a, b - a, c - a), found, s);
     }
 };
 

@@ -2,22 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/spawn.h"
 #include "limn/scene/background.h"
+#include "sampling/sobol_lanes.h"
 #include "shade/shading.h"
 
 namespace limn::transport {
 
 namespace {
 
-// Russian roulette: from this vertex on a path goes on with this many times its throughput as probability. A path that
-// may end in a sky brings all its light at once, and mostly soon, so that ending it costs more and saves less than
-// where lamps are asked at each vertex. Measured by time times error against no roulette up to depth 10: under lamps
-// (figures 12, 15, 16) 0.93, 0.73, 0.72, under skies (1, 11, 18) 0.93, 0.99, 0.98. Factors of 2 to 4 under lamps and 4
-// to 10 under skies are within 5 %.
-constexpr int kRouletteStart = 2;
+using sampling::kShaded, sampling::kSlack;
+
+// A path that may end in a sky brings all its light at once, and mostly soon, so that ending it costs more and saves
+// less than where lamps are asked at each vertex. Measured by time times error against no roulette up to depth 10:
+// under lamps (figures 12, 15, 16) 0.93, 0.73, 0.72, under skies (1, 11, 18) 0.93, 0.99, 0.98. Factors of 2 to 4 under
+// lamps and 4 to 10 under skies are within 5 %.
+constexpr std::uint32_t kRouletteStart = 2;
 constexpr double kSurvivalUnderLamps = 3, kSurvivalUnderSky = 6;
 // Even a path that loses nothing must end some day where there is no limit; at 0.999 the variance that this adds is not
 // measurable.
@@ -25,146 +28,204 @@ constexpr double kLargestSurvival = 0.999;
 
 constexpr sampling::Rows3 kFromEverywhere{};
 
+// The naive estimator, which is a check, does without where a limit ends its paths.
+shade::Roulette roulette_of(const flat::Scene& scene, int max_depth, Estimator estimator) {
+    const bool never = estimator == Estimator::naive && max_depth != kUnlimitedDepth;
+    return {.start = never ? std::numeric_limits<std::uint32_t>::max() : kRouletteStart,
+            .factor = scene.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps,
+            .largest = max_depth == kUnlimitedDepth ? kLargestSurvival : 1};
+}
+
 }  // namespace
 
 PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
     : scene_(scene),
-      max_depth_(max_depth),
+      max_depth_(max_depth == kUnlimitedDepth ? std::numeric_limits<std::uint32_t>::max()
+                                              : static_cast<std::uint32_t>(max_depth)),
       sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
       pivot_(scene),
-      roulette_(estimator == Estimator::path || max_depth == kUnlimitedDepth) {}
-
-// Whether the ray can be traced. A shape or material of extreme numbers can spoil one; it carries no light.
-bool PathTracer::count(const Ray& ray) {
-    ++rays_;
-    if (is_usable(ray)) return true;
-    ++unusable_rays_;
-    return false;
-}
+      roulette_(roulette_of(scene, max_depth, estimator)),
+      now_(std::make_unique<shade::Segments>()),
+      next_(std::make_unique<shade::Segments>()) {}
 
 // The rendering equation by scattering: L = sum over path vertices of throughput * emission, where the throughput grows
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
 void PathTracer::trace(std::span<Path> paths) {
-    paths_ = paths;
-    states_.assign(paths.size(), {});
-    next_.clear();
-    for (std::uint32_t i = 0; i < paths.size(); ++i) {
-        paths[i].radiance = {};
-        begin_segment(i, paths[i].ray);
-    }
-    while (!next_.paths.empty()) {
+    for (; paths.size() > sampling::kBatch; paths = paths.subspan(sampling::kBatch))
+        trace(paths.first(sampling::kBatch));
+    begin(paths);
+    while (next_->count > 0) {
         std::swap(now_, next_);
-        next_.clear();
-        shadows_.clear();
-        arriving_.clear();
+        next_->count = shadows_.count = 0;
         find_hits();
-        for (std::size_t i = 0; i < hits_.size(); ++i) find_vertex(now_.paths[i], now_.rays[i], hits_[i]);
+        for (std::size_t row = 0; row < now_->count; ++row) find_vertex(row);
         add_weighed_emission();
         for (Queue& queue : queues_) shade(queue);
         add_direct_light();
     }
 }
 
-void PathTracer::begin_segment(std::uint32_t path, const Ray& ray) {
-    if (!scene_.media.empty()) {
-        State& state = states_[path];
-        Sampler& sampler = paths_[path].sampler;
-        sampler.seek(state.segment, Use::flight);
-        const Uv random = sampler.next_2d();
-        state.depth = -std::log1p(-random.u);  // 53 bits: up to 36.7 mean free paths
-        state.choose = random.v;
+void PathTracer::begin(std::span<Path> paths) {
+    paths_ = paths;
+    shade::Segments& s = *next_;
+    s.count = 0;
+    for (std::uint32_t i = 0; i < paths.size(); ++i) {
+        const Ray& ray = paths[i].ray;
+        paths[i].radiance = {};
+        if (!count(ray)) continue;
+        const std::size_t row = s.count++;
+        s.path[row] = i, s.vertex[row] = 1;
+        s.base[row] = paths[i].sampler.base(), s.index[row] = paths[i].sampler.index();
+        s.time[row] = ray.time;
+        s.throughput.set(row, Color{1, 1, 1});
+        s.origin.set(row, ray.origin), s.direction.set(row, ray.direction);
+        s.scatter_pdf[row] = 0;
     }
-    if (count(ray)) next_.add(path, ray);
+    draw_flights(0);
+}
+
+bool PathTracer::count(const Ray& ray) {
+    const bool usable = is_usable(ray);
+    count({1, usable ? 0u : 1u});
+    return usable;
+}
+
+void PathTracer::count(const shade::RayCounts& counts) { rays_ += counts.all, unusable_rays_ += counts.unusable; }
+
+// Numbers for `count` paths from the first row on.
+template <std::size_t n>
+void PathTracer::draw(const sampling::PathRows<n>& paths, std::size_t first, std::size_t count, Use use,
+                      std::size_t dimensions, sampling::Row* numbers) {
+    std::uint32_t group[kShaded] = {};
+    for (std::size_t i = 0; i < count; ++i) group[i] = Sampler::group_of(paths.vertex[first + i], use);
+    if (paths_[0].sampler.kind() == SamplerKind::sobol)
+        return sampling::draw_sobol({count, paths.base + first, paths.index + first, group}, dimensions, numbers);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto drawn = paths_[paths.path[first + i]].sampler.next_of(group[i]);
+        for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
+    }
+}
+
+// For the next segments, from a row on.
+void PathTracer::draw_flights(std::size_t first) {
+    if (scene_.media.empty()) return;
+    shade::Segments& s = *next_;
+    for (; first < s.count; first += kShaded) {
+        const std::size_t some = std::min(kShaded, s.count - first);
+        sampling::Row numbers[2];
+        draw(s, first, some, Use::flight, 2, numbers);
+        for (std::size_t i = 0; i < some; ++i) {
+            s.depth[first + i] = -std::log1p(-numbers[0][i]);  // 53 bits: up to 36.7 mean free paths
+            s.choose[first + i] = numbers[1][i];
+        }
+    }
 }
 
 void PathTracer::find_hits() {
-    hits_.resize(now_.rays.size());
-    for (std::size_t i = 0; i < hits_.size(); i += trace::kMostRays) {
-        const std::size_t some = std::min(trace::kMostRays, hits_.size() - i);
-        trace::closest_hits(scene_, std::span(now_.rays).subspan(i, some), &hits_[i]);
+    const shade::Segments& s = *now_;
+    hits_.resize(s.count), ray_list_.resize(s.count);
+    for (std::size_t i = 0; i < s.count; ++i)
+        ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, kInfinity, s.time[i]};
+    for (std::size_t i = 0; i < s.count; i += trace::kMostRays) {
+        const std::size_t some = std::min(trace::kMostRays, s.count - i);
+        trace::closest_hits(scene_, std::span(ray_list_).subspan(i, some), &hits_[i]);
     }
 }
 
 // To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
-void PathTracer::find_vertex(std::uint32_t path, const Ray& ray, const trace::Hit& hit) {
+void PathTracer::find_vertex(std::size_t row) {
+    const shade::Segments& s = *now_;
+    const Ray& ray = ray_list_[row];
+    const trace::Hit& hit = hits_[row];
     Surface& vertex = met_.surface;
+    Color throughput = s.throughput.get<Color>(row);
+    double depth = 0;
     if (!scene_.media.empty()) {
-        State& state = states_[path];
         Ray flight = ray;
         flight.t_max = hit.t;
         media_.trace(scene_, flight);
-        const FreeFlight flown = media_.sample(state.depth, state.choose);
-        const double light_odds = want_light_on_the_way(path, ray, flown);
-        state.throughput = flown.weight * state.throughput;
+        const FreeFlight flown = media_.sample(s.depth[row], s.choose[row]);
+        const double light_odds = want_light_on_the_way(row, flown);
+        throughput = flown.weight * throughput;
         if (flown.scatters) {
             vertex = {};
             vertex.position = ray.at(flown.t);
             vertex.material.id = static_cast<std::uint32_t>(flown.phase);
-            return add_vertex(path, ray, vertex, light_odds);
+            return add_vertex(row, throughput, light_odds);
         }
-        state.depth -= flown.depth;
+        depth = s.depth[row] - flown.depth;
     }
     if (hit.primitive == flat::RawHit::kMiss) {
         const Background background{scene_.background_bottom, scene_.background_top};
-        paths_[path].radiance += states_[path].throughput * background.radiance(ray.direction);
+        paths_[s.path[row]].radiance += throughput * background.radiance(ray.direction);
         return;
     }
     query::surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met_);
     if (met_.index_matched) {
-        const Ray beyond = leave(vertex, ray.direction, ray.time);
-        if (count(beyond)) next_.add(path, beyond);
-        return;
+        now_->throughput.set(row, throughput);
+        return pass_boundary(row, depth);
     }
-    if (shade::can_emit(scene_, vertex.material)) add_emission(path, vertex, hit.primitive, ray.time);
-    add_vertex(path, ray, vertex);
+    if (shade::can_emit(scene_, vertex.material)) add_emission(row, throughput);
+    add_vertex(row, throughput);
+}
+
+void PathTracer::pass_boundary(std::size_t row, double depth) {
+    const Ray beyond = leave(met_.surface, ray_list_[row].direction, now_->time[row]);
+    if (!count(beyond)) return;
+    const shade::Segments& s = *now_;
+    shade::Segments& next = *next_;
+    const std::size_t i = next.count++;
+    next.copy(i, s, row);
+    next.throughput.set(i, s.throughput.get<Color>(row));
+    next.origin.set(i, beyond.origin), next.direction.set(i, beyond.direction);
+    next.receiver.set(i, s.receiver.get<Vec3>(row)), next.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
+    next.scatter_pdf[i] = s.scatter_pdf[row], next.light_odds[i] = s.light_odds[row];
+    next.depth[i] = depth, next.choose[i] = s.choose[row];
 }
 
 // A vertex for light that media scatter once on their way to the segment's begin. Where that is worth while the vertex
 // at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely its
 // place was drawn for lights; 0 where it has to ask.
-double PathTracer::want_light_on_the_way(std::uint32_t path, const Ray& ray, const FreeFlight& flown) {
-    const int segment = states_[path].segment;
-    if (!sample_lights_ || segment == max_depth_) return 0;
-    const std::optional<Equiangular> along = pivot_.along(ray, media_);
+double PathTracer::want_light_on_the_way(std::size_t row, const FreeFlight& flown) {
+    if (!sample_lights_ || now_->vertex[row] == max_depth_) return 0;
+    const std::optional<Equiangular> along = pivot_.along(ray_list_[row], media_);
     if (!along) return 0;
-    Sampler& sampler = paths_[path].sampler;
-    sampler.seek(segment, Use::segment);
-    const auto [t, choose, pick, u, v] = sampler.next_5d();
+    Sampler& sampler = paths_[now_->path[row]].sampler;
+    const auto [t, choose, pick, u, v] = sampler.next_of(Sampler::group_of(now_->vertex[row], Use::segment));
     const FreeFlight flight = media_.scatter_at(along->sample(t), choose);
     const double odds = flight.scatters ? along->pdf(flight.t) / flight.density : 0;
     Surface& point = met_.surface;
     point = {};
-    point.position = ray.at(flight.t);
+    point.position = ray_list_[row].at(flight.t);
     point.material.id = static_cast<std::uint32_t>(flight.phase);
     if (const bsdf::Lobe* lobe = shade::lobe_of(scene_, point.material);
         lobe && odds > 0 && !shade::is_specular(scene_, point.material)) {
         Queue& queue = queue_of(lobe, true);
-        const std::size_t i = push(queue, path, ray, point, (flight.weight / odds) * states_[path].throughput);
-        queue.wants_light[i] = true;
-        queue.light_odds[i] = odds;
+        const std::size_t i = push(queue, row, (flight.weight / odds) * now_->throughput.get<Color>(row));
+        queue.wants_light[i] = odds;
         queue.light_numbers[0][i] = pick, queue.light_numbers[1][i] = u, queue.light_numbers[2][i] = v;
-        if (queue.vertices.count == bsdf::kShaded) shade(queue);
+        if (queue.vertices.count == kShaded) shade(queue);
     }
     return flown.scatters && flown.t <= along->stretch().to ? along->pdf(flown.t) / flown.density : 0;
 }
 
-void PathTracer::add_emission(std::uint32_t path, const Surface& vertex, std::uint64_t primitive, double time) {
-    const State& state = states_[path];
-    const Color emission = shade::emitted(scene_, vertex);
-    if (is_black(emission) || is_black(state.throughput)) return;
-    if (!sample_lights_ || state.scatter_pdf == 0) {
-        paths_[path].radiance += state.throughput * emission;
+void PathTracer::add_emission(std::size_t row, const Color& throughput) {
+    const shade::Segments& s = *now_;
+    const Color emission = shade::emitted(scene_, met_.surface);
+    if (is_black(emission) || is_black(throughput)) return;
+    if (!sample_lights_ || s.scatter_pdf[row] == 0) {
+        paths_[s.path[row]].radiance += throughput * emission;
         return;
     }
     Emitters& e = emitters_;
     const std::size_t i = e.count++;
-    e.paths[i] = path;
-    e.emission[i] = state.throughput * emission;
-    e.receiver.set(i, state.receiver), e.receiver_normal.set(i, state.receiver_normal);
-    e.time[i] = time, e.scatter_pdf[i] = state.scatter_pdf, e.light_odds[i] = state.light_odds;
-    e.hits.primitive[i] = primitive, e.hits.position.set(i, vertex.position);
-    if (e.count == bsdf::kShaded) add_weighed_emission();
+    e.paths[i] = s.path[row];
+    e.emission[i] = throughput * emission;
+    e.receiver.set(i, s.receiver.get<Vec3>(row)), e.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
+    e.time[i] = s.time[row], e.scatter_pdf[i] = s.scatter_pdf[row], e.light_odds[i] = s.light_odds[row];
+    e.hits.primitive[i] = hits_[row].primitive, e.hits.position.set(i, met_.surface.position);
+    if (e.count == kShaded) add_weighed_emission();
 }
 
 void PathTracer::add_weighed_emission() {
@@ -180,18 +241,15 @@ void PathTracer::add_weighed_emission() {
 
 // Leaves the vertex to others of its lobe: what comes now is done for many at once. `light_odds` over 0: lights were
 // asked along the segment.
-void PathTracer::add_vertex(std::uint32_t path, const Ray& ray, const Surface& vertex, double light_odds) {
-    State& state = states_[path];
-    const bsdf::Lobe* lobe = shade::lobe_of(scene_, vertex.material);
-    if (!lobe || state.segment == max_depth_ || is_black(state.throughput)) return;
-    state.light_odds = light_odds > 0 ? light_odds : 1;
-    state.receiver = vertex.position;
-    state.receiver_normal = lobe->one_sided ? Vec3(vertex.normal) : Vec3{};
+void PathTracer::add_vertex(std::size_t row, const Color& throughput, double light_odds) {
+    const MaterialRef& material = met_.surface.material;
+    const bsdf::Lobe* lobe = shade::lobe_of(scene_, material);
+    if (!lobe || now_->vertex[row] == max_depth_ || is_black(throughput)) return;
     Queue& queue = queue_of(lobe, false);
-    const std::size_t i = push(queue, path, ray, vertex, state.throughput);
-    queue.wants_light[i] = sample_lights_ && light_odds == 0 && !shade::is_specular(scene_, vertex.material);
-    queue.light_odds[i] = 1;
-    if (queue.vertices.count == bsdf::kShaded) shade(queue);
+    const std::size_t i = push(queue, row, throughput);
+    queue.wants_light[i] = sample_lights_ && light_odds == 0 && !shade::is_specular(scene_, material) ? 1 : 0;
+    queue.light_odds[i] = light_odds > 0 ? light_odds : 1;
+    if (queue.vertices.count == kShaded) shade(queue);
 }
 
 PathTracer::Queue& PathTracer::queue_of(const bsdf::Lobe* lobe, bool for_light_alone) {
@@ -200,120 +258,74 @@ PathTracer::Queue& PathTracer::queue_of(const bsdf::Lobe* lobe, bool for_light_a
     return queues_.emplace_back(lobe, for_light_alone);
 }
 
-std::size_t PathTracer::push(Queue& queue, std::uint32_t path, const Ray& ray, const Surface& vertex,
-                             const Color& throughput) {
+std::size_t PathTracer::push(Queue& queue, std::size_t row, const Color& throughput) {
     const std::size_t i = queue.vertices.count++;
-    queue.paths[i] = path;
-    queue.time[i] = ray.time;
-    queue.throughput[i] = throughput;
-    shade::set_vertex(scene_, vertex, -normalize(ray.direction), queue.vertices, i);
+    queue.paths.copy(i, *now_, row);
+    queue.paths.throughput.set(i, throughput);
+    shade::set_vertex(scene_, met_.surface, ray_list_[row].direction, queue.vertices, i);
     return i;
 }
 
 void PathTracer::shade(Queue& queue) {
-    if (queue.vertices.count == 0) return;
+    const std::size_t count = queue.vertices.count;
+    if (count == 0) return;
     // First what comes first on each path, so that its light is added up in the same order in any company.
     if (!queue.for_light_alone)
         for (Queue& earlier : queues_)
             if (earlier.for_light_alone) shade(earlier);
-    if (std::find(queue.wants_light.begin(), queue.wants_light.begin() + queue.vertices.count, true) !=
-        queue.wants_light.begin() + queue.vertices.count)
+    if (std::any_of(queue.wants_light, queue.wants_light + count, [](double odds) { return odds > 0; }))
         sample_lights(queue);
     if (!queue.for_light_alone) scatter(queue);
     queue.vertices.count = 0;
-}
-
-void PathTracer::draw(Queue& queue, Use use, std::size_t n, sampling::Row* numbers) {
-    const auto sampler_of = [&](std::size_t i) -> Sampler& {
-        const std::uint32_t path = queue.paths[i];
-        paths_[path].sampler.seek(states_[path].segment, use);
-        return paths_[path].sampler;
-    };
-    Sampler::draw_many(n, queue.vertices.count, sampler_of, samplers_, numbers);
 }
 
 void PathTracer::sample_lights(Queue& queue) {
     bsdf::Vertices& vertices = queue.vertices;
     lights::LightSamples& lights = light_samples_;
     // The choice of a light shares its group with the point on it, so that each light gets a part of an even sequence.
-    if (!queue.for_light_alone) draw(queue, Use::light, 3, queue.light_numbers);
+    if (!queue.for_light_alone) draw(queue.paths, 0, vertices.count, Use::light, 3, queue.light_numbers);
     lights.numbers = queue.light_numbers;
-    lights::sample(
-        scene_,
-        {vertices.count, vertices.position, queue.lobe->one_sided ? vertices.normal : kFromEverywhere, queue.time},
-        lights);
+    const sampling::Rows3& sides = queue.lobe->one_sided ? vertices.normal : kFromEverywhere;
+    lights::sample(scene_, {vertices.count, vertices.position, sides, queue.paths.time}, lights);
     queue.lobe->value(vertices, lights.direction);
     sampling::Rows3 emission;
     for (std::size_t i = 0; i < vertices.count; ++i) {
-        const bool lit = queue.wants_light[i] && lights.pdf[i] > 0 && !is_black(vertices.value.get<Color>(i));
+        const bool lit = queue.wants_light[i] > 0 && lights.pdf[i] > 0 && !is_black(vertices.value.get<Color>(i));
         emission.set(i, lit ? shade::radiance_of(scene_, lights, i) : Color{});
     }
-    shade::weigh_light(vertices, lights, emission, queue.light_odds, shadow_rows_);
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-        const Color light = shadow_rows_.light.get<Color>(i);
-        if (is_black(light) || !queue.wants_light[i]) continue;
-        add_shadow(queue.paths[i], queue.throughput[i] * light,
-                   {shadow_rows_.origin.get<Point3>(i), shadow_rows_.direction.get<Vec3>(i), 0, 1 - kShadowEnd,
-                    queue.time[i]});
-    }
+    count(shade::add_shadow_rays(queue.paths, vertices, lights, emission, queue.wants_light, shadows_));
 }
 
-// The next segments.
 void PathTracer::scatter(Queue& queue) {
     bsdf::Vertices& vertices = queue.vertices;
-    draw(queue, Use::scattering, queue.lobe->numbers, vertices.numbers);
+    draw(queue.paths, 0, vertices.count, Use::scattering, queue.lobe->numbers, vertices.numbers);
     queue.lobe->sample(vertices);
-    sampling::Rows3& origin = shadow_rows_.origin;
-    shade::find_origins(vertices, origin);
-    sampling::Row survives = {}, roulette = {};
-    bool some_end = false;
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-        State& state = states_[queue.paths[i]];
-        state.throughput *= vertices.weight.get<Color>(i);
-        survives[i] = is_black(state.throughput) ? 0 : survival(state);
-        some_end = some_end || survives[i] < 1;
-    }
-    if (some_end) draw(queue, Use::roulette, 1, &roulette);
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-        if (!(survives[i] == 1 || roulette[i] < survives[i])) continue;
-        State& state = states_[queue.paths[i]];
-        state.throughput = state.throughput / survives[i];
-        state.scatter_pdf = vertices.pdf[i];
-        ++state.segment;
-        begin_segment(queue.paths[i],
-                      {origin.get<Point3>(i), vertices.direction.get<Vec3>(i), 0, kInfinity, queue.time[i]});
-    }
-}
-
-// With which probability Russian roulette lets the path go on.
-double PathTracer::survival(const State& state) const {
-    if (!roulette_ || state.segment < kRouletteStart) return 1;
-    const double factor = scene_.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps;
-    const double survival = factor * max_component(state.throughput);
-    if (survival < kLargestSurvival) return survival;
-    return max_depth_ == kUnlimitedDepth ? kLargestSurvival : 1;
-}
-
-void PathTracer::add_shadow(std::uint32_t path, const Color& light, const Ray& ray) {
-    if (!count(ray)) return;
-    shadows_.add(path, ray);
-    arriving_.push_back(light);
+    sampling::Row survival, numbers = {};
+    if (shade::scatter(roulette_, vertices, queue.paths, survival))
+        draw(queue.paths, 0, vertices.count, Use::roulette, 1, &numbers);
+    const std::size_t first = next_->count;
+    count(
+        shade::add_segments(queue.paths, vertices, queue.lobe->one_sided, survival, numbers, queue.light_odds, *next_));
+    draw_flights(first);
 }
 
 void PathTracer::add_direct_light() {
-    occluded_.resize(shadows_.rays.size());
-    for (std::size_t i = 0; i < occluded_.size(); i += trace::kMostRays) {
-        const std::size_t some = std::min(trace::kMostRays, occluded_.size() - i);
-        trace::are_occluded(scene_, std::span(shadows_.rays).subspan(i, some), &occluded_[i]);
+    const shade::ShadowRays& s = shadows_;
+    ray_list_.resize(s.count), occluded_.resize(s.count);
+    for (std::size_t i = 0; i < s.count; ++i)
+        ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, 1 - kShadowEnd, s.time[i]};
+    for (std::size_t i = 0; i < s.count; i += trace::kMostRays) {
+        const std::size_t some = std::min(trace::kMostRays, s.count - i);
+        trace::are_occluded(scene_, std::span(ray_list_).subspan(i, some), &occluded_[i]);
     }
-    for (std::size_t i = 0; i < occluded_.size(); ++i) {
+    for (std::size_t i = 0; i < s.count; ++i) {
         if (occluded_[i] != 0) continue;
-        Color light = arriving_[i];
+        Color light = s.light.get<Color>(i);
         if (!scene_.media.empty()) {
-            media_.trace(scene_, shadows_.rays[i]);
+            media_.trace(scene_, ray_list_[i]);
             light = light * media_.transmittance();
         }
-        paths_[shadows_.paths[i]].radiance += light;
+        paths_[s.path[i]].radiance += light;
     }
 }
 

@@ -12,7 +12,6 @@
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
 #include "sampling/sobol.h"
-#include "sampling/sobol_lanes.h"
 
 namespace limn::transport {
 
@@ -41,9 +40,7 @@ public:
     }
 
     // What is drawn next is the first group for this use at this vertex of the path; the camera's are before vertex 1.
-    void seek(int vertex, Use use) {
-        group_ = static_cast<std::uint32_t>(vertex) * kGroupsOfVertex + static_cast<std::uint32_t>(use) * kGroupsOfUse;
-    }
+    void seek(int vertex, Use use) { group_ = group_of(static_cast<std::uint32_t>(vertex), use); }
 
     // Each takes a group. In [0, 1).
     double next() { return draw<1>()[0]; }
@@ -57,21 +54,19 @@ public:
     }
     std::array<double, 5> next_5d() { return draw<5>(); }
 
-    // What many samplers of one kind draw next: the first n numbers of a group, up to 5, numbers[d][i] those of
-    // sampler_at(i). `lanes` is room for the work. \pre count <= kShaded
-    template <class SamplerAt>
-    static void draw_many(std::size_t n, std::size_t count, const SamplerAt& sampler_at, sampling::SobolLanes& lanes,
-                          sampling::Row* numbers) {
-        for (std::size_t i = 0; i < count; ++i) {
-            Sampler& sampler = sampler_at(i);
-            if (sampler.kind_ == SamplerKind::independent) {
-                const std::array<double, 5> drawn = sampler.draw<5>();
-                for (std::size_t d = 0; d < n; ++d) numbers[d][i] = drawn[d];
-            } else {
-                lanes.base[i] = sampler.base_, lanes.index[i] = sampler.index_, lanes.group[i] = sampler.group_++;
-                if (i + 1 == count) sampling::draw_sobol(lanes, count, n, numbers);
-            }
-        }
+    // What a batch of paths needs to draw by draw_sobol; not where numbers are independent.
+    SamplerKind kind() const { return kind_; }
+    std::uint64_t base() const { return base_; }
+    std::uint32_t index() const { return index_; }
+
+    // The first group for a use at a vertex; it has as many as kGroupsOfUse.
+    static std::uint32_t group_of(std::uint32_t vertex, Use use) {
+        return vertex * kGroupsOfVertex + static_cast<std::uint32_t>(use) * kGroupsOfUse;
+    }
+    // The first n numbers of the group, up to 5.
+    std::array<double, 5> next_of(std::uint32_t group) {
+        group_ = group;
+        return draw<5>();
     }
 
 private:

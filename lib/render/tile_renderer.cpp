@@ -3,12 +3,26 @@
 #include <algorithm>
 
 #include "render/sampler.h"
+#include "sampling/sobol_lanes.h"
 
 namespace limn::transport {
 
 namespace {
 
-constexpr std::size_t kBatch = 512;  // paths traced together: their state fits the second cache
+// The camera's numbers: those of the first group.
+void draw_first(std::span<Path> paths, std::size_t dimensions, sampling::Row* numbers) {
+    std::uint64_t base[sampling::kShaded] = {};
+    std::uint32_t index[sampling::kShaded] = {}, group[sampling::kShaded] = {};
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const Sampler& sampler = paths[i].sampler;
+        base[i] = sampler.base(), index[i] = sampler.index();
+        if (sampler.kind() == SamplerKind::sobol) continue;
+        const auto drawn = Sampler(sampler).next_of(0);
+        for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
+    }
+    if (paths[0].sampler.kind() == SamplerKind::sobol)
+        sampling::draw_sobol({paths.size(), base, index, group}, dimensions, numbers);
+}
 
 }  // namespace
 
@@ -18,14 +32,15 @@ TileRenderer::TileRenderer(const flat::Scene& scene, const FilmInfo& info)
       camera_(info.camera, info.width, info.height),
       has_lens_or_motion_(info.camera.aperture_angle > 0 ||
                           (scene.kinds & flat::bit(PrimitiveKind::moving_sphere)) != 0 ||
-                          scene.features.moving_instances || scene.features.foreign_shapes) {}
+                          scene.features.moving_instances || scene.features.foreign_shapes),
+      tracers_([this] { return PathTracer(scene_, info_.max_depth, info_.estimator); }) {}
 
 void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
                           std::atomic<std::uint64_t>& samples) const {
-    PathTracer tracer(scene_, info_.max_depth, info_.estimator);
+    PathTracer& tracer = tracers_.local();
     std::vector<Path> paths;
     Pixels pixels;
-    Film::Counts before;
+    Film::Counts before{tracer.rays(), tracer.unusable_rays(), 0};
     const auto flush = [&] {
         set_camera_rays(paths, pixels);
         tracer.trace(paths);
@@ -46,19 +61,18 @@ void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
             for (auto i = film.samples(x, y), n = film.plan().wanted(x, y, film.place(x, y)); i < n; ++i) {
                 paths.push_back({Sampler(info_.seed, film.index(x, y), i, info_.sampler)});
                 pixels.emplace_back(x, y);
-                if (paths.size() == kBatch) flush();
+                if (paths.size() == sampling::kBatch) flush();
             }
     if (!paths.empty()) flush();
 }
 
 void TileRenderer::set_camera_rays(std::span<Path> paths, const Pixels& pixels) const {
     // In the pixel, on the lens, in time.
-    sampling::SobolLanes lanes;
+    const std::size_t dimensions = has_lens_or_motion_ ? 5 : 2;
     sampling::Row numbers[5] = {};
     for (std::size_t first = 0; first < paths.size(); first += sampling::kShaded) {
         const std::span some = paths.subspan(first, std::min(sampling::kShaded, paths.size() - first));
-        const auto sampler_at = [&](std::size_t i) -> Sampler& { return some[i].sampler; };
-        Sampler::draw_many(has_lens_or_motion_ ? 5 : 2, some.size(), sampler_at, lanes, numbers);
+        draw_first(some, dimensions, numbers);
         for (std::size_t i = 0; i < some.size(); ++i) {
             const auto [x, y] = pixels[first + i];
             const double dx = info_.antialias ? numbers[0][i] : 0.5;

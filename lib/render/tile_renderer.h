@@ -1,6 +1,8 @@
 // The innermost part of a render: the samples of a tile.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -33,6 +35,7 @@ private:
     const FilmInfo& info_;
     const CameraRays camera_;
     const bool has_lens_or_motion_;
+    mutable tbb::enumerable_thread_specific<PathTracer> tracers_;
 };
 
 }  // namespace limn::transport

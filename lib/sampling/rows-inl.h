@@ -13,13 +13,22 @@ HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
 // Those of as many paths as there are lanes, from the i-th on.
-template <class N>
-HWY_INLINE Vector<N> load3(const sampling::Rows3& rows, std::size_t i) {
+template <class N, std::size_t n>
+HWY_INLINE Vector<N> load3(const sampling::Rows3Of<n>& rows, std::size_t i) {
     return {load<N>(rows.x + i), load<N>(rows.y + i), load<N>(rows.z + i)};
 }
-template <class N>
-HWY_INLINE void store3(const Vector<N>& v, sampling::Rows3& rows, std::size_t i) {
+template <class N, std::size_t n>
+HWY_INLINE void store3(const Vector<N>& v, sampling::Rows3Of<n>& rows, std::size_t i) {
     store(v.x, rows.x + i), store(v.y, rows.y + i), store(v.z, rows.z + i);
+}
+
+// The lanes of a mask one after the other, and kSlack more that do not count.
+template <std::size_t n>
+HWY_INLINE void compress3(const Vector<Doubles>& v, Mask<Doubles> lanes, sampling::Rows3Of<n>& rows, std::size_t i) {
+    const Doubles::Tag d;
+    hn::CompressStore(v.x.v, lanes.m, d, rows.x + i);
+    hn::CompressStore(v.y.v, lanes.m, d, rows.y + i);
+    hn::CompressStore(v.z.v, lanes.m, d, rows.z + i);
 }
 
 }  // namespace limn::HWY_NAMESPACE

@@ -94,7 +94,17 @@ constexpr Table table(std::size_t dimension) {
     return t;
 }
 
-inline constexpr std::array<Table, kDimensions - 1> kTables{table(1), table(2), table(3), table(4)};
+inline constexpr std::array<Table, kDimensions - 2> kTables{table(2), table(3), table(4)};
+
+// The coordinate in dimension 1 of a point whose index is reversed: its matrix is Pascal's triangle modulo 2, a product
+// of five sparse ones.
+constexpr std::uint32_t pascal(std::uint32_t x) {
+    x ^= (x & 0x0000ffffU) << 16;
+    x ^= (x & 0x00ff00ffU) << 8;
+    x ^= (x & 0x0f0f0f0fU) << 4;
+    x ^= (x & 0x33333333U) << 2;
+    return x ^ (x & 0x55555555U) << 1;
+}
 
 // Coordinate `dimension` of the point whose index, reversed, is `index`; reversed itself. The lowest byte does not
 // count.
@@ -102,8 +112,10 @@ template <std::size_t dimension>
 std::uint32_t reversed_coordinate(std::uint32_t index) {
     if constexpr (dimension == 0) {
         return reversed(index & 0xffffff00U);
+    } else if constexpr (dimension == 1) {
+        return reversed(pascal(index & 0xffffff00U));
     } else {
-        const Table& t = kTables[dimension - 1];
+        const Table& t = kTables[dimension - 2];
         return t[0][index >> 24] ^ t[1][(index >> 16) & 255] ^ t[2][(index >> 8) & 255];
     }
 }

@@ -32,6 +32,19 @@ HWY_INLINE Word reversed(Word x) {
     return swapped<1>(x, 0x55555555U);
 }
 
+template <int kDistance>
+HWY_INLINE Word summed(Word x, std::uint32_t mask) {
+    return hn::Xor(x, hn::ShiftLeft<kDistance>(hn::And(x, word(mask))));
+}
+
+HWY_INLINE Word pascal(Word x) {
+    x = summed<16>(x, 0x0000ffffU);
+    x = summed<8>(x, 0x00ff00ffU);
+    x = summed<4>(x, 0x0f0f0f0fU);
+    x = summed<2>(x, 0x33333333U);
+    return summed<1>(x, 0x55555555U);
+}
+
 HWY_INLINE Word scrambled_upward(Word x, Word seed) {
     x = hn::Xor(x, x * word(sobol::kUpward[0]));
     x = x + seed;
@@ -79,36 +92,37 @@ struct ReversedColumns {
 constexpr ReversedColumns kColumns;
 
 template <std::size_t n>
-HWY_INLINE void draw(const SobolLanes& lanes, std::size_t count, Row* numbers) {
+HWY_INLINE void draw(const SobolPoints& points, Row* numbers) {
     const Words w;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(w)) {
-        const LongWord group = hn::PromoteTo(LongWords(), hn::LoadU(w, lanes.group + i));
-        const LongWord seeds = mixed(hn::Load(LongWords(), lanes.base + i) + times(group, sobol::kStep));
-        Word index = scrambled_upward(hn::LoadU(w, lanes.index + i), hn::TruncateTo(w, seeds));
-        const Word seed0 = hn::TruncateTo(w, hn::ShiftRight<32>(times(seeds, sobol::kSeedFactors[0])));
-        store(number(reversed(hn::And(index, word(0xffffff00U))), seed0), numbers[0] + i);
+    for (std::size_t i = 0; i < points.count; i += hn::Lanes(w)) {
+        const LongWord group = hn::PromoteTo(LongWords(), hn::LoadU(w, points.group + i));
+        const LongWord seeds = mixed(hn::LoadU(LongWords(), points.base + i) + times(group, sobol::kStep));
+        Word index = scrambled_upward(hn::LoadU(w, points.index + i), hn::TruncateTo(w, seeds));
         Word coordinate[sobol::kDimensions];
-        for (std::size_t d = 1; d < n; ++d) coordinate[d] = hn::Zero(w);
+        const Word whole = hn::And(index, word(0xffffff00U));
+        coordinate[0] = reversed(whole);
+        if (n > 1) coordinate[1] = reversed(pascal(whole));
+        for (std::size_t d = 2; d < n; ++d) coordinate[d] = hn::Zero(w);
         const hn::RebindToSigned<Words> bits;
-        for (std::size_t k = 0; k < sobol::kIndexBits && n > 1; ++k) {
+        for (std::size_t k = 0; k < sobol::kIndexBits && n > 2; ++k) {
             const Word has_bit = hn::BitCast(w, hn::BroadcastSignBit(hn::BitCast(bits, index)));
-            for (std::size_t d = 1; d < n; ++d)
+            for (std::size_t d = 2; d < n; ++d)
                 coordinate[d] = hn::Xor(coordinate[d], hn::And(has_bit, word(kColumns.of[d][k])));
             index = index + index;
         }
-        for (std::size_t d = 1; d < n; ++d) {
+        for (std::size_t d = 0; d < n; ++d) {
             const Word seed = hn::TruncateTo(w, hn::ShiftRight<32>(times(seeds, sobol::kSeedFactors[d])));
             store(number(coordinate[d], seed), numbers[d] + i);
         }
     }
 }
 
-void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Row* numbers) {
+void draw_sobol(const SobolPoints& points, std::size_t dimensions, Row* numbers) {
     switch (dimensions) {
-        case 1: return draw<1>(lanes, count, numbers);
-        case 2: return draw<2>(lanes, count, numbers);
-        case 3: return draw<3>(lanes, count, numbers);
-        default: return draw<5>(lanes, count, numbers);
+        case 1: return draw<1>(points, numbers);
+        case 2: return draw<2>(points, numbers);
+        case 3: return draw<3>(points, numbers);
+        default: return draw<5>(points, numbers);
     }
 }
 
@@ -120,8 +134,8 @@ namespace limn::sampling {
 
 HWY_EXPORT(draw_sobol);
 
-void draw_sobol(const SobolLanes& lanes, std::size_t count, std::size_t dimensions, Row* numbers) {
-    HWY_DYNAMIC_DISPATCH(draw_sobol)(lanes, count, dimensions, numbers);
+void draw_sobol(const SobolPoints& points, std::size_t dimensions, Row* numbers) {
+    HWY_DYNAMIC_DISPATCH(draw_sobol)(points, dimensions, numbers);
 }
 
 }  // namespace limn::sampling

@@ -30,7 +30,7 @@ public:
     HWY_INLINE SphericalRectangle(const Vector<N>& corner, const Vector<N>& edge_u, const Vector<N>& edge_v,
                                   const Vector<N>& from) {
         const N length_u = sqrt(length_squared(edge_u)), length_v = sqrt(length_squared(edge_v));
-        const Vector<N> x = edge_u / length_u, y = edge_v / length_v, z = cross(x, y);
+        const Vector<N> x = (1.0 / length_u) * edge_u, y = (1.0 / length_v) * edge_v, z = cross(x, y);
         const Vector<N> d = corner - from;
         x0_ = dot(d, x), y0_ = dot(d, y), z0_ = -abs(dot(d, z));
         x1_ = x0_ + length_u, y1_ = y0_ + length_v;

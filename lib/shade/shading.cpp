@@ -84,10 +84,10 @@ Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples,
     return texture_value(scene, emission, s);
 }
 
-void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& out, bsdf::Vertices& v, std::size_t i) {
+void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& incoming, bsdf::Vertices& v, std::size_t i) {
     v.position.set(i, s.position), v.position_error.set(i, s.position_error);
     v.normal.set(i, s.normal), v.shading_normal.set(i, s.shading_normal);
-    v.out.set(i, out);
+    v.incoming.set(i, incoming);
     const MaterialRecord& m = record_of(scene, s.material);
     if (m.lobe == &bsdf::kUserDefined) {
         v.user_defined.resize(bsdf::kShaded);

@@ -24,7 +24,9 @@ Color emitted(const flat::Scene& scene, const Surface& s);
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 
-// Sets what the lobe needs of vertex i. \param out unit, back along the path \pre lobe_of(scene, s.material)
-void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& out, bsdf::Vertices& vertices, std::size_t i);
+// Sets what the lobe needs of vertex i. \param incoming direction of the ray that came here, of any length
+// \pre lobe_of(scene, s.material)
+void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& incoming, bsdf::Vertices& vertices,
+                std::size_t i);
 
 }  // namespace limn::shade

@@ -1,11 +1,14 @@
 // Vertices shaded together: the same as one by one, whatever the vectors and the company.
+#include <algorithm>
 #include <array>
+#include <memory>
 
 #include "catch.h"
 #include "core/spawn.h"
 #include "limn/limn.h"
 #include "render/sampler.h"
-#include "shade/leave.h"
+#include "sampling/sobol_lanes.h"
+#include "shade/stages.h"
 #include "support/random_geometry.h"
 #include "support/single_shading.h"
 #include "trace/targets.h"
@@ -103,7 +106,9 @@ struct Batch {
             surfaces[i].material.id = 0;
             outs[i] = random.unit();
             if (dot(outs[i], surfaces[i].normal) < 0) outs[i] = -outs[i];
-            shade::set_vertex(compiled.scene.flat(), surfaces[i], outs[i], vertices, i);
+            const Vec3 incoming = -random.log_uniform(1e-3, 1e3) * outs[i];
+            outs[i] = -normalize(incoming);
+            shade::set_vertex(compiled.scene.flat(), surfaces[i], incoming, vertices, i);
             for (auto& number : vertices.numbers) number[i] = random.chance(0.05) ? 0 : random.uniform();
             in.set(i, random.unit());
         }
@@ -113,37 +118,26 @@ struct Batch {
 }  // namespace
 
 TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][sampler][lobes]") {
-    const SamplerKind kind = GENERATE(SamplerKind::sobol, SamplerKind::independent);
-    on_every_target([kind] {
+    on_every_target([] {
         std::size_t wrong = 0;
-        sampling::SobolLanes room;
         Row numbers[5];
         for (std::uint64_t round = 0; round < 40; ++round) {
             std::vector<Sampler> samplers;
             const std::size_t count = round < kShaded ? round + 1 : kShaded;
-            for (std::uint64_t i = 0; i < count; ++i) {
-                samplers.emplace_back(round, i, (i * i + round) << (i % 24), kind);
-                samplers.back().seek(static_cast<int>(i % 7), static_cast<transport::Use>(i % 4));
+            std::uint64_t base[kShaded] = {};
+            std::uint32_t index[kShaded] = {}, group[kShaded] = {};
+            for (std::uint32_t i = 0; i < count; ++i) {
+                samplers.emplace_back(round, i, (std::uint64_t{i} * i + round) << (i % 24));
+                base[i] = samplers[i].base(), index[i] = samplers[i].index();
+                group[i] = Sampler::group_of(i % 7, static_cast<transport::Use>(i % 4));
             }
-            std::vector<Sampler> alone = samplers;
-            const auto at = [&](std::size_t i) -> Sampler& { return samplers[i]; };
-            const auto differ = [&](std::size_t i, const auto& drawn) {
-                for (std::size_t d = 0; d < drawn.size(); ++d) wrong += drawn[d] != numbers[d][i];
-            };
-            Sampler::draw_many(5, count, at, room, numbers);
-            for (std::size_t i = 0; i < count; ++i) differ(i, alone[i].next_5d());
-            Sampler::draw_many(3, count, at, room, numbers);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Random3 r = alone[i].next_3d();
-                differ(i, std::array{r.x, r.y, r.z});
+            for (const std::size_t dimensions : {1u, 2u, 3u, 5u}) {
+                sampling::draw_sobol({count, base, index, group}, dimensions, numbers);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto alone = samplers[i].next_of(group[i]);
+                    for (std::size_t d = 0; d < dimensions; ++d) wrong += alone[d] != numbers[d][i];
+                }
             }
-            Sampler::draw_many(2, count, at, room, numbers);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Uv r = alone[i].next_2d();
-                differ(i, std::array{r.u, r.v});
-            }
-            Sampler::draw_many(1, count, at, room, numbers);
-            for (std::size_t i = 0; i < count; ++i) differ(i, std::array{alone[i].next()});
         }
         CHECK(wrong == 0);
     });
@@ -156,13 +150,23 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
         on_every_target([&] {
             Random random(5);
             std::size_t samples = 0, values = 0, origins = 0;
+            shade::Paths paths;
+            const auto next = std::make_unique<shade::Segments>();
             for (int round = 0; round < 300; ++round) {
                 Batch b(random, compiled, 1 + random.index(kShaded));
                 Vertices& v = b.vertices;
                 compiled.lobe().sample(v);
                 compiled.lobe().value(v, b.in);
-                Rows3 origin;
-                shade::find_origins(v, origin);
+                for (std::size_t i = 0; i < v.count; ++i) paths.path[i] = static_cast<std::uint32_t>(i);
+                shade::Roulette never{.start = 2, .factor = 1, .largest = 1};
+                Row survival, odds = {};
+                const Row number = {};
+                for (std::size_t i = 0; i < v.count; ++i) paths.throughput.set(i, Color{1, 1, 1});
+                const bool some_end = shade::scatter(never, v, paths, survival);
+                CHECK(some_end == std::any_of(survival, survival + v.count, [](double s) { return s == 0; }));
+                next->count = 0;
+                const auto counts = shade::add_segments(paths, v, true, survival, number, odds, *next);
+                CHECK((counts.all == next->count && counts.unusable == 0));
                 for (std::size_t i = 0; i < v.count; ++i) {
                     const Random3 numbers{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
                     const auto alone = material->sample(b.surfaces[i], b.outs[i], numbers);
@@ -172,9 +176,17 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
                                      : !is_black(v.weight.get<Color>(i));
                     const ScatterValue value = material->value(b.surfaces[i], b.outs[i], b.in.get<Vec3>(i));
                     values += value.value != v.value.get<Color>(i) || value.pdf != v.value_pdf[i];
-                    if (!alone) continue;
-                    origins += leave(b.surfaces[i], direction, 0).origin != origin.get<Point3>(i);
                 }
+                std::size_t row = 0;
+                for (std::size_t i = 0; i < v.count; ++i) {
+                    if (is_black(v.weight.get<Color>(i))) continue;
+                    const Ray ray = leave(b.surfaces[i], v.direction.get<Vec3>(i), 0);
+                    origins += next->path[row] != i || ray.origin != next->origin.get<Point3>(row) ||
+                               ray.direction != next->direction.get<Vec3>(row) ||
+                               next->throughput.get<Color>(row) != v.weight.get<Color>(i);
+                    ++row;
+                }
+                origins += row != next->count;
             }
             CHECK(samples == 0);
             CHECK(values == 0);
@@ -231,6 +243,8 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
     on_every_target([&] {
         Random random(7);
         std::size_t weights = 0, rays = 0, lit = 0;
+        shade::Paths paths;
+        const auto shadows = std::make_unique<shade::ShadowRays>();
         const auto samples = std::make_unique<lights::LightSamples>();
         for (int round = 0; round < 300; ++round) {
             Batch b(random, compiled);
@@ -243,25 +257,32 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
             compiled.lobe().value(b.vertices, samples->direction);
             Rows3 emission;
             for (std::size_t i = 0; i < kShaded; ++i) emission.set(i, Color{5, 0.25, 1e-3});
-            shade::ShadowRays shadows;
-            shade::weigh_light(b.vertices, *samples, emission, odds, shadows);
+            for (std::size_t i = 0; i < kShaded; ++i) {
+                paths.path[i] = static_cast<std::uint32_t>(i);
+                paths.throughput.set(i, Color{1, 0.5, 2});
+            }
+            shadows->count = 0;
+            const auto counts = shade::add_shadow_rays(paths, b.vertices, *samples, emission, odds, *shadows);
+            CHECK((counts.all == shadows->count && counts.unusable == 0));
+            std::size_t row = 0;
             for (std::size_t i = 0; i < kShaded; ++i) {
                 const auto alone =
                     sample_point(light, b.surfaces[i].position, b.vertices.numbers[1][i], b.vertices.numbers[2][i]);
                 const ScatterValue f =
                     alone ? compiled.material->value(b.surfaces[i], b.outs[i], alone->direction) : ScatterValue{};
-                const Color arriving = shadows.light.get<Color>(i);
-                if (is_black(f.value)) {
-                    weights += !is_black(arriving);
-                    continue;
-                }
+                if (is_black(f.value)) continue;
                 ++lit;
+                weights += row >= shadows->count || shadows->path[row] != i;
+                const Color arriving = shadows->light.get<Color>(row);
                 const double a = odds[i] * alone->pdf, weight = a * a / (a * a + f.pdf * f.pdf) / alone->pdf;
                 weights += !(std::abs(arriving.r - weight * 5 * f.value.r) <= 1e-13 * arriving.r &&
-                             std::abs(arriving.b - weight * 1e-3 * f.value.b) <= 1e-13 * arriving.b);
+                             std::abs(arriving.b - 2 * weight * 1e-3 * f.value.b) <= 1e-13 * arriving.b);
                 const Ray ray = leave_for(b.surfaces[i], alone->point, 0);
-                rays += ray.origin != shadows.origin.get<Point3>(i) || ray.direction != shadows.direction.get<Vec3>(i);
+                rays += ray.origin != shadows->origin.get<Point3>(row) ||
+                        ray.direction != shadows->direction.get<Vec3>(row);
+                ++row;
             }
+            weights += row != shadows->count;
         }
         CHECK(weights == 0);
         CHECK(rays == 0);

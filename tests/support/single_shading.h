@@ -112,7 +112,7 @@ inline std::optional<ScatterSample> sample_material(const flat::Scene& scene, co
     if (!lobe) return std::nullopt;
     bsdf::Vertices v;
     v.count = 1;
-    shade::set_vertex(scene, s, out, v, 0);
+    shade::set_vertex(scene, s, -out, v, 0);
     v.numbers[0][0] = random.x, v.numbers[1][0] = random.y, v.numbers[2][0] = random.z;
     lobe->sample(v);
     if (is_black(v.weight.get<Color>(0))) return std::nullopt;
@@ -124,7 +124,7 @@ inline ScatterValue material_value(const flat::Scene& scene, const Surface& s, c
     if (!lobe) return {};
     bsdf::Vertices v;
     v.count = 1;
-    shade::set_vertex(scene, s, out, v, 0);
+    shade::set_vertex(scene, s, -out, v, 0);
     sampling::Rows3 directions;
     directions.set(0, in);
     lobe->value(v, directions);
