@@ -86,7 +86,7 @@ struct Options::Parser {
     }
 
     std::string problem(const CLI::ParseError& error) const {
-        // First, for what was meant by it may be missing.
+        // First, because the option that was meant may be reported as missing.
         for (const std::string& word : app.remaining())
             if (word.size() > 1 && word.starts_with('-')) {
                 const std::string name = word.substr(0, word.find('='));

@@ -74,7 +74,7 @@ std::size_t answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWri
     return unusable;
 }
 
-// A bar makes sense only where an end is known and the answers do not scroll through it.
+// A bar makes sense only if the end is known and the results do not scroll through it.
 bool wants_bar(const Arguments& a, const RayReader& reader) {
     return !a.quiet && reader.fraction() && stderr_is_terminal() && ::isatty(STDOUT_FILENO) == 0;
 }

@@ -19,12 +19,12 @@
 
 namespace limn {
 
-/// All that a sample depends on but its pixel and its number. Films of equal ones can be continued and merged.
+/// All that a sample depends on but its pixel and its index. Films of equal ones can be continued and merged.
 struct FilmInfo {
     std::string scene{};     ///< Scene::name
     std::string features{};  ///< CompiledScene::features
     Hash128 scene_digest{};  ///< CompiledScene::digest
-    /// Of the running program's file, where the scene has objects of user-defined classes without a tag; otherwise 0.
+    /// Of the running program's file, if the scene has user-defined objects without a tag; otherwise 0.
     Hash128 program{};
     Camera camera{};
     /// As in RenderSettings.
