@@ -125,8 +125,7 @@ void measure_all(const std::string& name, const Arguments& a, const app::Console
 }
 
 int run(int argc, char** argv) {
-    app::Options options("limn_promise",
-                         "Measures limn's estimate of its own error. Earlier measurements are kept.");
+    app::Options options("limn_promise", "Measures limn's estimate of its own error. Earlier measurements are kept.");
     Arguments a;
     std::vector<std::string> scenes;
     const auto integer = [&options](const std::string& name, int& value, int lowest, const std::string& help) {
