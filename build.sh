@@ -17,8 +17,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   test         build and run the whole suite
   gallery      the figures in the README, with their seconds and errors
   convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md
-  promise      how well limn knows its error, how often a render to an error keeps it: docs/speed-against-error.md
-  accuracy     how often intersections are wrong, here and elsewhere: docs/accuracy.md
+  promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
+  accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
                --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
@@ -29,9 +29,9 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   cluster      a render on a Slurm of two nodes here, one of which is lost: docs/long-renders.md (installs Slurm; root)
   mutants      faults that the suite must catch: docs/mutants.md
   docs         the API reference: build/docs/html/index.html
-  release      whether all reports are of these sources, and claims true; --renew makes those anew that are not
+  release      whether all reports are of these sources, and claims true; --renew writes anew those that are not
 
---full takes the longer form where there is one; bench measures the models too. Reports go on where they were
+--full takes the longer form if there is one; bench measures the models too. Reports continue where they were
 interrupted, as long as the sources stay the same.
 TEXT
     exit 2

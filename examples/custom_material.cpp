@@ -1,4 +1,4 @@
-// A material of one's own: velvet, whose fibres shine where light or eye graze the surface.
+// A user-defined material: velvet, whose fibres shine where light or eye graze the surface.
 #include <limn/limn.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A shape of one's own: it needs two functions, and is traced like the built-in ones. Writes custom_shape.png.
+// A user-defined shape: it needs two functions, and is traced like the built-in ones. Writes custom_shape.png.
 #include <limn/limn.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ public:
                    .u = (radius - inner_) / (outer_ - inner_),
                    .v = (std::atan2(p.z, p.x) + kPi) / (2 * kPi),
                    .material = material_.get(),
-                   // t is one rounded division: how far along the ray that may move the point.
+                   // t is one rounded division, which may move the point along the ray by this.
                    .position_error = kRoundoff * abs(t * ray.direction)};
     }
 

@@ -1,4 +1,4 @@
-// A texture of one's own: wood, the rings of a trunk that stands along the y axis.
+// A user-defined texture: wood, the rings of a trunk that stands along the y axis.
 #include <limn/limn.h>
 
 #include <cmath>

@@ -19,7 +19,7 @@ def rows(group, beginning, end=""):
 
 
 def columns(group):
-    """Number and name; hit() of the shapes answers as the compiled scene does, and would lie upon it."""
+    """Index and name; hit() of the shapes has the results of the compiled scene, and would lie upon it."""
     return [(k, name) for k, name in enumerate(group["columns"]) if name != "limn, hit()"]
 
 

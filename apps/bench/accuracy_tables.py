@@ -1,4 +1,4 @@
-"""The tables of the accuracy report, and what counts as a fault of limn's."""
+"""The tables of the accuracy report, and what counts as a fault of limn."""
 
 from reports import stamp
 
@@ -10,8 +10,8 @@ TEXTS = {
     "leaks": ("Leaks of meshes",
               "Rays from inside a closed mesh of 20480 triangles, aimed at its vertices and at points of its edges, "
               "and rays at the inner edges of strips of 64 slivers. Such a ray has to hit, wherever float32 has put "
-              "the vertices, for a closed surface separates its inside from the rest; the exact truth is asked all "
-              "the same, for each ray that anyone misses."),
+              "the vertices, because a closed surface separates its inside from the rest. Exact arithmetic checks "
+              "each ray that a column misses all the same."),
     "quad leaks": ("Leaks of boxes made of quads",
                    "From inside six parallelograms that share their corners bit for bit, at corners and edges."),
     "spheres": ("Spheres", "Small ones far away, large ones near, the horizon of the latter, directions of any "
@@ -20,19 +20,18 @@ TEXTS = {
                   "triangle, slivers with two thirds of the rays aimed from 1e-9 to 1e-1 of their width beside an "
                   "edge."),
     "quads": ("Quads", "Nearly in the plane, a parallelogram that is almost a line, directions of any length."),
-    "slabs": ("Boxes", "limn's box test may take a box that is just passed by, which costs a visit; a box that is met "
-              "and missed would lose what is in it. Boxes are closed. Embree's box test cannot be asked on its own."),
+    "slabs": ("Boxes", "limn's box test may accept a box that a ray narrowly passes, which costs a visit. A box that is "
+              "met and rejected would lose what is in it. Boxes are closed. Embree's box test cannot be run on its own."),
     "instances": ("Instances", "A unit sphere through a float32 matrix that turns, scales and moves it; eye 10 radii "
                   "away."),
     "leaving": ("Leaving a surface",
                 "From each hit point a ray outward and one inward (at least 0.01 off the surface), and straight "
-                "through gaps of 4e-5 radii. Self-hits: the surface that is left is hit again. Lost: the other side "
-                "of the body, or of the gap, is passed. The columns differ only in how the ray sets out; what it hits "
-                "is decided by limn's exact intersection in each."),
+                "through gaps of 4e-5 radii. Self-hits: the ray hits the surface that it leaves again. Lost: the ray passes "
+                "the other side of the body, or of the gap. The columns differ only in where the ray starts. In each of "
+                "them limn's exact intersection decides what it hits."),
     "far origins": ("Origins far away", "Half of the rays parallel to an axis, half towards the origin."),
-    "bad rays": ("Rays that cannot be used", "Each has to miss. Beside it the time that one takes, in that of a good "
-                 "ray at the same mesh of 20480 triangles. Where it says aborts, Embree has ended the process of its "
-                 "caller."),
+    "bad rays": ("Rays that cannot be used", "Each has to miss. The time is that of one such ray over that of a good "
+                 "ray at the same mesh of 20480 triangles. Aborts: Embree has ended the process of its caller."),
     "furnace": ("Furnaces",
                 "limn alone, by `render()`. In a uniform field a body that absorbs nothing is invisible; a closed "
                 "room that glows with 1 and reflects a shows 1 / (1 - a). The cells are the mean's relative deviation "
@@ -158,11 +157,11 @@ def report(head, groups, cases, all_rays, found):
         f"{stamp(head)}, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
         (f"Embree {head['embree']} in both modes, in a process of its own."
          if head["embree"] else "Embree is not installed here, so that its columns are missing."), "",
-        "Truth is exact arithmetic on the stored numbers (`tests/support/exact_truth.h`); it decides every ray, so that "
+        "Truth is exact arithmetic on the stored numbers (`tests/support/exact_truth.h`). It decides every ray, so that "
         "as many are judged as are generated. Shapes and rays are made of float32 numbers, so that all columns get the "
-        "same question; limn answers in double through the compiled scene and its trees, and where a column says so "
-        "through the shape's own `hit()`. The textbook's triangles stand behind a box test that loses nothing. Where no "
-        "ray of N is wrong, the rate is below 3 / N with 95 % confidence.", "",
+        "same input. limn intersects in double through the compiled scene and its trees, or through the shape's own "
+        "`hit()` where a column says so. The textbook's triangles are behind a box test that loses nothing. If no ray of "
+        "N is wrong, the rate is below 3 / N with 95 % confidence.", "",
         ("**limn: no wrong decision, no leak, no self-hit in any row.**" if not found else
          f"**limn: {len(found)} cells or checks are not as they must be:**"), ""]
     lines += [f"- {fault}" for fault in found] + [""] * bool(found)

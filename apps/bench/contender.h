@@ -1,5 +1,5 @@
 /// \file
-/// Who is measured: limn, and the peers that modules bring (see peer_module.h).
+/// The renderers that are measured: limn, and the peers of modules (see peer_module.h).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace limn::bench {
 
-// What a ray was answered. Of rays that ask for any hit t alone counts: 0 for a hit.
+// The result of a ray. For any-hit rays t alone counts: 0 for a hit.
 struct Answer {
     double t = kInfinity;  // a miss
     double u = 0, v = 0;
@@ -21,8 +21,8 @@ struct Answer {
     bool operator==(const Answer&) const = default;
 };
 
-// One way of asking a built scene. What is measured is trace(): from rays as they lie ready in memory, in whatever form
-// suits, to answers in memory.
+// One way to trace rays in a built scene. What is measured is trace(): from rays that are ready in memory, in whatever
+// form suits, to results in memory.
 class Subject {
 public:
     explicit Subject(std::string name, std::size_t chunk = 4096) : name_(std::move(name)), chunk_(chunk) {}

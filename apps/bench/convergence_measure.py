@@ -1,4 +1,4 @@
-"""What the convergence report measures on one scene: everybody's reference, then everybody's ladder of renders."""
+"""What the convergence report measures on one scene: the reference of each renderer, then its ladder of renders."""
 
 import hashlib
 import os
@@ -81,7 +81,7 @@ def can_go_on(key, plan, rows):
 
 
 def climb(active, halves_of, plan, rows):
-    """The ladders on one thread, everybody taking turns on each rung and seed."""
+    """The ladders on one thread, the renderers taking turns on each rung and seed."""
     spp = FIRST_SPP
     while active and spp <= LARGEST_SPP:
         for seed in range(1, plan.seeds + 1):

@@ -21,7 +21,7 @@ VENV = ROOT / "build/peers"
 PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and what they are called on PyPI
 WORKER_NEEDS = ("numpy",)  # of peers/*.py, whatever the renderer's own package brings
 
-# An error that is never reached: as many samples as are asked for in the mean, but more where it is noisier.
+# An error that is never reached: the given number of samples in the mean, but more where it is noisier.
 NEVER = "--error=1e-300"
 
 # What each ingredient gives: every step with the options that leave out what the later ones add.
@@ -34,7 +34,7 @@ LADDER = (
 
 
 class Failed(Exception):
-    """A renderer could not do what it was asked."""
+    """A renderer failed."""
 
 
 def say(text):

@@ -143,5 +143,5 @@ def report(raw):
         if any(row.get("session") != session for row in rows.values()):
             lines += ["† Measured in another session.", ""]
         if rows["limn"]["rungs"]:
-            lines += ["What limn's film knows of its own error:", ""] + estimate_table(rows["limn"])
+            lines += ["limn's estimate of its own error:", ""] + estimate_table(rows["limn"])
     return "\n".join(lines)

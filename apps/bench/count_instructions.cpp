@@ -1,11 +1,11 @@
-// What performance.py counts instructions of, under callgrind: the functions measure_*, each called once. They trace
+// performance.py counts the instructions of the functions measure_* under callgrind. Each is called once. They trace
 // rays of a mesh scene, and render it. Without callgrind: their times, as JSON on stdout, nanoseconds a ray.
 //
 // limn_count_instructions [--rays N] [--rounds N] [--foreign]
 //   --rays N     of each kind
 //   --rounds N   calls of each function: their times are then printed, round by round
-//   --foreign    a sphere of a class of its own stands beside the mesh, in place of a triangle; no ray that is traced
-//                meets its box
+//   --foreign    a user-defined sphere is beside the mesh, in place of a triangle; no ray that is traced meets its
+//                box
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -23,7 +23,7 @@ namespace {
 
 using namespace limn;
 
-// Known to limn by its virtual functions alone.
+// limn knows it by its virtual functions alone.
 class ForeignSphere final : public Hittable {
 public:
     ForeignSphere(const Point3& center, double radius) : sphere_(center, radius, nullptr) {}
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
         time(times, "diffuse_batch", work.diffuse.size(), [&] { measure_diffuse_batch(work); });
         time(times, "shadow_single", work.shadow.size(), [&] { measure_shadow_single(work); });
         time(times, "shadow_batch", work.shadow.size(), [&] { measure_shadow_batch(work); });
-        // The foreign sphere would be seen there.
+        // The user-defined sphere would be seen there.
         if (!with_foreign) time(times, "render", 1, [&] { rendered = measure_render(work); });
     }
     std::printf("{\"rays\": {\"primary\": %zu, \"diffuse\": %zu, \"shadow\": %zu, \"render\": %llu}",

@@ -7,11 +7,11 @@
 
 namespace limn::bench {
 
-// Camera, background and objects as one JSON object, everything in world space and in double: what apps/bench/peers
-// writes the scenes of other renderers from. It is read off the records that `compile` reads too, so that no number is
+// Camera, background and objects as one JSON object, everything in world space and in double. apps/bench/peers writes
+// the scenes of other renderers from it. The numbers come from the records that `compile` reads too, so that none is
 // written down twice.
-// \throws Error for what the peers' writers do not know: motion, triangles and spheres within instances, noise,
-// pictures, classes from outside limn
+// \throws Error for what the writers of the peers do not know: motion, triangles and spheres within instances, noise,
+// pictures, user-defined classes
 app::Json describe_scene(const Figure& figure);
 
 }  // namespace limn::bench

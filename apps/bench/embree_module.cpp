@@ -1,4 +1,4 @@
-// Embree as a contender, in a module that `limn bench` loads where it is there.
+// Embree as a contender, in a module that `limn bench` loads if it is installed.
 #include <embree3/rtcore.h>
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace limn::bench {
 
 namespace {
 
-// What Embree holds, as it tells by calling back.
+// The memory that Embree holds, as its callback reports it.
 std::atomic<std::ptrdiff_t> bytes_held{0};
 
 bool count_bytes(void* /*user*/, ssize_t bytes, bool /*after*/) {
@@ -36,7 +36,7 @@ public:
     EmbreeScene(const Geometry& geometry, bool robust, std::string name, Clock clock)
         : name_(std::move(name)), flags_(robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE), scene_(new_scene()) {
         const std::ptrdiff_t before = bytes_held;
-        // Setting up is not timed, as limn's describing is not: from there on it is all Embree's work.
+        // Setting up is not timed, and neither is limn's description. From there on all work is Embree's.
         RTCScene inner = geometry.mesh && !geometry.places.empty() ? new_scene() : nullptr;
         if (geometry.mesh) attach_mesh(geometry.mesh->data(), inner ? inner : scene_);
         if (!geometry.balls.empty()) attach_balls(geometry.balls);

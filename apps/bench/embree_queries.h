@@ -1,4 +1,4 @@
-// Embree's ways of asking, one size of packet at a time: the C interface names each of its own.
+// Embree's queries, one size of packet at a time: the C interface has a function for each.
 #pragma once
 
 #include <embree3/rtcore.h>

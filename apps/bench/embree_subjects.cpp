@@ -12,10 +12,10 @@ namespace limn::bench {
 namespace {
 
 constexpr float kMiss = std::numeric_limits<float>::infinity();
-// Of streams, in rays: what this processor is fastest with.
+// Sizes of streams, in rays, with which this processor is fastest.
 constexpr std::size_t kStream = 64;
 
-// Embree asks its callers to have denormal numbers flushed; limn must not be measured with that.
+// Embree expects its callers to flush denormal numbers. limn must not be measured with that.
 class FlushDenormals {
 public:
     FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }  // FTZ and DAZ

@@ -1,5 +1,5 @@
-// The ways of asking Embree. Rays lie ready in the form that each of them takes, and are copied, for Embree answers in
-// place; packets are spared the turning of rays into arrays of lanes.
+// The ways to trace with Embree. Rays are ready in the form that each of them takes, and are copied, because Embree
+// writes results in place. Packets are not charged for the conversion of rays to arrays of lanes.
 #pragma once
 
 #include <embree3/rtcore.h>

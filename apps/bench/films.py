@@ -159,7 +159,7 @@ To a relMSE of {TARGET:g} it takes {found['target']['spp']:.0f} samples a pixel,
 To an error of {ROUNDS_ERROR:g} in rounds, figure 15 at {ROUNDS_SIZE} by {ROUNDS_SHARDS} shards, {ROUNDS_SEEDS} seeds: {rounds['kept']} of the pictures have it, after {rounds['rounds']:.0f} rounds
 (median), with {rounds['more']:.2f} times the samples of one machine in the mean and {rounds['most']:.2f} times at most.
 
-With N machines in the same time the error is an N-th, or less where the sampler's points pay."""
+With N machines in the same time the error is an N-th, or less where Sobol points gain."""
     reports.write("films", text)
     kept.forget()
     print(text)

@@ -1,5 +1,5 @@
 /// \file
-/// What limn and its peers build their scenes from: plain arrays, every number of them a float32, so that all of them
+/// The input of the scenes of limn and its peers: plain arrays in which every number is a float32, so that all of them
 /// trace the same.
 #pragma once
 
@@ -32,8 +32,8 @@ struct Geometry {
     std::vector<Parallelogram> quads;
     std::optional<Camera> camera{};  // by default the one that frames all
     std::optional<Point3> light{};   // by default above, to the left in front
-    // Where rays that leave a surface begin. limn needs none; Embree's large spheres do, for their points are so far
-    // off that a ray meets at once what it leaves.
+    // Where rays that leave a surface begin. limn needs none. Embree's large spheres do: their points are so far
+    // off that a ray hits at once the surface that it leaves.
     double t_min = 0;
 };
 

@@ -4,7 +4,7 @@ namespace limn::bench {
 
 namespace {
 
-// Answers lie as the public queries give them.
+// Results have the form of the public queries.
 class LimnSubject : public Subject {
 public:
     LimnSubject(std::string name, const CompiledScene& scene, std::size_t chunk = 4096)

@@ -8,12 +8,12 @@ namespace limn::bench {
 
 class LimnScene final : public BuiltScene {
 public:
-    // Describing is not timed: it is the copying of what a program has into what limn asks for.
+    // The description is not timed: it copies what a program has into the form that limn takes.
     explicit LimnScene(const Scene& scene, Clock clock = Clock::wall);
 
     double seconds() const override { return seconds_; }
     std::size_t bytes() const override { return scene_.stats().memory_bytes; }
-    // "limn" asks ray by ray, "limn batch" with spans of some thousand rays, "limn whole" with much longer ones.
+    // "limn" traces ray by ray, "limn batch" spans of some thousand rays, "limn whole" much longer ones.
     std::vector<std::unique_ptr<Subject>> subjects() const override;
     const CompiledScene& compiled() const { return scene_; }
 

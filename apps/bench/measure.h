@@ -1,5 +1,5 @@
 /// \file
-/// Rounds in which everybody takes a turn, so that what else the machine does falls on all alike.
+/// Rounds in which all renderers take turns, so that other load of the machine falls on all alike.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ namespace limn::bench {
 struct Timing {
     std::string subject;
     std::vector<double> seconds;  // one a round
-    std::size_t mismatches = 0;   // rays that limn answers otherwise: hit or miss, or t by more than a thousandth
+    std::size_t mismatches = 0;   // rays that differ from limn: hit or miss, or t by more than a thousandth
 };
 
-// Of several numbers, one a round.
+// The median and quartiles of several numbers, one a round.
 struct Spread {
     double median = 0, low = 0, high = 0;
 };
@@ -30,12 +30,12 @@ Spread ratio(const Timing& a, const Timing& b);
 // Returns false to stop.
 using KeepGoing = std::function<bool()>;
 
-// Traces the set with each subject once to see what it answers, and then `rounds` times. The first subject's answers
-// are what the others' are counted against. Fewer rounds, or none, if it is to stop.
+// Traces the set with each subject once for its results, and then `rounds` times. The results of the others are
+// compared with those of the first subject. Fewer rounds, or none, if it is to stop.
 std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
                             int rounds, const KeepGoing& keep_going);
 
-// How many rays `a` and `b` do not answer with the same bits. \pre both have traced the set
+// For how many rays `a` and `b` have different bits. \pre both have traced the set
 std::size_t differences(const Subject& a, const Subject& b, std::size_t rays);
 
 }  // namespace limn::bench

@@ -1,5 +1,5 @@
 /// \file
-/// What a loadable module of `limn bench` gives: somebody to compare with. Nothing else of limn's links those
+/// What a loadable module of `limn bench` provides: a renderer to compare with. Nothing else of limn links those
 /// libraries.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace limn::bench {
 
-// The contenders that modules bring (common/module.h); none where a module is not there. In `notes`: why not.
+// The contenders of modules (common/module.h); none if a module is missing. `notes` says why.
 std::vector<std::shared_ptr<const Contender>> load_peers(std::vector<std::string>& notes);
 
 // What a module exports, as limn_module.

@@ -3,7 +3,7 @@
 Runs limn bench (the table, and how building and tracing grow with the scene), limn_bench_truth, and
 limn_count_instructions under callgrind in builds without one feature each. Interrupted, it goes on where it was. Raw
 numbers go to build/bench/all.json, from which --again writes the report anew. Prose outside the markers in
-docs/performance.md stays as it is. Exit status 0 unless an answer is wrong or a measurement fails: what is slow is
+docs/performance.md stays as it is. Exit status 0 unless a result is wrong or a measurement fails: what is slow is
 marked, not punished.
 
 Needs limn's programs in build/release/bin, valgrind, cmake and matplotlib. Run through ./build.sh bench [--full]
@@ -36,7 +36,7 @@ def say(text):
 
 
 def limn_bench(name, *arguments):
-    """Runs limn bench and returns its JSON, and whether it was content with its answers."""
+    """Runs limn bench and returns its JSON, and whether its results agree."""
     path = RAW / f"{name}.json"
     path.unlink(missing_ok=True)
     run = subprocess.run([BIN / "limn", "bench", "--json", path, *map(str, arguments)],
@@ -62,7 +62,7 @@ def measure_grown(scene, n):
 
 
 def judge(full, models):
-    say("answers against exact truth")
+    say("results against exact truth")
     run = subprocess.run([BIN / "limn_bench_truth", "1", "65536", "200" if full else "40", *models],
                          stdout=subprocess.PIPE, text=True)
     if not run.stdout:

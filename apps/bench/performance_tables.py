@@ -58,12 +58,12 @@ def bytes_each(scene, name):
 
 
 def faults(table, content, truth):
-    """One line for each answer that is wrong. `content`: whether limn bench ended well."""
-    found = [] if content else ["limn bench: single rays and batches answer otherwise"]
-    found += [f"{t['scene']}, {t['rays']}: {t['wrong']} of {t['judged']} answers are wrong: {t['first']}"
+    """One line for each result that is wrong. `content`: whether limn bench ended well."""
+    found = [] if content else ["limn bench: single rays and batches differ"]
+    found += [f"{t['scene']}, {t['rays']}: {t['wrong']} of {t['judged']} results are wrong: {t['first']}"
               for t in truth if t["wrong"]]
     for scene in table["scenes"]:
-        found += [f"{scene['name']}, {row['rays']}: {row['differences']} rays are answered otherwise in batches"
+        found += [f"{scene['name']}, {row['rays']}: {row['differences']} rays have other results in batches"
                   for row in scene["rows"] if row["differences"]]
     return found
 
@@ -88,7 +88,7 @@ def missed(raw):
     for feature, lean in raw["instructions"]["without"].items():
         found += [f"instructions, {feature}: {name}" for name, n in lean["counts"].items()
                   if raw["instructions"]["whole"][name] / n > GOAL_INSTRUCTIONS]
-    return found + [f"instructions, a foreign sphere aside: {name}"
+    return found + [f"instructions, a user-defined sphere aside: {name}"
                     for name, n in raw["instructions"]["foreign"]["counts"].items()
                     if n / raw["instructions"]["whole"][name] > GOAL_INSTRUCTIONS]
 
@@ -203,19 +203,19 @@ def instruction_section(raw):
         more = foreign["counts"][n] / measured["whole"][n]
         return marked(percent(more), more <= GOAL_INSTRUCTIONS) + f" ({median_text(foreign['times'].get(n))})"
 
-    lines += ["", "The other way round: a sphere of a class of the program's own stands beside the mesh, and the rays "
-              "are those that miss its box. The goal is the same.", "",
+    lines += ["", "The other way round: a user-defined sphere is beside the mesh, and the rays are those that miss its "
+              "box. The goal is the same.", "",
               "| | " + " | ".join(n.replace("_", ", ") for n in foreign["counts"]) + " |",
               "|---|" + "---:|" * len(foreign["counts"]),
-              "| with a foreign sphere | " + " | ".join(map(with_foreign, foreign["counts"])) + " |", ""]
+              "| with a user-defined sphere | " + " | ".join(map(with_foreign, foreign["counts"])) + " |", ""]
     return lines
 
 
 def truth_section(raw):
     judged, wrong = (sum(t[k] for t in raw["truth"]) for k in ("judged", "wrong"))
-    return ["## Answers", "",
-            f"limn's single rays and batches answer every ray above with the same bits. {judged:,} of the rays, of every "
-            f"scene and kind, were judged by exact arithmetic over all primitives: {wrong} answers are wrong.", ""]
+    return ["## Results", "",
+            f"limn's single rays and batches give the same bits for every ray above. {judged:,} of the rays, of every "
+            f"scene and kind, were judged by exact arithmetic over all primitives: {wrong} results are wrong.", ""]
 
 
 def report(raw):

@@ -29,7 +29,7 @@ Figure fireflies() {
             .settings = {}};
 }
 
-// Beside those of the convergence report.
+// Besides those of the convergence report.
 struct Entry {
     const char* name;
     Figure (*figure)();

@@ -1,5 +1,5 @@
 /// \file
-/// What limn knows of its own error, measured: scenes, references, and single renders beside their reference.
+/// limn's estimate of its own error, measured: scenes, references, and single renders against their reference.
 #pragma once
 
 #include <cstdint>

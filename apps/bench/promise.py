@@ -1,4 +1,4 @@
-"""What limn knows of its own error, measured: the last chapter of docs/speed-against-error.md.
+"""How good limn's estimate of its own error is: the last chapter of docs/speed-against-error.md.
 
 Runs limn_promise, which goes on where it was interrupted, and limn_sampler_rates. Run through ./build.sh promise.
 """
@@ -40,7 +40,7 @@ def read(folder):
 
 def coverage_lines(scenes):
     counts = sorted({r["after"] for rows in scenes.values() for r in rows} - {0})
-    lines = ["### Whether it knows its error", "",
+    lines = ["### How good the estimate is", "",
              "Estimate over true relMSE, both as means over the seeds that have an estimate; how often the 95 % interval holds "
              "the true error, with a lower bound of that share at 95 % confidence; and how many have no estimate.", "",
              "| scene | " + " | ".join(f"{n} samples" for n in counts) + " | all |", "|---|" + "---|" * (len(counts) + 1)]
@@ -64,7 +64,7 @@ def coverage_lines(scenes):
 
 def stop_lines(scenes):
     targets = sorted({r["target"] for rows in scenes.values() for r in rows if r["target"]}, reverse=True)
-    lines = ["### Whether --error keeps its promise", "",
+    lines = ["### How often --error keeps its promise", "",
              "Kept: the true relMSE is at or under the target. Samples: the median. The overshoot is in samples, over the fewest "
              "(by bisection, 8 at least) at which the same render meets the target.", "",
              "| scene | target | kept | samples | median overshoot | target / true error, median |", "|---|---:|---:|---:|---:|---:|"]
@@ -91,7 +91,7 @@ def stop_lines(scenes):
 
 def gain_lines(scenes):
     targets = sorted({r["target"] for rows in scenes.values() for r in rows if r["halves"]}, reverse=True)
-    lines = ["### What two replicates give back beside four", "",
+    lines = ["### What two replicates gain over four", "",
              "The error of the mean of two renders of half as many samples, which is that of four replicates, over that of one: "
              "the geometric mean over seeds, with its standard error, at the samples that each target takes.", "",
              "| scene | " + " | ".join(f"{t:.0e}" for t in targets) + " |", "|---|" + "---:|" * len(targets)]

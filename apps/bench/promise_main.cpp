@@ -1,4 +1,4 @@
-// What limn knows of its own error, beside references: after given numbers of samples, and where a render to an error
+// limn's estimate of its own error against references: after given numbers of samples, and where a render to an error
 // ends. Writes a line for each render; promise.py makes tables of them.
 #include <fmt/format.h>
 
@@ -125,8 +125,7 @@ void measure_all(const std::string& name, const Arguments& a, const app::Console
 }
 
 int run(int argc, char** argv) {
-    app::Options options("limn_promise",
-                         "Measures what limn knows of its own error. What was measured before is kept.");
+    app::Options options("limn_promise", "Measures limn's estimate of its own error. Earlier measurements are kept.");
     Arguments a;
     std::vector<std::string> scenes;
     const auto integer = [&options](const std::string& name, int& value, int lowest, const std::string& help) {

@@ -1,5 +1,5 @@
 /// \file
-/// The rays that everybody is asked: made once, from limn's exact hits, with float32 components.
+/// The rays that all renderers trace: made once, from limn's exact hits, with float32 components.
 #pragma once
 
 #include <string>

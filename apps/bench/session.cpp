@@ -11,8 +11,8 @@ namespace limn::bench {
 
 namespace {
 
-// Small scenes are built so fast that a few rounds say little: more, until so many seconds are spent, or so many
-// rounds.
+// Small scenes are built so fast that a few rounds say little. They get more rounds, until so many seconds are spent,
+// or so many rounds.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
@@ -20,8 +20,8 @@ bool is_batch(const std::string& subject) { return subject.starts_with("limn ");
 
 bool is_robust(const std::string& name) { return name.ends_with("robust"); }
 
-// Embree's ways of asking have a name of more than its scene's, single rays of the default scene count too: where they
-// are fastest they are its best.
+// The names of Embree's modes are longer than that of its scene. Single rays of the default scene count too: if they
+// are fastest, they are its best mode.
 bool is_peer_mode(const std::string& subject) { return subject.starts_with("Embree") && !is_robust(subject); }
 
 const Timing* fastest(const std::vector<Timing>& timings, bool (*counts)(const std::string&)) {
@@ -68,7 +68,7 @@ private:
     void measure_builds(const Geometry& geometry, SceneResult& result) {
         const LimnContender limn;
         for (const int threads : plan_.threads) {
-            // What Embree does in an arena of its own is held by this too.
+            // This limits what Embree does in an arena of its own, too.
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
             BuildRow& row = result.builds.emplace_back();

@@ -31,7 +31,7 @@ struct RayRow {
     std::size_t differences = 0;  // between limn's single rays and its batches, of all sizes together
 
     const Timing* find(const std::string& subject) const;
-    // The fastest by its median, among limn's batches or Embree's ways of asking many at once; none if there is none.
+    // The fastest by its median, among limn's batches or Embree's modes for many rays at once; none if there is none.
     const Timing* best_batch() const;
     const Timing* best_peer() const;
     double million_a_second(const Timing& timing) const;
@@ -50,7 +50,7 @@ struct SceneResult {
     std::vector<RayRow> rows;
 };
 
-// Told after each measurement what share of the plan is done; returns false to stop.
+// Gets the share of the plan that is done after each measurement; returns false to stop.
 using Watch = std::function<bool(double)>;
 
 // The results as far as they went.

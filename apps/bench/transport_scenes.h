@@ -1,6 +1,6 @@
 /// \file
 /// The scenes of the convergence report: what limn and its peers can all express. Metal is a mirror and glass follows
-/// Fresnel's equations, for there is no other lobe that all of them have.
+/// Fresnel's equations, because they share no other lobes.
 #pragma once
 
 #include <string>

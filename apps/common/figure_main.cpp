@@ -29,12 +29,12 @@ const char* name_of(Encoding encoding) {
 void add_texture_options(app::Options& options, FigureInputs& inputs) {
     options.add({.name = "--texture",
                  .value = "FILE",
-                 .help = "The picture to use",
+                 .help = "The picture to use as texture",
                  .preset = inputs.texture.empty() ? "none" : inputs.texture},
                 app::file_name("--texture", inputs.texture));
     options.add({.name = "--texture-encoding",
                  .value = "auto|srgb|raw",
-                 .help = "How its values become linear: auto goes by the file, raw takes them as they are",
+                 .help = "How its values are decoded to linear ones: auto by what the file says, raw not at all",
                  .preset = name_of(inputs.texture_encoding)},
                 [&inputs](const std::string& text) { inputs.texture_encoding = parse_encoding(text); });
 }

@@ -14,7 +14,7 @@ const ImageCodec& codec() {
 
 }  // namespace
 
-// Asked before a picture is rendered: then is the time to say that there is no module.
+// Called before a picture is rendered, so that a missing module is reported in time.
 bool can_encode(FileFormat format) { return codec().can_encode(format); }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) { return codec().encode(job, path); }

@@ -1,5 +1,5 @@
 /// \file
-/// SIGINT and SIGTERM: the first asks to stop and save, a second one ends the program at once.
+/// SIGINT and SIGTERM: the first stops the render and saves, a second one ends the program at once.
 #pragma once
 
 namespace limn::app {

@@ -67,7 +67,7 @@ std::string json_text(const Json& json) {
 JsonOption::JsonOption(Options& options) {
     options.add({.name = "--json",
                  .value = "FILE",
-                 .help = "Write JSON too; - for standard output, in place of the table",
+                 .help = "Write the results as JSON too; - for standard output, in place of the table",
                  .preset = "the table alone"},
                 file_name("--json", path_));
 }

@@ -66,7 +66,7 @@ public:
     /// \throws ArgumentError, FileError if the file cannot be written, or is one of the `inputs`
     void check(const std::vector<std::string>& inputs) const;
 
-    /// Writes the table, and the JSON where it was asked for. \throws FileError
+    /// Writes the table, and the JSON if its option is given. \throws FileError
     void write(const std::string& table, const Json& json) const;
 
 private:

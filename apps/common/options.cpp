@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "limn/core/error.h"
@@ -32,6 +33,42 @@ std::string described(const std::string& help, const std::string& preset) {
     return preset.empty() ? help : help + " (default: " + preset + ")";
 }
 
+constexpr std::size_t kHelpWidth = 96;  // columns
+
+// The text in lines of at most kHelpWidth columns. The first line begins in column `begin`, the others in `indent`.
+std::string wrapped(const std::string& text, std::size_t begin, std::size_t indent) {
+    std::string lines;
+    std::size_t column = begin;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (column > begin && column + 1 + word.size() > kHelpWidth) {
+            lines += "\n" + std::string(indent, ' ');
+            column = begin = indent;
+        } else if (column > begin) {
+            lines += ' ';
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+    }
+    return lines;
+}
+
+// CLI11 2.1 does not wrap.
+class WrappedHelp final : public CLI::Formatter {
+public:
+    std::string make_option(const CLI::Option* option, bool is_argument) const override {
+        const std::string name = "  " + make_option_name(option, is_argument) + make_option_opts(option);
+        const std::size_t indent = get_column_width();
+        const std::string gap =
+            name.size() < indent ? std::string(indent - name.size(), ' ') : "\n" + std::string(indent, ' ');
+        return name + gap + wrapped(make_option_desc(option), indent, indent) + "\n";
+    }
+    std::string make_description(const CLI::App* app) const override {
+        return wrapped(app->get_description(), 0, 0) + "\n\n";
+    }
+};
+
 }  // namespace
 
 struct Options::Parser {
@@ -49,7 +86,7 @@ struct Options::Parser {
     }
 
     std::string problem(const CLI::ParseError& error) const {
-        // First, for what was meant by it may be missing.
+        // First, because the option that was meant may be reported as missing.
         for (const std::string& word : app.remaining())
             if (word.size() > 1 && word.starts_with('-')) {
                 const std::string name = word.substr(0, word.find('='));
@@ -68,6 +105,7 @@ struct Options::Parser {
 
 Options::Options(std::string program, const std::string& description, const std::string& footer)
     : parser_(std::make_unique<Parser>()) {
+    parser_->app.formatter(std::make_shared<WrappedHelp>());
     parser_->app.description(description);
     parser_->app.name(std::move(program));
     parser_->app.footer(footer);

@@ -103,24 +103,21 @@ void add_picture_options(Options& options, PictureOptions& o, const std::string&
                 picture_names("-o", o.outputs));
     options.add({.name = "--film",
                  .value = "FILE",
-                 .help = "Write the film, from which the render can be continued and with which others can be merged; "
-                         "without -o no picture is written then",
+                 .help = "Write the film, which --resume and limn merge read; without -o no picture is written then",
                  .preset = "none"},
                 file_name("--film", o.film));
-    options.add(
-        {.name = "--channels",
-         .value = "error,samples",
-         .help = "Channels that an EXR gets beside its colours: each pixel's estimated relMSE, how many samples "
-                 "it has",
-         .preset = "none"},
-        [&o](const std::string& s) { o.channels = parse_channels(s); });
-    options.add_flag("--half", o.half, "EXR with 16 bits a value instead of 32");
+    options.add({.name = "--channels",
+                 .value = "error,samples",
+                 .help = "Further channels of an EXR: each pixel's estimated relMSE, its number of samples",
+                 .preset = "none"},
+                [&o](const std::string& s) { o.channels = parse_channels(s); });
+    options.add_flag("--half", o.half, "Write EXR with 16 bits a value instead of 32");
     options.add({.name = "--report",
                  .value = "FILE.json",
-                 .help = "Write what was done and how well as JSON; - for standard output",
+                 .help = "Write a report of the render as JSON; - for standard output",
                  .preset = "none"},
                 file_name("--report", o.report));
-    options.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    options.add_flag("--quiet", o.quiet, "Print errors only");
 }
 
 void check_picture_options(const PictureOptions& o) {

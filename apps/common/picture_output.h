@@ -11,7 +11,7 @@
 
 namespace limn::app {
 
-/// What the command line says of what is to be written.
+/// What the command line says about outputs.
 struct PictureOptions {
     std::vector<std::string> outputs;   ///< pictures
     std::vector<std::string> channels;  ///< that an EXR gets beside its colours

@@ -1,5 +1,5 @@
 /// \file
-/// How every program speaks and ends.
+/// The messages and exit status of every program.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ inline constexpr int kFailed = 1;        ///< something is wrong in files, memor
 inline constexpr int kBadArguments = 2;  ///< something is wrong in the arguments alone
 inline constexpr int kUnfinished = 3;    ///< limn merge: another round is to be rendered
 
-/// Speaks on stderr, each line with the program's name before it.
+/// Writes to stderr, each line with the name of the program before it.
 struct Console {
     std::string program;
     bool quiet = false;  ///< errors only

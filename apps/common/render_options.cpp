@@ -18,11 +18,11 @@ constexpr int kMostThreads = 1024;
 constexpr const char* kOfScene = "the scene's own";
 
 void add_numbers(Options& options, RenderOptions& o) {
-    options.add({.name = "--size", .value = "WxH", .help = "Size in pixels", .preset = kOfScene},
+    options.add({.name = "--size", .value = "WxH", .help = "Size of the picture in pixels", .preset = kOfScene},
                 [&o](const std::string& s) { o.size = parse_size("--size", s); });
     options.add({.name = "--spp",
                  .value = "N",
-                 .help = "Samples a pixel; with --error or --time-limit the upper limit of their average",
+                 .help = "Samples per pixel; with --error or --time-limit the upper limit of their average",
                  .preset = kOfScene},
                 [&o](const std::string& s) { o.samples_per_pixel = parse_integer("--spp", s, 1, kMostSamples); });
     options.add({.name = "--error",
@@ -33,32 +33,35 @@ void add_numbers(Options& options, RenderOptions& o) {
                 [&o](const std::string& s) { o.error = parse_positive("--error", s); });
     options.add({.name = "--time-limit",
                  .value = "SECONDS",
-                 .help = "Render no longer than that, with --error until the first of both; --spp is then the upper "
+                 .help = "Stop rendering after that time; with --error, whichever comes first. --spp is then the upper "
                          "limit",
                  .preset = "none"},
                 [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
     options.add_flag("--uniform", o.uniform,
-                     "The same number of samples in every pixel (with --error or --time-limit)");
+                     "Take the same number of samples in every pixel (with --error or --time-limit)");
     options.add({.name = "--seed",
                  .value = "N",
-                 .help = "Another seed gives other noise, the same seed the same picture",
+                 .help = "Seed of the random numbers: the same seed gives the same picture",
                  .preset = kOfScene},
                 [&o](const std::string& s) {
                     o.seed = parse_integer<std::uint64_t>("--seed", s, 0, std::numeric_limits<std::uint64_t>::max());
                 });
     options.add({.name = "--threads",
                  .value = "N",
-                 .help = "Threads, on which the picture does not depend",
+                 .help = "Number of threads; the picture does not depend on it",
                  .preset = "one for each processor"},
                 [&o](const std::string& s) { o.threads = parse_integer("--threads", s, 1, kMostThreads); });
-    options.add({.name = "--max-depth", .value = "N|unlimited", .help = "Ray segments a path", .preset = kOfScene},
+    options.add({.name = "--max-depth",
+                 .value = "N|unlimited",
+                 .help = "Largest number of ray segments in a path",
+                 .preset = kOfScene},
                 [&o](const std::string& s) {
                     o.max_depth =
                         s == "unlimited" ? kUnlimitedDepth : parse_integer("--max-depth", s, 1, kUnlimitedDepth - 1);
                 });
     options.add({.name = "--estimator",
                  .value = "path|naive",
-                 .help = "How light is found: with or without sampling the lamps",
+                 .help = "path samples lamps and scattering, naive scattering alone",
                  .preset = kOfScene},
                 [&o](const std::string& s) {
                     if (s != "path" && s != "naive") refuse("--estimator", s, "must be path or naive");
@@ -66,7 +69,7 @@ void add_numbers(Options& options, RenderOptions& o) {
                 });
     options.add({.name = "--sampler",
                  .value = "sobol|independent",
-                 .help = "Random numbers: spread evenly over each pixel's samples, or independent",
+                 .help = "sobol spreads the samples of a pixel evenly, independent does not",
                  .preset = kOfScene},
                 [&o](const std::string& s) {
                     if (s != "sobol" && s != "independent") refuse("--sampler", s, "must be sobol or independent");
@@ -86,42 +89,44 @@ void add_films(Options& options, RenderOptions& o) {
                                 const Use& use) {
         options.add({.name = name, .value = value, .help = help, .preset = preset, .group = "Long renders"}, use);
     };
-    add("--checkpoint", "FILE", "Save the film again and again, and at the end", "none",
+    add("--checkpoint", "FILE", "Save the film at regular intervals and at the end", "none",
         file_name("--checkpoint", o.checkpoint));
-    add("--every", "SECONDS", "Between two checkpoints", "60",
+    add("--every", "SECONDS", "Time between two checkpoints", "60",
         [&o](const std::string& s) { o.every = parse_positive("--every", s); });
     add("--resume", "FILE",
-        "Go on from a film of this render; threads, outputs, --spp, --error and --time-limit may be others. If the "
-        "same file is written, it need not be there yet",
+        "Continue the render of this film. Threads, outputs, --spp, --error and --time-limit may differ. A film "
+        "that is also written need not exist yet",
         "none", file_name("--resume", o.resume));
-    add("--shard", "I/N", "Render one part of N, 1 to N, with --film; limn merge brings them together", "1/1",
+    add("--shard", "I/N", "Render part I of N, with --film or --checkpoint; limn merge joins the parts", "1/1",
         [&o](const std::string& s) { o.shard = parse_shard(s); });
-    add("--plan", "FILE", "Render as many samples as limn merge --plan wants", "none", file_name("--plan", o.plan));
+    add("--plan", "FILE", "Take as many samples as this plan of limn merge --plan asks for", "none",
+        file_name("--plan", o.plan));
 }
 
 void add_camera(Options& options, CameraOptions& o) {
     const auto add = [&options](const char* name, const char* value, const char* help, const Use& use) {
         options.add({.name = name, .value = value, .help = help, .preset = kOfScene, .group = "Camera"}, use);
     };
-    add("--look-from", "x,y,z", "Where the eye is", [&o](const std::string& s) {
+    add("--look-from", "x,y,z", "Position of the eye", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--look-from", s);
         o.look_from = Point3{x, y, z};
     });
-    add("--look-at", "x,y,z", "What is in the middle of the picture", [&o](const std::string& s) {
+    add("--look-at", "x,y,z", "Point in the middle of the picture", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--look-at", s);
         o.look_at = Point3{x, y, z};
     });
-    add("--vup", "x,y,z", "What is up in the picture", [&o](const std::string& s) {
+    add("--vup", "x,y,z", "Direction that is up in the picture", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--vup", s);
         o.up = Vec3{x, y, z};
         if (*o.up == Vec3{}) refuse("--vup", s, "must not be zero");
     });
-    add("--vfov", "DEG", "Full angle between the top and the bottom of the picture", [&o](const std::string& s) {
-        o.vertical_fov = parse_number("--vfov", s);
-        if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180))
-            refuse("--vfov", s, "must be over 0 and under 180 degrees");
-    });
-    add("--aperture-angle", "DEG", "Full angle of the lens seen from the plane in focus; 0: all is sharp",
+    add("--vfov", "DEG", "Vertical field of view, from the bottom to the top of the picture",
+        [&o](const std::string& s) {
+            o.vertical_fov = parse_number("--vfov", s);
+            if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180))
+                refuse("--vfov", s, "must be over 0 and under 180 degrees");
+        });
+    add("--aperture-angle", "DEG", "Full angle of the lens, seen from the plane in focus; 0 makes everything sharp",
         [&o](const std::string& s) {
             o.aperture_angle = parse_number("--aperture-angle", s);
             if (!(*o.aperture_angle >= 0 && *o.aperture_angle < 180))
@@ -152,7 +157,7 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
 void add_render_options(Options& options, RenderOptions& o, const std::string& outputs) {
     add_picture_options(options, o, outputs);
     add_numbers(options, o);
-    options.add_flag("--no-antialias", o.no_antialias, "Rays through the centres of pixels only");
+    options.add_flag("--no-antialias", o.no_antialias, "Trace all camera rays through the centres of the pixels");
     add_films(options, o);
     add_camera(options, o.camera);
 }

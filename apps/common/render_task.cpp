@@ -50,8 +50,8 @@ void check_outputs(const RenderTask& task, const RenderOptions& options) {
                         "is there already: name it with --resume too, to go on from it, or remove it");
 }
 
-// Goes on from the film that --resume names. Where the same one is to be written, it need not be there yet: so the same
-// command may be given again and again.
+// Continues from the film that --resume names. If the same film is to be written, it need not exist yet, so that the
+// same command can be given again and again.
 void load_film(RenderJob& job, const RenderOptions& options, const Console& console) {
     if (options.resume.empty()) return;
     if (is_replaced(options) && !std::filesystem::exists(options.resume))

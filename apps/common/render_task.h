@@ -19,9 +19,9 @@ struct RenderTask {
     std::vector<std::string> inputs;
 };
 
-/// Checks everything that can be known, makes the figure, renders it, with checkpoints where they are asked for, saves
+/// Checks everything that can be known, makes the figure, renders it, with checkpoints if their option is given, saves
 /// the film and every picture, then the report. Nothing is created before there are pixels to save. SIGINT and SIGTERM
-/// end the render early; what there is is saved.
+/// end the render early; what is done is saved.
 /// \returns the exit status
 /// \throws ArgumentError, FileError, Error for what is found wrong before rendering
 int run_render_task(const RenderTask& task, const RenderOptions& options, const Console& console);

@@ -1,5 +1,5 @@
 /// \file
-/// What a render has to tell: the JSON of --report, and the facts in a picture's header.
+/// What is known of a render: the JSON of --report, and the facts in a picture's header.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// \file
-/// Text results: reports and tables. The path "-" is stdout. And that no file is overwritten that another is made of.
+/// Text results: reports and tables. The path "-" is stdout. Also the check that no output replaces an input.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 /// \file
-/// The answers that `limn trace` gives.
+/// The results of `limn trace`.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace limn::app {
 
-/// Answers on standard output. As text one a line, with the 17 digits that bring every float64 back; as binary
+/// Results on standard output. As text one a line, with the 17 digits that bring every float64 back; as binary
 /// little-endian float64.
 class AnswerWriter {
 public:
@@ -20,7 +20,7 @@ public:
     /// 1 or 0.
     void occluded(bool is_hit);
 
-    /// Writes what has been given since the last time. \throws FileError
+    /// Writes the results since the last call. \throws FileError
     void flush();
 
 private:

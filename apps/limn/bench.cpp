@@ -25,11 +25,13 @@ namespace {
 using bench::Plan;
 
 constexpr const char* kMeaning =
-    R"(Rates are in million rays a second, medians over the rounds; limn/Embree, limn/robust and batch/best are the
-medians of the ratios of each round, with their quartiles. Every round lets each take its turn; what one thread
-does is measured by processor time, what several do by the clock. Embree appears where its module was built; best is
-its fastest way of asking: packets of 4, 8 or 16, streams of single rays (1M) or of packets (16M). differ/M: rays in a
-million that Embree answers otherwise than limn.)";
+    R"(Rates are in million rays per second, medians over the rounds. limn/Embree, limn/robust and
+batch/best are medians of the ratios of each round, with their quartiles. In every round each
+renderer takes its turn. One thread is measured by processor time, several by the clock.
+
+Embree appears if its module was built. best is its fastest mode: packets of 4, 8 or 16,
+streams of single rays (1M) or of packets (16M). differ/M is the number of rays in a million
+on which Embree and limn differ.)";
 
 template <class Integer>
 auto integer_option(const char* option, Integer lowest, Integer highest, Integer& value) {
@@ -61,10 +63,10 @@ void add_options(Options& options, Plan& plan, bool& quiet) {
                 file_names("MODEL", plan.models));
     add_choice(options, "--scene", "A scene to measure", "all where no MODEL is given", bench::scene_names(),
                plan.scenes);
-    add_choice(options, "--kind", "Only rays of this kind", "all", bench::ray_kinds(), plan.kinds);
+    add_choice(options, "--kind", "Measure only rays of this kind", "all", bench::ray_kinds(), plan.kinds);
     options.add({.name = "--scale",
                  .value = "X",
-                 .help = "Multiplies the number of primitives of the scenes",
+                 .help = "Factor on the number of primitives of the scenes",
                  .preset = text(plan.scale)},
                 [&plan](const std::string& s) {
                     plan.scale = parse_number("--scale", s);
@@ -74,18 +76,20 @@ void add_options(Options& options, Plan& plan, bool& quiet) {
                 integer_option("--rays", std::size_t{1}, std::size_t{1} << 26, plan.rays));
     options.add({.name = "--rounds", .value = "N", .help = "Rounds of each measurement", .preset = text(plan.rounds)},
                 integer_option("--rounds", 1, 1000, plan.rounds));
-    options.add(
-        {.name = "--build-rounds", .value = "N", .help = "Rounds of building", .preset = text(plan.build_rounds)},
-        integer_option("--build-rounds", 0, 1000, plan.build_rounds));
-    options.add({.name = "--threads", .value = "N", .help = "Threads", .preset = "one, and then all"},
+    options.add({.name = "--build-rounds",
+                 .value = "N",
+                 .help = "Rounds of building the scene",
+                 .preset = text(plan.build_rounds)},
+                integer_option("--build-rounds", 0, 1000, plan.build_rounds));
+    options.add({.name = "--threads", .value = "N", .help = "Number of threads", .preset = "one, and then all"},
                 [&plan](const std::string& s) { plan.threads = {parse_integer("--threads", s, 1, 1024)}; });
-    options.add_flag("--quiet", quiet, "Say nothing but errors");
+    options.add_flag("--quiet", quiet, "Print errors only");
 }
 
 }  // namespace
 
 int bench_command(int argc, const char* const* argv) {
-    Options options("limn bench", "Measures rays a second, beside Embree where it is there, on the same rays.",
+    Options options("limn bench", "Measures rays per second, and Embree on the same rays where it is installed.",
                     kMeaning);
     Plan plan;
     bool quiet = false;
@@ -119,7 +123,7 @@ int bench_command(int argc, const char* const* argv) {
     for (const bench::SceneResult& scene : results)
         for (const bench::RayRow& row : scene.rows)
             if (row.differences > 0)
-                throw Error(fmt::format("{}, {}: {} rays are answered otherwise in batches", scene.name, row.rays,
+                throw Error(fmt::format("{}, {}: {} rays have other results in batches", scene.name, row.rays,
                                         row.differences));
     return kDone;
 }

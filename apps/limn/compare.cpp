@@ -90,24 +90,26 @@ Json json(const ImageMetrics& m, const Arguments& a) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-    Options options("limn compare",
-                    "Prints the error of an image against a reference, or against two independent halves of one, whose "
-                    "own error is then subtracted.");
+    Options options(
+        "limn compare",
+        "Prints the error of an image against a reference. The reference may come in two independent halves: "
+        "then its own error is estimated and subtracted.");
     Arguments a;
     const auto image = [&options](const std::string& name, std::string& path, const char* help, bool required) {
         options.add({.name = name, .value = "", .help = help, .preset = required ? "" : "none", .required = required},
                     file_name(name, path));
     };
-    image("TEST", a.test, "The image in question", true);
+    image("TEST", a.test, "The image to measure", true);
     image("REF", a.reference, "The reference, or one half of it", true);
     image("REF_B", a.reference_b, "The other half of the reference", false);
-    options.add({.name = "-o,--output",
-                 .value = "FILE",
-                 .help = "Write where the error is: .exr has (x - r)^2 / (r^2 + 0.01) of each value, whose mean is "
-                         "relMSE; .png false colours, black to white for 1e-6 to 1; may be repeated",
-                 .preset = "none",
-                 .repeatable = true},
-                picture_names("-o", a.outputs));
+    options.add(
+        {.name = "-o,--output",
+         .value = "FILE",
+         .help = "A picture of the error to write: .exr holds (x - r)^2 / (r^2 + 0.01) of each value, whose mean "
+                 "is relMSE; .png shows false colours, black to white for 1e-6 to 1. May be repeated",
+         .preset = "none",
+         .repeatable = true},
+        picture_names("-o", a.outputs));
     const JsonOption json_option(options);
     if (!options.parse(argc, argv)) return kDone;
     const std::vector<std::string> inputs = {a.test, a.reference, a.reference_b};

@@ -171,10 +171,11 @@ Description describe(const std::string& path) {
 int info_command(int argc, const char* const* argv) {
     Options options(
         "limn info",
-        "Prints what a model holds (a Wavefront OBJ), a film, or an image: its size, channels and the facts of the "
-        "render that made it. The contents tell which of them a file is, whatever its name.",
-        "An open edge belongs to one triangle alone, a non-manifold one to more than two; a model without open edges "
-        "is\nclosed. Vertices at the same place count as one there, and triangles without an area are left out.");
+        "Prints what a file holds: a model (a Wavefront OBJ), a film, or an image with its size, channels and the "
+        "facts of its render. The kind of file is told by its contents, not by its name.",
+        "An open edge belongs to one triangle, a non-manifold edge to more than two. A model without open\n"
+        "edges is closed. For this count vertices at the same place are one vertex, and triangles without\n"
+        "area are left out.");
     std::string file;
     options.add({.name = "FILE", .value = "", .help = "The model, film or image", .required = true},
                 file_name("FILE", file));

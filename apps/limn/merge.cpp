@@ -36,26 +36,27 @@ void check(const Arguments& a) {
 }  // namespace
 
 int merge_command(int argc, const char* const* argv) {
-    Options options("limn merge",
-                    "Makes one film, and its picture, of films that have its parts (see --shard of limn render). The "
-                    "result is that of one render, bit for bit.",
-                    fmt::format("The exit status is {} where --plan was written and is to be rendered.", kUnfinished));
+    Options options(
+        "limn merge",
+        "Joins the films of the parts of a render (see --shard of limn render) to one film and its picture. "
+        "The result is that of one render, bit for bit.",
+        fmt::format("The exit status is {} if --plan was written: then the parts need another round.", kUnfinished));
     Arguments a;
     a.command_line = "limn " + command_line(argc, argv);
     options.add({.name = "FILM",
                  .value = "",
-                 .help = "Films that have all tiles of the picture, each in one of them, in any order",
+                 .help = "Films that hold each tile of the picture once, in any order",
                  .required = true,
                  .repeatable = true},
                 file_names("FILM", a.films));
     options.add({.name = "--error",
                  .value = "E",
-                 .help = "The relMSE that the picture is to have, by the upper end of its 95 % interval; with --plan",
+                 .help = "The relMSE to reach, by the upper end of its 95 % interval; needs --plan",
                  .preset = "none"},
                 [&a](const std::string& text) { a.error = parse_positive("--error", text); });
     options.add({.name = "--plan",
                  .value = "FILE",
-                 .help = "Where the picture has not that error, write how many samples each pixel is to have next, for "
+                 .help = "If the picture has not reached that error, write how many samples each pixel needs next, for "
                          "limn render --plan",
                  .preset = "none"},
                 file_name("--plan", a.plan));

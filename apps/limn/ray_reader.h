@@ -1,5 +1,5 @@
 /// \file
-/// The rays that `limn trace` is asked about.
+/// The rays that `limn trace` reads.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace limn::app {
 
-/// Rays from a file or standard input, given as they arrive: whoever sends one and waits for its answer gets it, and
-/// memory does not grow with their number.
+/// Rays from a file or standard input, given as they arrive. A program that sends a ray and waits for its result gets
+/// it, and memory does not grow with their number.
 ///
-/// As text one a line, `ox oy oz dx dy dz [tmin tmax]`; blank lines and those that begin with # are passed over. As
+/// As text one a line, `ox oy oz dx dy dz [tmin tmax]`; blank lines and those that begin with # are skipped. As
 /// binary eight little-endian float64 each, in the same order.
 class RayReader {
 public:

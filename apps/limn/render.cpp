@@ -32,9 +32,10 @@ Figure view_of(const std::string& path, const RenderOptions& options, const Cons
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
-    Options command("limn render",
-                    "Renders a Wavefront OBJ under a default light, from the front right unless the camera options say "
-                    "otherwise.");
+    Options command(
+        "limn render",
+        "Renders a Wavefront OBJ under a default light. The camera stands at the front right unless its options "
+        "say otherwise.");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);
@@ -42,7 +43,7 @@ int render_command(int argc, const char* const* argv) {
                 file_name("MODEL", model));
     add_render_options(command, options);
     state_presets(command, view_of_box({{-1, -1, -1}, {1, 1, 1}}, options));
-    command.preset("--look-from", "the front right of the model, all of which is seen");
+    command.preset("--look-from", "the front right, from where all of the model is seen");
     command.preset("--look-at", "the middle of the model");
     if (!command.parse(argc, argv)) return kDone;
     check_together(options);

@@ -18,16 +18,21 @@ namespace limn::app {
 namespace {
 
 constexpr const char* kForms =
-    R"(A ray is a line of six or eight numbers, ox oy oz dx dy dz [tmin tmax]: its origin, its direction, and the
-interval (tmin, tmax], which is (0, inf] unless given. Blank lines and lines that begin with # are passed over.
-Its answer is a line: t face u v with 17 digits, or miss; with --any 1 or 0. t is in units of the direction,
-which need not have unit length. face counts the faces of the file from 0, the triangles of a polygon share it.
-u and v are the weights of the second and third corner of the triangle that was hit.
-Answers come in the order of the rays, each as soon as its ray has arrived. A ray that cannot be used (not a
-number, no direction, something infinite in origin or direction, tmin = inf, tmin above tmax) is a miss, and
-counted on stderr at the end.
-With --binary a ray is 8 little-endian float64 (origin, direction, tmin, tmax), its answer 4 (t or inf, face or
--1, u, v), or 1 with --any.)";
+    R"(A ray is a line of six or eight numbers, ox oy oz dx dy dz [tmin tmax]: its origin, its
+direction, and the interval (tmin, tmax], which is (0, inf] unless given. Blank lines and
+lines that begin with # are skipped.
+
+The result of a ray is a line: t face u v with 17 digits, or miss; with --any 1 or 0. t is in
+units of the direction, which need not have unit length. face is the index of the face in the
+file, from 0; the triangles of a polygon share it. u and v are the weights of the second and
+third corner of the triangle that was hit.
+
+Results come in the order of the rays, each as soon as its ray has arrived. A ray that cannot
+be used (NaN, no direction, an infinite origin or direction, tmin = inf, tmin above tmax) is a
+miss. Such rays are counted on stderr at the end.
+
+With --binary a ray is 8 little-endian float64: origin, direction, tmin, tmax. Its result is
+4: t or inf, face or -1, u, v; with --any it is 1.)";
 
 struct Arguments {
     std::string model, rays = "-";
@@ -69,7 +74,7 @@ std::size_t answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWri
     return unusable;
 }
 
-// A bar makes sense only where an end is known and the answers do not scroll through it.
+// A bar makes sense only if the end is known and the results do not scroll through it.
 bool wants_bar(const Arguments& a, const RayReader& reader) {
     return !a.quiet && reader.fraction() && stderr_is_terminal() && ::isatty(STDOUT_FILENO) == 0;
 }
@@ -88,22 +93,22 @@ void trace(const Arguments& a, const Console& console) {
         bar.update({reader.fraction().value_or(0), seconds.count()});
     }
     bar.clear();
-    if (unusable > 0) console.note(fmt::format("rays that cannot be used, answered as misses: {}", unusable));
+    if (unusable > 0) console.note(fmt::format("rays that cannot be used, counted as misses: {}", unusable));
 }
 
 }  // namespace
 
 int trace_command(int argc, const char* const* argv) {
-    Options options("limn trace", "Answers which face of a Wavefront OBJ each ray hits first, or whether it hits any.",
-                    kForms);
+    Options options("limn trace",
+                    "Prints the face of a Wavefront OBJ that each ray hits first, or whether it hits any.", kForms);
     Arguments a;
     options.add({.name = "MODEL", .value = "", .help = "The model, a Wavefront OBJ", .required = true},
                 file_name("MODEL", a.model));
-    options.add({.name = "--rays", .value = "FILE", .help = "Where the rays come from", .preset = "-, standard input"},
+    options.add({.name = "--rays", .value = "FILE", .help = "File of the rays", .preset = "-, which is standard input"},
                 file_name("--rays", a.rays));
-    options.add_flag("--any", a.any, "Only whether there is a hit: 1 or 0");
-    options.add_flag("--binary", a.binary, "Rays and answers as little-endian float64 in place of text");
-    options.add_flag("--quiet", a.quiet, "Say nothing but errors");
+    options.add_flag("--any", a.any, "Print only whether there is a hit: 1 or 0");
+    options.add_flag("--binary", a.binary, "Read rays and write results as little-endian float64 instead of text");
+    options.add_flag("--quiet", a.quiet, "Print errors only");
     if (!options.parse(argc, argv)) return kDone;
     if (a.binary && ::isatty(STDOUT_FILENO) != 0)
         throw ArgumentError("--binary: standard output is a terminal; send it to a file or a pipe");

@@ -29,7 +29,7 @@ Scene balls_on_checker(const std::vector<BouncingSphere>& balls, Fresnel fresnel
 /// A ball on a ground, both of stone, lit by a ball and a pane of light in the dark (figure 12).
 Scene stone_under_lamps(const std::shared_ptr<const Material>& stone);
 
-/// Glass with a bubble in it, a matte ball and one of metal, side by side (figures 13, 17, 18).
+/// Glass with a bubble in it, a matte ball and one of metal, next to each other (figures 13, 17, 18).
 Scene three_balls(const std::shared_ptr<const Material>& glass, std::shared_ptr<const Material> metal);
 
 /// The empty Cornell box: five walls and a light in a corner-and-edges rectangle under the ceiling (figures 15, 16).

@@ -12,8 +12,8 @@
 
 namespace limn {
 
-/// What a described object writes its records to. Objects that are shared are described once: the second time the sink
-/// knows their address and answers with the same id. Not thread-safe; used by one compilation.
+/// What a described object writes its records to. Shared objects are described once: the second time the sink knows
+/// their address and returns the same id. Not thread-safe; used by one compilation.
 class RecordSink {
 public:
     /// The id of a material or texture; `describe` is called the first time only. The sink keeps the object alive.
@@ -30,7 +30,7 @@ public:
     ///@}
 
     /// Adds a shape to the current group. Its ids must be the sink's own. What a record points to must stay alive: a
-    /// mesh's arrays as long as `owner`; a foreign shape as long as the scene, which does so for what was added to it
+    /// mesh's arrays as long as `owner`; a user-defined shape as long as the scene, which keeps what was added to it
     /// and for what groups hold. \throws ArgumentError if there are too many primitives
     ///@{
     void sphere(const SphereRecord& record) {
@@ -45,7 +45,7 @@ public:
     void medium(const MediumRecord& record);
     ///@}
 
-    /// The same for any kind. `table`: where its records stand; `count`: of primitives.
+    /// The same for any kind. `table` has its records, `count` is the number of primitives.
     template <class Record>
     void shape(PrimitiveKind kind, std::vector<Record> SceneRecords::*table, const Record& record,
                std::uint64_t count = 1) {
@@ -53,11 +53,11 @@ public:
         (records_.*table).push_back(record);
     }
 
-    /// A group that instances and media refer to: `fill` writes its shapes, the first time only.
+    /// An instanced subtree (a BLAS) that instances and media refer to: `fill` writes its shapes, the first time only.
     /// \throws ArgumentError if an object contains itself
     GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
 
-    /// What a user-defined object, which foreign records call, is; null: it does not tell.
+    /// The tag of a user-defined object, if it has one; null: it has none.
     void identify(const Tagged* object);
 
     /// Around the description of an object that contains others.

@@ -1,5 +1,5 @@
 /// \file
-/// The party wall: plain records in which described objects state themselves to the compiler. They hold numbers and
+/// The intermediate representation: plain records that described objects write for the compiler. They hold numbers and
 /// ids, no behaviour. A program that describes scenes and derives classes needs none of them. Whoever writes them keeps
 /// what they point to alive through `RecordSink::keep`.
 #pragma once
@@ -39,7 +39,7 @@ enum class GroupId : std::uint32_t { root = 0 };
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-/// The built-in textures, and `foreign` for everybody else's.
+/// The built-in textures, and `foreign` for user-defined ones.
 enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence, marble, foreign };
 
 /// One texture; each field is of the kinds named beside it.
@@ -59,7 +59,7 @@ static_assert(sizeof(TextureRecord) == 64);
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
-/// How to call somebody else's material.
+/// How to call a user-defined material.
 struct MaterialThunks {
     /// Material::emitted, Material::sample and Material::value.
     ///@{
@@ -152,7 +152,7 @@ struct MeshRecord {
     std::shared_ptr<const void> owner{};  ///< of the arrays; RecordSink::mesh sets it
 };
 
-/// A group seen through a matrix; a moving one is interpolated entry by entry.
+/// An instanced subtree seen through a matrix; a moving matrix is interpolated entry by entry.
 struct InstanceRecord {
     /// The matrices at time 0 and 1, the same for a still instance; `group` is another one than root.
     ///@{
@@ -169,7 +169,7 @@ struct MediumRecord {
     double density = 0;                   ///< extinction, per world unit of length
 };
 
-/// What a foreign shape's intersection tells; as Hit, but for the form of material and uv.
+/// The hit of a user-defined shape: as Hit, but for the form of material and uv.
 struct ForeignHit {
     double t = 0;                ///< in units of the ray's direction
     Normal3 normal;              ///< geometric, outward, unit
@@ -182,7 +182,7 @@ struct ForeignHit {
     bool index_matched = false;  ///< the boundary of a medium
 };
 
-/// A shape of somebody else's class.
+/// A user-defined shape.
 struct ForeignRecord {
     Box bounds;                                                       ///< Hittable::bounds
     const Hittable* object = nullptr;                                 ///< not owning
@@ -194,7 +194,7 @@ static_assert(sizeof(ForeignRecord) == 64);
 
 /// `count` primitives of one kind, in the order of description. For a mesh, an instance or a medium: one row with
 /// `count` primitives. For the others: rows first_row, first_row + 1, ... of their table.
-/// `first_number` is the number of the first of them within the group.
+/// `first_number` is the index of the first of them within the group.
 struct PrimitiveRange {
     /// As said above.
     ///@{

@@ -52,7 +52,7 @@ class Goals(unittest.TestCase):
         self.assertEqual(tables.missed(raw([scene(build=0.9)])), ["soup, built by 1 threads"])
         self.assertEqual(tables.missed(raw([scene(size=65)])), ["soup: bytes"])
         self.assertEqual(tables.missed(raw(more=1.02)), ["instructions, media: primary_single"])
-        self.assertEqual(tables.missed(raw(aside=1.02)), ["instructions, a foreign sphere aside: primary_single"])
+        self.assertEqual(tables.missed(raw(aside=1.02)), ["instructions, a user-defined sphere aside: primary_single"])
 
     def test_two_threads_are_nearly_twice_as_fast_as_one(self):
         self.assertEqual(tables.missed(raw([scene([row(), row(threads=2)])])), [])

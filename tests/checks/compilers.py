@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Are the answers the same bits, whichever compiler and instruction set? Writes docs/checks.md.
+"""Are the results the same bits, whichever compiler and instruction set? Writes docs/checks.md.
 
     compilers.py          the whole suite under g++ 12, clang 14 and clang 19, its digests on each instruction set; the
                           digests without optimisation, for this processor alone, and with link-time optimisation

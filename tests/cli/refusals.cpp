@@ -42,30 +42,54 @@ TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
         CHECK(limn(words).out == limn({"--help"}).out);
 }
 
-// The line of an option in a help text.
+// The lines of a help text, each option's on one, with one space where it was wrapped.
+std::vector<std::string> unwrapped(const std::string& help) {
+    std::vector<std::string> lines;
+    std::istringstream in(help);
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (!lines.empty() && begin != std::string::npos && begin > 2)
+            lines.back() += " " + line.substr(begin);
+        else
+            lines.push_back(line);
+    }
+    return lines;
+}
+
 std::string line_of(const std::string& help, const std::string& option) {
-    const std::size_t begin = help.find("\n  " + option + " ") + 1;
-    return help.substr(begin, help.find('\n', begin) - begin);
+    for (const std::string& line : unwrapped(help))
+        if (line.starts_with("  " + option + " ")) return line;
+    return "";
 }
 
 TEST_CASE("limn: --help states of each option that takes a value what holds without it, or that it is required",
           "[cli]") {
     std::vector<std::string> texts{run(TINY_FIGURE_PROGRAM, {"--help"}).out};
-    for (const char* command : {"render", "compare", "info", "trace", "bench"})
+    for (const char* command : {"render", "merge", "compare", "info", "trace", "bench"})
         texts.push_back(limn({command, "--help"}).out);
     int options = 0;
     for (const std::string& text : texts) {
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
+        for (const std::string& line : unwrapped(text)) {
             const bool takes_value = line.starts_with("  -") && line.find(' ', 2) != line.find("  ", 2);
             if (!takes_value) continue;
             ++options;
-            if (std::string next; line.find("  ", 2) == std::string::npos && std::getline(lines, next)) line += next;
             CAPTURE(line);
             CHECK((contains(line, "(default: ") || contains(line, " REQUIRED")));
         }
     }
     CHECK(options >= 50);
+}
+
+TEST_CASE("limn: no line of --help is wider than 100 columns", "[cli]") {
+    for (const Words& words :
+         {Words{"--help"}, Words{"help", "render"}, Words{"help", "merge"}, Words{"help", "compare"},
+          Words{"help", "info"}, Words{"help", "trace"}, Words{"help", "bench"}}) {
+        std::istringstream lines(limn(words).out);
+        for (std::string line; std::getline(lines, line);) {
+            CAPTURE(line);
+            CHECK(line.size() <= 100);
+        }
+    }
 }
 
 TEST_CASE("limn: the defaults in --help are those of the library, and of a figure its own", "[cli]") {

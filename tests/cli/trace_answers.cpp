@@ -195,7 +195,7 @@ TEST_CASE("limn trace: rays that cannot be used are misses, and counted", "[cli]
         ++count;
     }
     REQUIRE(count > 20);
-    const std::string counted = fmt::format("answered as misses: {}\n", count);
+    const std::string counted = fmt::format("counted as misses: {}\n", count);
 
     const Outcome outcome = limn_reads(text, {"trace", model});
     CHECK(outcome.status == 0);

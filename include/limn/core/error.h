@@ -1,6 +1,6 @@
 /// \file
-/// The exceptions that limn throws; beside them only std::bad_alloc and what the caller's own classes and callbacks
-/// throw.
+/// The exceptions that limn throws. Besides them only std::bad_alloc and what user-defined classes and callbacks throw
+/// may leave a function.
 #pragma once
 
 #include <stdexcept>
@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// What every limn function throws when it cannot do what was asked. `what()` names the file, line or argument.
+/// What every limn function throws when it cannot do its work. `what()` names the file, line or argument.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -6,9 +6,9 @@
 
 namespace limn {
 
-/// The right to write a file, which one process has at a time, and which ends with it however it ends. It holds over
-/// replacements of the file: what is locked is PATH.lock beside it, which a killed process leaves behind without harm.
-/// Where the file system has no locks, everybody gets one.
+/// The right to write a file. One process has it at a time, and it ends with the process. It holds over replacements of
+/// the file: the lock is on PATH.lock beside it, which a killed process leaves behind without harm.
+/// Where the file system has no locks, every process gets one.
 class FileLock {
 public:
     /// \throws FileError if another process has it, or PATH.lock cannot be made

@@ -1,5 +1,5 @@
 /// \file
-/// What stands for a large thing where only its equality counts.
+/// A digest, which stands for a large thing where only equality counts.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace limn {
 
-/// 128 bits of XXH3 (Collet, xxHash: https://xxhash.com): of different things they are, but for attacks, never equal.
+/// 128 bits of XXH3 (Collet, xxHash: https://xxhash.com): of different things never equal, except in an attack.
 /// The same on every processor.
 using Hash128 = std::array<std::uint64_t, 2>;
 

@@ -17,9 +17,9 @@ struct Ray {
     double t_min = 0;          ///< open: a hit at t_min is none
     double t_max = kInfinity;  ///< closed: a hit at t_max is one
     double time = 0;           ///< in shutter units
-    /// limn's own, null in a ray that you make: inside instances, what the rounded origin and direction stand for, so
-    /// that decisions are exact. Valid during the call of hit() that receives the ray. A copy with another t_min or
-    /// t_max keeps it; one with another origin or direction is another ray and taken as it is. Queries of a
+    /// limn's own, null in a ray that you make. Inside instances it says what the rounded origin and direction stand
+    /// for, so that decisions are exact. Valid during the call of hit() that receives it. A copy with another t_min or
+    /// t_max keeps it. One with another origin or direction is another ray, and taken as it is. Queries of a
     /// CompiledScene take every ray as it is.
     const RayFrame* frame = nullptr;
 
@@ -28,7 +28,7 @@ struct Ray {
 };
 
 /// Whether a ray can be traced: finite origin and direction, a direction that is not zero, no NaN, t_min <= t_max,
-/// t_min below +infinity. Every query answers an unusable ray with a miss.
+/// t_min below +infinity. In every query an unusable ray misses.
 inline bool is_usable(const Ray& r) {
     return is_finite(r.origin) && is_finite(r.direction) && !(r.direction == Vec3{}) && r.t_min <= r.t_max &&
            r.t_min < kInfinity && std::isfinite(r.time);

@@ -1,5 +1,5 @@
 /// \file
-/// What is known of one point on a surface, and how a material answers there.
+/// What is known of one point on a surface, and how a material scatters there.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace limn {
 class Material;
 struct MaterialThunks;
 
-/// Which material a surface has: a row of the compiled scene's table, or somebody else's object with the functions to
+/// Which material a surface has: a row of the compiled scene's table, or a user-defined object with the functions to
 /// call on it. Not owning: valid as long as the scene that it came from.
 struct MaterialRef {
     static constexpr std::uint32_t kNone = 0xffffffff;    ///< an id: no material
@@ -38,7 +38,7 @@ struct Surface {
     /// the direction points to, so that it cannot hit the same flat or convex surface again (Pharr, Jakob, Humphreys,
     /// Physically Based Rendering, 4th ed., section 6.8).
     /// \param direction of any length, towards either side: t is in units of it
-    /// \param time in shutter units, handed on
+    /// \param time in shutter units, passed on
     Ray spawn_ray(const Vec3& direction, double time) const;
 
     /// A ray to `target` with t_max just under 1: a surface through the target does not count as an obstacle. Direction

@@ -140,7 +140,7 @@ inline Vec3 scale_to_one(const Vec3& a) {
     return {std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
 }
 
-/// The unit vector along (x, y, z), whose square double does not hold: what `normalize` is seldom asked for.
+/// The unit vector along (x, y, z), whose square double does not hold: a case that `normalize` seldom meets.
 Vec3 normalize_extreme(double x, double y, double z);
 
 /// `a` scaled to unit length, right for any finite non-zero length; NaN for the zero vector.

@@ -6,9 +6,9 @@
 
 namespace limn {
 
-/// Emits the same radiance in every direction, on both sides, and scatters nothing. On a sphere, triangle, quad or mesh
-/// it is sampled as a light, unless the texture is of a class of one's own or a moving instance holds the shape
-/// (docs/architecture.md, "Light"); elsewhere paths find it by scattering.
+/// Emits the same radiance in every direction, on both sides, and scatters nothing. On a sphere, triangle, quad, disk
+/// or mesh it is sampled as a light, unless the texture is user-defined (docs/architecture.md, "One path", also for
+/// instanced spheres). Elsewhere paths find it by scattering.
 class DiffuseLight final : public Material {
 public:
     /// \throws ArgumentError if a component is negative or not finite; if the texture is null

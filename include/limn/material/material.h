@@ -1,5 +1,5 @@
 /// \file
-/// What every material answers.
+/// The interface of every material.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace limn {
 /// surface; `out` is where the path came from. Implementations are immutable and thread-safe; they draw no random
 /// numbers of their own. A subclass needs `sample` alone if it is specular (pdf 0), else also `value`, which must
 /// describe the same function: weight == value / pdf. A mixture draws between a specular part and the rest; `value` and
-/// the pdf, which counts the chance of that choice, then describe the rest. docs/extending.md works out an example.
+/// the pdf, times the probability of that choice, then describe the rest. docs/extending.md works out an example.
 class Material {
 public:
     virtual ~Material() = default;
@@ -29,7 +29,7 @@ public:
     /// f |cos| and the density with which `sample` draws `in`; zero for specular materials.
     virtual ScatterValue value(const Surface&, const Vec3& /*out*/, const Vec3& /*in*/) const { return {}; }
 
-    /// By default a foreign record, through which the compiled scene calls the functions above.
+    /// The default gives a record of a user-defined material, through which the compiled scene calls these functions.
     virtual MaterialRecord lower(RecordSink& sink) const;
 };
 

@@ -24,12 +24,12 @@ struct Scene;
 struct RayHit {
     double t = kInfinity;      ///< in units of the ray's direction; kInfinity: a miss
     std::uint32_t object = 0;  ///< in the order of Scene::add
-    /// The primitive's number within the object: the triangle of a mesh, the place in a list.
+    /// The index of the primitive within the object: the triangle of a mesh, the place in a list.
     std::uint64_t element = 0;
-    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; foreign: its own; sphere: 0
-    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; foreign: its own; sphere: 0
+    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; user-defined: its own; sphere: 0
+    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; user-defined: its own; sphere: 0
     bool index_matched = false;   ///< the boundary of a medium
-    std::uint64_t primitive = 0;  ///< the primitive's number within the scene
+    std::uint64_t primitive = 0;  ///< the primId: the index of the primitive within the scene
 };
 
 /// What compiling made.
@@ -55,8 +55,8 @@ public:
     ///@}
     ~CompiledScene();
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
-    /// of media count, flagged. An unusable ray misses. Throws only what an object of the caller's own class throws.
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest primId. Boundaries
+    /// of media count, flagged. An unusable ray misses. Throws only what user-defined objects throw.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;

@@ -19,14 +19,14 @@
 
 namespace limn {
 
-/// All that a sample depends on but its pixel and its number. Films of equal ones can be continued and merged.
+/// All that a sample depends on but its pixel and its index. Films of equal ones can be continued and merged.
 struct FilmInfo {
     std::string scene{};     ///< Scene::name
     std::string features{};  ///< CompiledScene::features
     Hash128 scene_digest{};  ///< CompiledScene::digest
-    /// Of the running program's file, where the scene has objects of user-defined classes without a tag; otherwise 0.
+    /// Of the running program's file, if the scene has user-defined objects without a tag; otherwise 0.
     Hash128 program{};
-    Camera camera{};
+    Camera camera{};  ///< that took it
     /// As in RenderSettings.
     ///@{
     int width = 0, height = 0;
@@ -76,7 +76,7 @@ struct SamplePlan {
 /// on nothing else. Different pixels may be changed by different threads.
 class Film {
 public:
-    static constexpr int kReplicates = 2;
+    static constexpr int kReplicates = 2;                      ///< independent of each other
     static constexpr int kTile = 16;                           ///< pixels a side
     static constexpr std::size_t kTilePixels = kTile * kTile;  ///< those beyond the picture included
 
@@ -97,9 +97,9 @@ public:
     /// Writes the film to a file as save_image does: whole or not at all. \throws FileError
     void save(const std::string& path) const;
 
-    const FilmInfo& info() const { return info_; }
-    int width() const { return info_.width; }    ///< in pixels
-    int height() const { return info_.height; }  ///< in pixels
+    const FilmInfo& info() const { return info_; }  ///< what it is a film of
+    int width() const { return info_.width; }       ///< in pixels
+    int height() const { return info_.height; }     ///< in pixels
     /// Whether it has all tiles of the picture.
     bool is_whole() const { return tiles_.size() == slots_.size(); }
     /// Whether each of its pixels has the samples that the plan wants.
@@ -133,8 +133,8 @@ public:
     Image image() const;  ///< of the means
     /// The part of `image` that is a tile's. \pre the image has the film's size, and the film the tile
     void draw(std::uint32_t tile, Image& image) const;
-    double mean_samples() const;  ///< a pixel that it has
-    std::uint64_t all_samples() const;
+    double mean_samples() const;           ///< a pixel that it has
+    std::uint64_t all_samples() const;     ///< of all pixels that it has
     std::size_t own_pixels() const;        ///< that it has
     std::uint32_t fewest_samples() const;  ///< of all pixels of the picture
 
@@ -166,20 +166,23 @@ public:
 
     /// What was traced for a tile.
     struct Counts {
-        std::uint64_t rays = 0;           ///< camera, scattered and shadow rays
-        std::uint64_t unusable_rays = 0;  ///< of these
-        std::uint64_t nonfinite = 0;      ///< samples
-        Counts& operator+=(const Counts& other);
+        std::uint64_t rays = 0;                   ///< camera, scattered and shadow rays
+        std::uint64_t unusable_rays = 0;          ///< of these
+        std::uint64_t nonfinite = 0;              ///< samples
+        Counts& operator+=(const Counts& other);  ///< the sums
     };
     /// The pixels of a tile: columns [left, right) of rows [top, bottom).
     struct Tile {
+        /// In pixels from the upper left corner of the picture.
+        ///@{
         int left, top, right, bottom;
+        ///@}
     };
-    static Tile tile(const FilmInfo& info, std::uint32_t number);
-    Tile tile(std::uint32_t number) const { return tile(info_, number); }
-    static std::uint32_t tile_count(const FilmInfo& info);           ///< of the whole picture
-    std::span<const std::uint32_t> tiles() const { return tiles_; }  ///< that it has, ascending
-    bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }
+    static Tile tile(const FilmInfo& info, std::uint32_t number);                          ///< by its index, row by row
+    Tile tile(std::uint32_t number) const { return tile(info_, number); }                  ///< the same
+    static std::uint32_t tile_count(const FilmInfo& info);                                 ///< of the whole picture
+    std::span<const std::uint32_t> tiles() const { return tiles_; }                        ///< that it has, ascending
+    bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }            ///< whether it has the tile
     void count(std::uint32_t tile, const Counts& more) { counts_[slots_[tile]] += more; }  ///< \pre it has the tile
     Counts counts() const;                                                                 ///< of all its tiles
 

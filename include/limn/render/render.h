@@ -77,7 +77,7 @@ struct RenderResult {
 /// asked for, depth, seed, filter, estimator and sampler alone: not on threads, unless a time limit hits.
 ///
 /// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
-/// memory lacks; what the progress callback or an object of the caller's own class throws
+/// memory lacks; what the progress callback or a user-defined object throws
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
 
 /// What a film is worth so far; `error` is the one that was asked for. Of the report those fields that only a render

@@ -13,7 +13,7 @@
 namespace limn {
 
 /// A render of which `render` is the short form. However it is interrupted, saved, loaded and continued, on whatever
-/// machine and number of threads: the film, and the error at which it stops, are those of a render that never was.
+/// machine and number of threads: its film, and the error at which it stops, are those of an uninterrupted render.
 /// \code
 /// RenderJob job(scene, camera, settings);
 /// if (std::filesystem::exists("a.film")) job.load("a.film");
@@ -29,15 +29,15 @@ public:
     RenderJob(const RenderJob&) = delete;
     RenderJob& operator=(const RenderJob&) = delete;
 
-    /// Goes on from a film instead of the job's own. It may have more tiles than the job's shard.
+    /// Continues from a film instead of the job's own. It may have more tiles than the job's shard.
     /// \throws FileError as Film::load; also if it is of another scene or camera, or other settings but for threads,
     /// samples, error and time limit; the job is then as before
     void load(const std::string& path);
     /// Renders what a plan wants instead of what the settings say. \throws FileError as `load`
     void load_plan(const std::string& path);
 
-    /// Renders until something of the settings ends it; goes on where it was ended before, by a time limit that begins
-    /// anew, the callback or an exception.
+    /// Renders until something of the settings ends it. Continues where it was ended before, by a time limit (which
+    /// begins anew), the callback or an exception.
     StoppedBy run();
     /// So many samples more in the mean over pixels, from 1 on, whatever the error is.
     StoppedBy add_samples(int count);
@@ -60,7 +60,7 @@ private:
 class Checkpoints {
 public:
     /// Every `seconds`, over 0. The job must outlive the object. `failed` is called by that thread with what was wrong
-    /// when a film could not be written; the render goes on.
+    /// when a film could not be written; the render continues.
     Checkpoints(const RenderJob& job, const std::string& path, double seconds,
                 std::function<void(const Error&)> failed);
     /// Ends at once, without saving.
@@ -73,8 +73,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Writes to `path` how many samples a pixel each shard is to have next, for RenderJob::load_plan, where the error of
-/// the film's picture, as `render_result` knows it, is over its target. \throws FileError; ArgumentError if there is no
+/// If the error of the film's picture, as `render_result` estimates it, is over its target: writes to `path` how many
+/// samples per pixel each shard needs next, for RenderJob::load_plan. \throws FileError; ArgumentError if there is no
 /// target, the film is not whole or has too few samples
 void plan_next_round(const Film& film, const ErrorEstimate& error, const std::string& path);
 

@@ -16,7 +16,7 @@ public:
     /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is
     /// inside, so nested closed surfaces make shells.
     /// \param density extinction per world unit of length: light goes 1 / density far in the mean
-    /// \param albedo the share of it that scatters, in [0, 1]; a texture is asked by position alone
+    /// \param albedo the share of it that scatters, in [0, 1]; a texture is evaluated by position alone
     ///
     /// \throws ArgumentError if the boundary or texture is null, the density is negative or not finite, the albedo
     /// outside [0, 1]

@@ -1,5 +1,5 @@
 /// \file
-/// What every shape answers.
+/// The interface of every shape.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct Hit {
     double u = 0;                        ///< surface parameter; see the shape
     double v = 0;                        ///< surface parameter; see the shape
     const Material* material = nullptr;  ///< not owning; null: black
-    std::uint64_t element = 0;           ///< the primitive's number within the object
+    std::uint64_t element = 0;           ///< the index of the primitive within the object
     Normal3 shading_normal{};            ///< interpolated, unit; zero: same as normal
     std::optional<Uv> uv{};              ///< texture coordinates where they differ from u, v
     Vec3 position_error{};       ///< bound on the hit point's error along each axis, beyond the rounding of ray.at(t)
@@ -37,14 +37,14 @@ public:
     /// must go outward; sides may be infinite. Constant.
     virtual Box bounds() const = 0;
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure: asked again with
-    /// another interval that holds the hit, and no nearer one, it answers with the same bits. Shapes are closed sets: a
-    /// tangent, an edge, a vertex is a hit. An unusable ray (see is_usable) misses. Who asks other shapes hands them
-    /// the ray or a copy (see Ray::frame).
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure: any other interval that
+    /// holds this hit, and no nearer one, gives the same bits. Shapes are closed sets: a tangent, an edge, a vertex is
+    /// a hit. An unusable ray (see is_usable) misses. A shape that intersects other shapes passes them the ray or a
+    /// copy (see Ray::frame).
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
-    /// Writes what the object consists of. By default one foreign record, through which the compiled scene calls `hit`:
-    /// one element, whatever Hit::element says.
+    /// Writes what the object consists of. The default writes one record of a user-defined shape, through which the
+    /// compiled scene calls `hit`. It counts as one element, whatever Hit::element says.
     virtual void lower(RecordSink& sink) const;
 };
 

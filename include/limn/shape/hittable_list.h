@@ -8,7 +8,7 @@
 
 namespace limn {
 
-/// Objects in a row; elements are numbered through: those of the first object, then those of the second, ...
+/// Objects in a row. Elements are counted through: those of the first object, then those of the second, ...
 class HittableList final : public Hittable {
 public:
     HittableList() = default;  ///< empty: never hit
@@ -28,7 +28,7 @@ private:
     Box bounds_;
 };
 
-/// The number of primitives that `object` lowers to: the length of its element numbering.
+/// The number of primitives that `object` lowers to, which is the number of its elements.
 std::uint64_t count_elements(const Hittable& object);
 
 }  // namespace limn

@@ -8,7 +8,7 @@
 namespace limn {
 
 /// An object seen through an affine transform, still or moving between two. The matrices are interpolated entry by
-/// entry over the shutter. t, u, v and element are the object's own: the direction is not normalised on the way.
+/// entry over the shutter. t, u, v and element are the object's own: the direction is not normalised.
 /// Instances nest. A mirroring transform keeps outside outside.
 class Instance final : public Hittable {
 public:

@@ -15,10 +15,10 @@ struct MeshData {
     std::vector<Float3> normals;    ///< per vertex, of any length but zero; or empty: flat shading
     std::vector<Float2> uvs;        ///< texture coordinates per vertex; or empty: the weights of vertices b and c
     std::vector<std::uint32_t> material_slots;  ///< per triangle, which of the mesh's materials; or empty: the first
-    std::vector<std::uint32_t> faces;  ///< per triangle, the number of the polygon it was cut from; or empty: its own
+    std::vector<std::uint32_t> faces;  ///< per triangle, the index of the polygon it was cut from; or empty: its own
 };
 
-/// A triangle mesh. Its elements are numbered as `data.triangles`. u and v are the weights of the second and third
+/// A triangle mesh. Its elements are in the order of `data.triangles`. u and v are the weights of the second and third
 /// vertex. Triangles whose area is exactly zero are dropped and counted; tiny and huge ones are ordinary. `hit` tests
 /// every triangle: it is the definition; compile a scene to trace many rays.
 class Mesh final : public Hittable {
@@ -31,7 +31,7 @@ public:
     ///@}
 
     const MeshData& data() const { return *data_; }  ///< valid as long as the mesh
-    /// The number of the polygon that triangle `element` was cut from. \pre element < data().triangles.size()
+    /// The index of the polygon that triangle `element` was cut from. \pre element < data().triangles.size()
     std::uint32_t face(std::uint64_t element) const;
     /// Triangles of exactly zero area, which no ray can hit.
     std::size_t degenerate_triangles() const { return degenerate_; }

@@ -18,8 +18,8 @@ struct EdgeCounts {
     bool is_closed() const { return open == 0; }
 };
 
-/// Two triangles share an edge if it has the same two ends; vertices at the same position are one end, whatever their
-/// numbers (files split vertices along seams). Triangles of exactly zero area are left out. A vertex within another
+/// Two triangles share an edge if it has the same two ends. Vertices at the same position are one end, whatever their
+/// indices (files split vertices along seams). Triangles of exactly zero area are left out. A vertex within another
 /// triangle's edge does not cut it. O(n log n).
 EdgeCounts count_edges(const Mesh& mesh);
 

@@ -1,7 +1,7 @@
 /// \file
 /// Textures made of Perlin noise (Perlin, An Image Synthesizer, SIGGRAPH 1985) at `scale` times the world position, as
 /// in Shirley, Ray Tracing: The Next Week, chapter 5. `scale` is in cells per world unit; the noise repeats after 256
-/// cells. All are finite wherever they are asked.
+/// cells. All are finite at every position.
 #pragma once
 
 #include <cstdint>

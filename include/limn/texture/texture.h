@@ -1,5 +1,5 @@
 /// \file
-/// What every texture answers.
+/// The interface of every texture.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ public:
     /// Pure. The colour at `s.position` (world space) or `s.uv`. Linear BT.709; reflectances in [0, 1], radiances >= 0.
     virtual Color value(const Surface& s) const = 0;
 
-    /// By default a foreign record, through which the compiled scene calls `value`.
+    /// The default gives a record of a user-defined texture, through which the compiled scene calls `value`.
     virtual TextureRecord lower(RecordSink& sink) const;
 };
 
