@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
 #include "limn/core/error.h"
+#include "query/answers.h"
 #include "query/surface_at.h"
 #include "trace/traverse.h"
 
 namespace limn {
+
+using query::complete, query::is_fit;
 
 namespace {
 
@@ -31,30 +33,6 @@ namespace {
     return std::ranges::any_of(scene.media, [&](const flat::Medium& medium) {
         return trace::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
     });
-}
-
-RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
-    std::size_t object = 0;
-    if (!scene.object_of.empty()) {
-        object = scene.object_of[hit.primitive];
-    } else if (scene.first_of_object.size() > 1) {
-        const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
-        object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
-    }
-    return {.t = hit.t,
-            .object = static_cast<std::uint32_t>(object),
-            .element = hit.primitive - scene.first_of_object[object],
-            .u = hit.u,
-            .v = hit.v,
-            .index_matched = hit.index_matched,
-            .primitive = hit.primitive};
-}
-
-// is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
-bool is_fit(const Ray& r) {
-    const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
-    const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
-    return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
 // \pre is_usable(ray), as below. Inlined although batches with media call it too.

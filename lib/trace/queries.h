@@ -45,9 +45,10 @@ struct Every {
     std::vector<Crossing>& crossings;
 
     double limit() const { return t_max; }
+    bool ended() const { return false; }
     bool passes(const ForeignHit&) const { return false; }
-    bool report(const PlanarHit& hit, std::uint64_t, bool inward, bool = false) {
-        crossings.push_back({hit.t, inward});
+    bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
+        crossings.push_back({hit.t, inward, matched, number, hit.u, hit.v});
         return false;
     }
 };

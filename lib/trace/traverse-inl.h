@@ -55,11 +55,9 @@ HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group,
 template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
-    if constexpr (!Query::kEveryHit) {
-        if (id == GroupId::root && !scene.list.empty()) {
-            search_list(scene, ray, frame, query);
-            if (scene.list.is_all || query.ended()) return;
-        }
+    if (id == GroupId::root && !scene.list.empty()) {
+        search_list(scene, ray, frame, query);
+        if (scene.list.is_all || query.ended()) return;
     }
     const flat::Group& group = flat::group_at(scene, id);
     with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)

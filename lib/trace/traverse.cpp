@@ -104,13 +104,22 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
         if (slabs.meets(scene.media[i].bounds, ray.t_max, near)) media.push_back(i);
 }
 
-void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
-    out.clear();
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
+    Every query{ray.t_max, out};
+    HWY_DYNAMIC_DISPATCH(search_every)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+}
+
+void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
         HWY_DYNAMIC_DISPATCH(search_every)
         (scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
+}
+
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+    out.clear();
+    every_boundary(scene, medium, ray, out);
 }
 
 }  // namespace limn::trace

@@ -31,16 +31,23 @@ void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint
 // The same for the boundary of a medium.
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
 
-// Where a ray passes through a medium's boundary.
+// Where a ray meets a surface.
 struct Crossing {
     double t;
-    bool inward;  // against the outward normal
+    bool inward;                 // against the outward normal
+    bool index_matched = false;  // as user-defined shapes say
+    std::uint64_t primitive = 0;
+    double u = 0, v = 0;
 };
 
 // The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
 void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
 
-// Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
+// Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`. \pre is_usable(ray)
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
+// The same for the boundary of a medium.
+void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
+// The same, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
 // visit(frame) with the ray as an instance's group sees it, and the answer of that.

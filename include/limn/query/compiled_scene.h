@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "limn/core/hash128.h"
 #include "limn/core/ray.h"
@@ -61,8 +62,17 @@ public:
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;
 
-    /// The same for many rays, one after the other in the calling thread. A miss has t == kInfinity; `occluded`
-    /// is 1 or 0. Returns how many of the rays were unusable.
+    /// Every hit with t in (t_min, t_max], by t and, of equals, by the primitive's number: at a shared edge or vertex
+    /// each triangle that the ray meets, once; a sphere where it is entered and where it is left, and once where the
+    /// ray touches it. Ties within rounding may stand in either order. Boundaries of media count, flagged; an unusable
+    /// ray meets nothing. The first one is closest_hit's.
+    ///@{
+    std::vector<RayHit> all_hits(const Ray& ray) const;
+    void all_hits(const Ray& ray, std::vector<RayHit>& hits) const;  ///< replaces what is in `hits`, keeps its memory
+    ///@}
+
+    /// The nearest hits, and any, of many rays, one after the other in the calling thread. A miss has t == kInfinity;
+    /// `occluded` is 1 or 0. Returns how many of the rays were unusable.
     /// \throws ArgumentError if the spans differ in length
     ///@{
     std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
