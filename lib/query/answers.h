@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "flat/scene.h"
 #include "limn/query/compiled_scene.h"
@@ -10,15 +11,8 @@
 
 namespace limn::query {
 
-inline std::size_t object_of(const flat::Scene& scene, std::uint64_t primitive) {
-    if (!scene.object_of.empty()) return scene.object_of[primitive];
-    if (scene.first_of_object.size() <= 1) return 0;
-    const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), primitive);
-    return static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
-}
-
 inline RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
-    const std::size_t object = object_of(scene, hit.primitive);
+    const std::size_t object = flat::object_of(scene, hit.primitive);
     return {.t = hit.t,
             .object = static_cast<std::uint32_t>(object),
             .element = hit.primitive - scene.first_of_object[object],
@@ -28,11 +22,40 @@ inline RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
             .primitive = hit.primitive};
 }
 
+inline RayHit complete(const flat::Scene& scene, const trace::Crossing& c) {
+    return complete(scene, trace::Hit{{c.t, c.primitive}, c.u, c.v, c.index_matched});
+}
+
 // is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
 inline bool is_fit(const Ray& r) {
     const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
     const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
     return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
+}
+
+// What is found along a ray: empty, and of a thread, so that a ray costs no allocation. One at a time; user-defined
+// shapes that ask a scene themselves get another.
+class Found {
+public:
+    Found() : hits_(std::move(kept())) { hits_.clear(); }
+    ~Found() { kept() = std::move(hits_); }
+    Found(const Found&) = delete;
+    Found& operator=(const Found&) = delete;
+
+    std::vector<trace::Crossing>& operator*() { return hits_; }
+
+private:
+    static std::vector<trace::Crossing>& kept() {
+        thread_local std::vector<trace::Crossing> hits;
+        return hits;
+    }
+    std::vector<trace::Crossing> hits_;
+};
+
+inline void sort_along_ray(std::vector<trace::Crossing>& hits) {
+    std::sort(hits.begin(), hits.end(), [](const trace::Crossing& a, const trace::Crossing& b) {
+        return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
+    });
 }
 
 }  // namespace limn::query

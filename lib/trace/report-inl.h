@@ -6,6 +6,7 @@
 #define LIMN_TRACE_REPORT_INL_H
 #endif
 
+#include "predicates/passage-inl.h"
 #include "trace/shapes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,20 +17,36 @@ HWY_INLINE Search search_of(const RayFrame& frame, const Query& query) {
     return {frame.ray.t_min, query.limit()};
 }
 
+// Reports the passages of the moved ray through a shape.
+template <class Shape, class Query>
+HWY_INLINE bool report_passages(const Shape& shape, const RayFrame& frame, std::uint64_t number, Query& query) {
+    const auto undecided = [&] {
+        if (!query.asks_origin) return;
+        const bool is_on = with_numbers(shape, [&](const auto&... of) { return is_origin_on(of..., frame); });
+        if (is_on) query.touch(number);
+    };
+    return for_each_passage(shape, frame, search_of(frame, query), undecided,
+                            [&](const Passage& p) { return query.report(p, number, p.inward); });
+}
+
 // Reports the first hit of a shape, or all of them to a query that wants every hit. True if that ended the search.
 template <class Shape, class Query>
 HWY_INLINE bool report_hits(const Shape& shape, const RayFrame& frame, std::uint64_t number, Query& query) {
-    PlanarHit hit;
-    if (!intersect(shape, frame, search_of(frame, query), hit)) return false;
-    bool inward = false;
-    if constexpr (Query::kEveryHit) inward = dot(shape.outward(), broadcast<double>(frame.ray.direction)) < 0;
-    return query.report(hit, number, inward);
+    if constexpr (Query::kMoved) {
+        return report_passages(shape, frame, number, query);
+    } else {
+        PlanarHit hit;
+        if (!intersect(shape, frame, search_of(frame, query), hit)) return false;
+        return query.report(hit, number, Query::kEveryHit && is_inward(shape, frame));
+    }
 }
 
 template <class Query>
 HWY_INLINE bool report_hits(const SpherePredicate<double>& sphere, const RayFrame& frame, std::uint64_t number,
                             Query& query) {
-    if constexpr (Query::kEveryHit) {
+    if constexpr (Query::kMoved) {
+        return report_passages(sphere, frame, number, query);
+    } else if constexpr (Query::kEveryHit) {
         const SphereHits hits = sphere.hits(frame, search_of(frame, query));
         return (hits.near_found && query.report({hits.near, 0, 0}, number, sphere.radius > 0)) ||
                (hits.far_found && query.report({hits.far, 0, 0}, number, sphere.radius < 0));

@@ -50,6 +50,34 @@ void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const 
 // The same, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
+// What a ray passes over.
+struct Filter {
+    const flat::Scene& scene;
+    std::uint64_t without;
+    bool front, back;                       // which sides count
+    std::span<const std::uint8_t> objects;  // those of 0 do not; empty: all do
+
+    bool accepts(std::uint64_t number) const {
+        return number != without && (objects.empty() || objects[flat::object_of(scene, number)] != 0);
+    }
+    bool accepts(std::uint64_t number, bool inward) const { return (inward ? front : back) && accepts(number); }
+};
+
+// closest_hit, any_hit and every_hit, of boundaries of media too. every_hit flags those.
+Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
+bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
+void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out);
+
+// What the moved ray (predicates/passage.h) passes through, boundaries of media too.
+struct PassageCount {
+    std::uint64_t count = 0;
+    std::int64_t outward = 0;                     // of which go outward, less those that go inward
+    std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was asked
+};
+// \pre is_usable(ray). `out`, if any, gets the crossings behind what is in it, in no particular order
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out);
+PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out);
+
 // visit(frame) with the ray as an instance's group sees it, and the answer of that.
 template <class Visit>
 auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
