@@ -117,4 +117,16 @@ void CompiledScene::contains(std::span<const Point3> points, std::span<std::uint
     answer_each(points.size(), threads, "contains", [&](std::size_t i) { inside[i] = contains(points[i]) ? 1 : 0; });
 }
 
+void CompiledScene::closest_point(std::span<const Point3> points, std::span<ClosestPoint> nearest, int threads) const {
+    check_length(points.size(), nearest.size(), "closest_point: points and nearest differ in length");
+    answer_each(points.size(), threads, "closest_point",
+                [&](std::size_t i) { nearest[i] = closest_point(points[i]).value_or(ClosestPoint{}); });
+}
+
+void CompiledScene::signed_distance(std::span<const Point3> points, std::span<double> distances, int threads) const {
+    check_length(points.size(), distances.size(), "signed_distance: points and distances differ in length");
+    answer_each(points.size(), threads, "signed_distance",
+                [&](std::size_t i) { distances[i] = signed_distance(points[i]); });
+}
+
 }  // namespace limn

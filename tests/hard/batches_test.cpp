@@ -64,12 +64,21 @@ TEST_CASE("Batches of points: on any number of threads as one by one", "[hard][f
     for (const int threads : {1, 0, 2}) {
         std::vector<PointLocation> locations(n);
         std::vector<std::uint8_t> inside(n, 7);
+        std::vector<ClosestPoint> nearest(n);
+        std::vector<double> distances(n);
         scene.locate(points, locations, threads);
         scene.contains(points, inside, threads);
+        scene.closest_point(points, nearest, threads);
+        scene.signed_distance(points, distances, threads);
         for (std::size_t i = 0; i < n; ++i) {
             differing += locations[i].winding_number != scene.locate(points[i]).winding_number;
             differing += inside[i] != (scene.contains(points[i]) ? 1 : 0);
+            const auto single = scene.closest_point(points[i]);
+            differing += single->distance != nearest[i].distance || single->primitive != nearest[i].primitive;
+            differing += distances[i] != scene.signed_distance(points[i]);
         }
     }
     CHECK(differing == 0);
+    std::vector<double> short_one(n - 1);
+    CHECK_THROWS_AS(scene.signed_distance(points, short_one), ArgumentError);
 }

@@ -87,6 +87,17 @@ public:
     /// some 100 ns and 50 bytes a triangle.
     std::uint64_t open_edges() const;
 
+    /// The nearest point of all surfaces, up to `max_distance` away; of equally near ones the primitive with the lowest
+    /// number. The distance is right to 2^-32 of the largest coordinate of the point, the surfaces and, inside
+    /// instances, what lies between. Nothing where there is no surface so near, or a coordinate is not finite.
+    /// \throws ArgumentError if the scene has user-defined shapes, which cannot be asked, or if a sphere or a disk that
+    /// comes into question stands in an instance that turns its round shape into another
+    std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
+                                              double time = 0) const;
+    /// The distance of closest_point; negative where the point is inside (contains), 0 where it is exactly on a
+    /// surface, kInfinity where there is no surface. \throws ArgumentError as closest_point
+    double signed_distance(const Point3& point, double time = 0) const;
+
     /// The same for a ray that passes some primitives over. Rays without a filter pay nothing for it.
     /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
     ///@{
@@ -116,6 +127,8 @@ public:
     ///@{
     void locate(std::span<const Point3> points, std::span<PointLocation> locations, int threads = 1) const;
     void contains(std::span<const Point3> points, std::span<std::uint8_t> inside, int threads = 1) const;
+    void closest_point(std::span<const Point3> points, std::span<ClosestPoint> nearest, int threads = 1) const;
+    void signed_distance(std::span<const Point3> points, std::span<double> distances, int threads = 1) const;
     ///@}
 
     /// All about the point that `ray` hits. \pre hit was found for this ray in this scene, by closest_hit or all_hits;

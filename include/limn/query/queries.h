@@ -42,6 +42,21 @@ struct PointLocation {
     bool is_inside() const { return on_surface || winding_number != 0; }  ///< or on the surface
 };
 
+/// The parts of a surface that a point may be nearest to.
+enum class Feature : std::uint8_t { face, edge, vertex };
+
+/// The point of all surfaces that is nearest to another.
+struct ClosestPoint {
+    double distance = kInfinity;      ///< kInfinity: there is none
+    Point3 position;                  ///< the nearest point
+    Feature feature = Feature::face;  ///< of the primitive, that the point lies on; a disk's rim is its edge
+    std::uint32_t object = 0;         ///< as in RayHit, like all that follow
+    std::uint64_t element = 0;
+    double u = 0, v = 0;
+    bool index_matched = false;
+    std::uint64_t primitive = kNoPrimitive;
+};
+
 /// Which sides of surfaces count for a ray: front, where it goes against the outward normal, back or both.
 /// Where it touches a sphere it meets both.
 enum class Faces : std::uint8_t { both, front, back };
