@@ -32,6 +32,7 @@
 #include "limn/material/material.h"
 #include "limn/material/metal.h"
 #include "limn/query/compiled_scene.h"
+#include "limn/query/queries.h"
 #include "limn/record_sink.h"
 #include "limn/records.h"
 #include "limn/render/compiled_scene.h"

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace limn::accel {
@@ -18,6 +21,19 @@ void for_all(std::size_t begin, std::size_t end, std::size_t grain, const Functi
         tbb::parallel_for(all, run);
     else
         run(all);
+}
+
+// Calls function() with so many threads; 0: with those of the caller's arena. More than there are processors are
+// allowed, for whoever asks for them.
+template <class Function>
+void with_threads(int threads, const Function& function) {
+    if (threads == 0) return function();
+    const auto count = static_cast<std::size_t>(threads);
+    using tbb::global_control;
+    const global_control allow(global_control::max_allowed_parallelism,
+                               std::max(count, global_control::active_value(global_control::max_allowed_parallelism)));
+    tbb::task_arena arena(threads);
+    arena.execute(function);
 }
 
 }  // namespace limn::accel

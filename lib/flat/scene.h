@@ -2,6 +2,7 @@
 // foreign shapes, which are called through their thunks.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -136,6 +137,14 @@ struct Place {
 
 // \pre number < primitives of the group
 Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::root);
+
+// The object that a primitive belongs to.
+inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
+    if (!scene.object_of.empty()) return scene.object_of[number];
+    if (scene.first_of_object.size() <= 1) return 0;
+    const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), number);
+    return static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
+}
 
 // Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);

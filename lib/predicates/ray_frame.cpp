@@ -79,4 +79,9 @@ ExactRay exact_ray(const RayFrame& frame) {
             inverse.determinant * outside.unit};
 }
 
+Dyadic3 exact_vector(const RayFrame& frame, const Vec3& v) {
+    if (frame.outer == nullptr) return to_dyadic(v);
+    return ExactInverse(*frame.world_from_object) * exact_vector(*frame.outer, v);
+}
+
 }  // namespace limn

@@ -65,5 +65,7 @@ struct ExactRay {
     Dyadic unit;  // above 0
 };
 ExactRay exact_ray(const RayFrame& frame);
+// The image of a vector of the world, times some number above 0.
+Dyadic3 exact_vector(const RayFrame& frame, const Vec3& v);
 
 }  // namespace limn

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <atomic>
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
-#include "limn/core/error.h"
+#include "query/answers.h"
+#include "query/filters.h"
 #include "query/surface_at.h"
+#include "query/threads.h"
 #include "trace/traverse.h"
 
 namespace limn {
+
+using query::complete, query::is_fit;
 
 namespace {
 
@@ -31,30 +35,6 @@ namespace {
     return std::ranges::any_of(scene.media, [&](const flat::Medium& medium) {
         return trace::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
     });
-}
-
-RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
-    std::size_t object = 0;
-    if (!scene.object_of.empty()) {
-        object = scene.object_of[hit.primitive];
-    } else if (scene.first_of_object.size() > 1) {
-        const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), hit.primitive);
-        object = static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
-    }
-    return {.t = hit.t,
-            .object = static_cast<std::uint32_t>(object),
-            .element = hit.primitive - scene.first_of_object[object],
-            .u = hit.u,
-            .v = hit.v,
-            .index_matched = hit.index_matched,
-            .primitive = hit.primitive};
-}
-
-// is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
-bool is_fit(const Ray& r) {
-    const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
-    const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
-    return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
 // \pre is_usable(ray), as below. Inlined although batches with media call it too.
@@ -81,6 +61,38 @@ std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer, const R
         if (end < rays.size() && !is_fit(rays[end])) refuse(end++), ++unusable;
     }
     return unusable;
+}
+
+// Of a batch; how many of the rays cannot be used.
+std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, std::span<RayHit> hits) {
+    const auto refuse = [&](std::size_t i) { hits[i] = {}; };
+    if (!scene.media.empty())
+        return answer_runs(
+            rays,
+            [&](std::size_t first, std::size_t count) {
+                for (std::size_t i = first; i < first + count; ++i)
+                    hits[i] = find_closest(scene, rays[i]).value_or(RayHit{});
+            },
+            refuse);
+    std::array<trace::Hit, trace::kMostRays> found;
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            trace::closest_hits(scene, rays.subspan(first, count), found.data());
+            for (std::size_t i = 0; i < count; ++i)
+                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found[i]);
+        },
+        refuse);
+}
+
+std::size_t find_any(const flat::Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
+    return answer_runs(
+        rays,
+        [&](std::size_t first, std::size_t count) {
+            if (scene.media.empty()) return trace::any_hits(scene, rays.subspan(first, count), &occluded[first]);
+            for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(scene, rays[i]) ? 1 : 0;
+        },
+        [&](std::size_t i) { occluded[i] = 0; });
 }
 
 SceneStats stats_of(const flat::Scene& s) {
@@ -110,37 +122,37 @@ bool CompiledScene::any_hit(const Ray& ray) const {
     return is_fit(ray) && find_any(*scene_, ray);
 }
 
-std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const {
-    if (rays.size() != hits.size()) throw ArgumentError("closest_hit: rays and hits differ in length");
-    const auto refuse = [&](std::size_t i) { hits[i] = {}; };
-    if (!scene_->media.empty())
-        return answer_runs(
-            rays,
-            [&](std::size_t first, std::size_t count) {
-                for (std::size_t i = first; i < first + count; ++i)
-                    hits[i] = find_closest(*scene_, rays[i]).value_or(RayHit{});
-            },
-            refuse);
-    std::array<trace::Hit, trace::kMostRays> found;
-    return answer_runs(
-        rays,
-        [&](std::size_t first, std::size_t count) {
-            trace::closest_hits(*scene_, rays.subspan(first, count), found.data());
-            for (std::size_t i = 0; i < count; ++i)
-                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(*scene_, found[i]);
-        },
-        refuse);
+std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads) const {
+    query::check_length(rays.size(), hits.size(), "closest_hit: rays and hits differ in length");
+    std::atomic<std::size_t> unusable = 0;
+    query::for_all_parts(rays.size(), threads, "closest_hit", [&](std::size_t first, std::size_t count) {
+        unusable += find_closest(*scene_, rays.subspan(first, count), hits.subspan(first, count));
+    });
+    return unusable;
 }
 
-std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
-    if (rays.size() != occluded.size()) throw ArgumentError("any_hit: rays and occluded differ in length");
-    return answer_runs(
-        rays,
-        [&](std::size_t first, std::size_t count) {
-            if (scene_->media.empty()) return trace::any_hits(*scene_, rays.subspan(first, count), &occluded[first]);
-            for (std::size_t i = first; i < first + count; ++i) occluded[i] = find_any(*scene_, rays[i]) ? 1 : 0;
-        },
-        [&](std::size_t i) { occluded[i] = 0; });
+std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads) const {
+    query::check_length(rays.size(), occluded.size(), "any_hit: rays and occluded differ in length");
+    std::atomic<std::size_t> unusable = 0;
+    query::for_all_parts(rays.size(), threads, "any_hit", [&](std::size_t first, std::size_t count) {
+        unusable += find_any(*scene_, rays.subspan(first, count), occluded.subspan(first, count));
+    });
+    return unusable;
+}
+
+std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray, const RayFilter& filter) const {
+    const FloatEnvironment environment;
+    const trace::Filter checked = query::checked(*scene_, filter, "closest_hit");
+    if (!is_fit(ray)) return std::nullopt;
+    const trace::Hit hit = trace::closest_hit(*scene_, ray, checked);
+    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
+    return complete(*scene_, hit);
+}
+
+bool CompiledScene::any_hit(const Ray& ray, const RayFilter& filter) const {
+    const FloatEnvironment environment;
+    const trace::Filter checked = query::checked(*scene_, filter, "any_hit");
+    return is_fit(ray) && trace::any_hit(*scene_, ray, checked);
 }
 
 Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {

@@ -11,7 +11,7 @@
 
 #include "flat/list.h"
 #include "predicates/sphere_float-inl.h"
-#include "trace/shapes-inl.h"
+#include "trace/report-inl.h"
 #include "trace/traverse.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -149,13 +149,12 @@ HWY_INLINE void as_seen(const flat::Scene& scene, const PrimitiveList::Entry& e,
                [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && visit_shape(inner); });
 }
 
-// One primitive, exactly; a hit is reported to the query. `frame`: of the world.
+// One primitive, exactly; what is hit is reported to the query. `frame`: of the world.
 template <class Query>
 HWY_NOINLINE void intersect_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
                                    Query& query) {
     as_seen(scene, e, frame, [&](const auto& shape, const RayFrame& seen) HWY_ATTR {
-        PlanarHit hit;
-        return intersect(shape, seen, {seen.ray.t_min, query.limit()}, hit) && query.report(hit, e.number, false);
+        return report_hits(shape, seen, e.number, query);
     });
 }
 

@@ -43,7 +43,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
     // for sure. True if the query has ended.
     const auto take = [&](const FloatHits<RayFloats>& hits, std::size_t first, const auto& is_missed) HWY_ATTR {
         const auto certain = hits.possible & hits.certain;
-        const std::uint32_t certain_bits = bits(certain);
+        const std::uint32_t certain_bits = Query::kEveryHit ? 0 : bits(certain);
         store(hits.near, near + first);
         if (certain_bits != 0) {
             if constexpr (Query::kFirstHit) return query.report({}, 0, false);

@@ -1,6 +1,8 @@
-// What to do with hits. `limit` is the t beyond which nothing matters; `report` returns true to end the search.
+// What to do with hits; kMoved: with passages of the moved ray; kFewKinds: without code for each set of kinds. `limit`
+// is the t beyond which nothing matters; `report` returns true to end the search.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +13,7 @@
 namespace limn::trace {
 
 struct Closest {
-    static constexpr bool kNearest = true, kEveryHit = false, kFirstHit = false;
+    static constexpr bool kNearest = true, kEveryHit = false, kFirstHit = false, kMoved = false, kFewKinds = false;
     double t_max;  // lowered as hits are known, be it by their bounds
     Hit best = {};
 
@@ -28,7 +30,7 @@ struct Closest {
 };
 
 struct Any {
-    static constexpr bool kNearest = false, kEveryHit = false, kFirstHit = true;
+    static constexpr bool kNearest = false, kEveryHit = false, kFirstHit = true, kMoved = false, kFewKinds = false;
     double t_max;
     bool passes_boundaries = false;  // index-matched ones
     bool found = false;
@@ -40,15 +42,50 @@ struct Any {
 };
 
 struct Every {
-    static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false;
+    static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = false, kFewKinds = false;
     double t_max;
     std::vector<Crossing>& crossings;
 
     double limit() const { return t_max; }
+    bool ended() const { return false; }
     bool passes(const ForeignHit&) const { return false; }
-    bool report(const PlanarHit& hit, std::uint64_t, bool inward, bool = false) {
-        crossings.push_back({hit.t, inward});
+    bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
+        crossings.push_back({hit.t, inward, matched, number, hit.u, hit.v});
         return false;
+    }
+};
+
+// Passages of the moved ray (predicates/passage.h). What has no such rule, disks and user-defined shapes, answers as it
+// does for hits.
+struct Passages : PassageCount {
+    static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = true, kFewKinds = true;
+    double t_max;
+    std::vector<Crossing>* crossings = nullptr;  // where they are listed
+    bool asks_origin = false;                    // which primitives the origin lies on
+
+    double limit() const { return t_max; }
+    bool ended() const { return false; }
+    bool passes(const ForeignHit&) const { return false; }
+    void touch(std::uint64_t number) { touched = std::min(touched, number); }
+    bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
+        ++count, outward += inward ? -1 : 1;
+        if (crossings != nullptr) crossings->push_back({hit.t, inward, matched, number, hit.u, hit.v});
+        return false;
+    }
+};
+
+// A query that passes some primitives over. No sure hit is one before it has been asked, so each is intersected at
+// once.
+template <class Query>
+struct Filtered : Query {
+    static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kFewKinds = true;
+    const Filter* filter;
+
+    void touch(std::uint64_t number) {
+        if (filter->accepts(number)) Query::touch(number);
+    }
+    bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
+        return filter->accepts(number, inward) && Query::report(hit, number, inward, matched);
     }
 };
 

@@ -21,6 +21,16 @@ void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayF
                 Any& query);
 void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
                   Every& query);
+void search_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                     Passages& query);
+void search_filtered_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                             std::uint64_t first, Filtered<Closest>& query);
+void search_filtered_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                         std::uint64_t first, Filtered<Any>& query);
+void search_filtered_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                           std::uint64_t first, Filtered<Every>& query);
+void search_filtered_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                              std::uint64_t first, Filtered<Passages>& query);
 
 // The whole scene against up to kMostRays rays.
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries);

@@ -8,12 +8,12 @@
 
 #include <utility>
 
-#include "core/sphere_uv.h"
 #include "predicates/sphere_side.h"
 #include "trace/box_ray-inl.h"
 #include "trace/deferred_hits-inl.h"
 #include "trace/node-inl.h"
 #include "trace/queries.h"
+#include "trace/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
@@ -271,49 +271,24 @@ private:
         return false;
     }
 
-    Search search() const { return {frame_.ray.t_min, query_.limit()}; }
-
     template <class Shape>
     HWY_NOINLINE bool intersect_shape(const Shape& shape, std::uint64_t number) {
-        if (defer(shape, number)) return false;
-        PlanarHit hit;
-        if (!intersect(shape, frame_, search(), hit)) return false;
-        bool inward = false;
-        if constexpr (Query::kEveryHit) inward = dot(shape.outward(), broadcast<double>(frame_.ray.direction)) < 0;
-        return query_.report(hit, number, inward);
+        return !defer(shape, number) && report_hits(shape, frame_, number, query_);
     }
-
     template <class Kind>
     HWY_NOINLINE bool intersect_shape(std::reference_wrapper<const Kind> row, std::uint64_t number) {
-        PlanarHit hit;
-        for (Search rest = search(); row.get().intersect(frame_, rest, hit); rest.t_min = hit.t) {
-            bool inward = false;
-            if constexpr (Query::kEveryHit) {
-                Surface surface;
-                row.get().surface(frame_.ray, hit, false, surface);
-                inward = dot(Vec3(surface.normal), frame_.ray.direction) < 0;
-            }
-            const bool end = query_.report(hit, number, inward);
-            if (end || !Query::kEveryHit) return end;
-        }
-        return false;
+        return report_hits(row, frame_, number, query_);
     }
-
     HWY_NOINLINE bool intersect_shape(const SpherePredicate<double>& sphere, std::uint64_t number) {
-        if constexpr (Query::kEveryHit) {
-            const SphereHits hits = sphere.hits(frame_, search());
-            return (hits.near_found && query_.report({hits.near, 0, 0}, number, sphere.radius > 0)) ||
-                   (hits.far_found && query_.report({hits.far, 0, 0}, number, sphere.radius < 0));
-        } else {
+        if constexpr (!Query::kEveryHit) {
             if (defer(sphere, number)) return false;
             const Ray& ray = frame_.ray;
             const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
             if (frame_.outer == nullptr && ray.t_min >= 0 &&
                 side_of(center, std::abs(sphere.radius), ray) == Side::missed)
                 return false;
-            PlanarHit hit;
-            return intersect(sphere, frame_, search(), hit) && query_.report(hit, number, false);
         }
+        return report_hits(sphere, frame_, number, query_);
     }
 
     bool intersect_user_defined(const flat::Foreign& shape, std::uint64_t number) {

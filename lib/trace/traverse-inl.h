@@ -32,11 +32,13 @@ constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = ~0u;
 
-// visit(the smallest of the sets that has all kinds of the scene).
-template <class Visit>
+// visit(the smallest of the sets that has all kinds of the scene). kFew: of meshes and all, for what is asked less
+// often.
+template <bool kFew, class Visit>
 HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
     if (covers(kMeshes)) return visit(std::integral_constant<unsigned, kMeshes>{});
+    if constexpr (kFew) return visit(std::integral_constant<unsigned, kAll>{});
     if (covers(kMeshesAndBoxes)) return visit(std::integral_constant<unsigned, kMeshesAndBoxes>{});
     if (covers(flat::kPlanarKinds)) return visit(std::integral_constant<unsigned, flat::kPlanarKinds>{});
     if (covers(kSpheres)) return visit(std::integral_constant<unsigned, kSpheres>{});
@@ -55,15 +57,14 @@ HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group,
 template <class Query>
 void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
-    if constexpr (!Query::kEveryHit) {
-        if (id == GroupId::root && !scene.list.empty()) {
-            search_list(scene, ray, frame, query);
-            if (scene.list.is_all || query.ended()) return;
-        }
+    if (id == GroupId::root && !scene.list.empty()) {
+        search_list(scene, ray, frame, query);
+        if (scene.list.is_all || query.ended()) return;
     }
     const flat::Group& group = flat::group_at(scene, id);
-    with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>)
-                          HWY_ATTR { search_group<kKinds>(scene, group, ray, frame, first_number, query, nullptr); });
+    with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+        search_group<kKinds>(scene, group, ray, frame, first_number, query, nullptr);
+    });
 }
 
 constexpr float kPacketTriangles = 4;
@@ -179,7 +180,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
         std::uint32_t active = all;
         if (!scene.list.empty()) active = search_list(scene, rays + first, some, queries + first, deferred);
         if (active == 0) continue;
-        with_kinds(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+        with_kinds<false>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
             if constexpr (kKinds == kMeshes)
                 if (some > 1 && active == all && are_alike(rays + first, some, spread, root) &&
                     search_packet(scene, rays + first, some, queries + first, deferred))
@@ -218,6 +219,26 @@ void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayF
 }
 void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
                   Every& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
+                     Passages& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_filtered_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                             std::uint64_t first, Filtered<Closest>& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_filtered_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                         std::uint64_t first, Filtered<Any>& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_filtered_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                           std::uint64_t first, Filtered<Every>& query) {
+    search(scene, id, ray, frame, first, query);
+}
+void search_filtered_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
+                              std::uint64_t first, Filtered<Passages>& query) {
     search(scene, id, ray, frame, first, query);
 }
 

@@ -22,6 +22,11 @@ namespace {
 HWY_EXPORT(search_closest);
 HWY_EXPORT(search_any);
 HWY_EXPORT(search_every);
+HWY_EXPORT(search_passages);
+HWY_EXPORT(search_filtered_closest);
+HWY_EXPORT(search_filtered_any);
+HWY_EXPORT(search_filtered_every);
+HWY_EXPORT(search_filtered_passages);
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
@@ -53,6 +58,21 @@ void find_any(const flat::Scene& scene, std::span<const Ray> rays, bool passes_b
 
 GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
     return scene.medium_shapes[medium.shape].boundary;
+}
+
+// A search of the scene, then of all boundaries of media, which are flagged where they are listed in `out`.
+template <class Search, class Query>
+void search_all(const flat::Scene& scene, const Ray& ray, const Search& search, Query& query,
+                std::vector<Crossing>* out) {
+    search(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+    const std::size_t before = out != nullptr ? out->size() : 0;
+    for (const flat::Medium& medium : scene.media) {
+        if (query.ended()) return;
+        inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+            search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+        });
+    }
+    for (std::size_t i = before; out != nullptr && i < out->size(); ++i) (*out)[i].index_matched = true;
 }
 
 bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
@@ -104,13 +124,64 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
         if (slabs.meets(scene.media[i].bounds, ray.t_max, near)) media.push_back(i);
 }
 
-void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
-    out.clear();
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
+    Every query{ray.t_max, out};
+    HWY_DYNAMIC_DISPATCH(search_every)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+}
+
+void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
         HWY_DYNAMIC_DISPATCH(search_every)
         (scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
+}
+
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+    out.clear();
+    every_boundary(scene, medium, ray, out);
+}
+
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out) {
+    Passages query{{}, ray.t_max, out, asks_origin};
+    search_all(
+        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_passages)
+                                       (of...); }, query, out);
+    return query;
+}
+
+Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
+    Filtered<Closest> query{{ray.t_max}, &filter};
+    search_all(
+        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_closest)
+                                       (of...); }, query, nullptr);
+    Hit& best = query.best;
+    if (!scene.media.empty() && best.primitive != flat::RawHit::kMiss)
+        best.index_matched = best.index_matched || flat::locate(scene, best.primitive).index_matched;
+    return best;
+}
+
+bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
+    Filtered<Any> query{{ray.t_max}, &filter};
+    search_all(
+        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_any)
+                                       (of...); }, query, nullptr);
+    return query.found;
+}
+
+void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out) {
+    Filtered<Every> query{{ray.t_max, out}, &filter};
+    search_all(
+        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_every)
+                                       (of...); }, query, &out);
+}
+
+PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out) {
+    Filtered<Passages> query{{{}, ray.t_max, out}, &filter};
+    search_all(
+        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_passages)
+                                       (of...); }, query, out);
+    return query;
 }
 
 }  // namespace limn::trace

@@ -31,17 +31,52 @@ void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint
 // The same for the boundary of a medium.
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
 
-// Where a ray passes through a medium's boundary.
+// Where a ray meets a surface.
 struct Crossing {
     double t;
-    bool inward;  // against the outward normal
+    bool inward;                 // against the outward normal
+    bool index_matched = false;  // as user-defined shapes say
+    std::uint64_t primitive = 0;
+    double u = 0, v = 0;
 };
 
 // The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
 void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
 
-// Every crossing with t in (t_min, t_max], in no particular order, replacing what is in `out`.
+// Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`. \pre is_usable(ray)
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
+// The same for the boundary of a medium.
+void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
+// The same, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
+
+// What a ray passes over.
+struct Filter {
+    const flat::Scene& scene;
+    std::uint64_t without;
+    bool front, back;                       // which sides count
+    std::span<const std::uint8_t> objects;  // those of 0 do not; empty: all do
+
+    bool accepts(std::uint64_t number) const {
+        return number != without && (objects.empty() || objects[flat::object_of(scene, number)] != 0);
+    }
+    bool accepts(std::uint64_t number, bool inward) const { return (inward ? front : back) && accepts(number); }
+};
+
+// closest_hit, any_hit and every_hit, of boundaries of media too. every_hit flags those.
+Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
+bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
+void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out);
+
+// What the moved ray (predicates/passage.h) passes through, boundaries of media too.
+struct PassageCount {
+    std::uint64_t count = 0;
+    std::int64_t outward = 0;                     // of which go outward, less those that go inward
+    std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was asked
+};
+// \pre is_usable(ray). `out`, if any, gets the crossings behind what is in it, in no particular order
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out);
+PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out);
 
 // visit(frame) with the ray as an instance's group sees it, and the answer of that.
 template <class Visit>

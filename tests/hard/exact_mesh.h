@@ -29,13 +29,8 @@ public:
         }
         return nearest;
     }
-    std::size_t flat_triangles() const {
-        return static_cast<std::size_t>(std::count_if(corners_.begin(), corners_.end(),
-                                                      [](const auto& k) { return exactly_flat(k[0], k[1], k[2]); }));
-    }
-
-private:
-    // Only far from any doubt, a billionth of all lengths; numbers out of range leave it to the exact test.
+    /// Whether a triangle is missed: only far from any doubt, a billionth of all lengths; numbers out of range leave it
+    /// to the exact test.
     bool passes_by(std::size_t i, const Ray& ray) const {
         const auto& k = corners_[i];
         const Vec3 d = ray.direction, q = k[0] - ray.origin;
@@ -43,6 +38,13 @@ private:
         return length_squared(cross(q, d)) > 1.001 * reach * reach * length_squared(d) && reach * length(d) > 1e-100;
     }
 
+    std::size_t size() const { return corners_.size(); }
+    std::size_t flat_triangles() const {
+        return static_cast<std::size_t>(std::count_if(corners_.begin(), corners_.end(),
+                                                      [](const auto& k) { return exactly_flat(k[0], k[1], k[2]); }));
+    }
+
+private:
     std::vector<std::array<Point3, 3>> corners_;
 };
 

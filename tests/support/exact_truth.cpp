@@ -205,6 +205,34 @@ bool exact_box_hit(const Box& box, const Ray& ray) {
     return true;
 }
 
+int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const Point3& origin,
+                        const Vec3& direction) {
+    const auto passage = [](const auto& to_a, const auto& to_b, const auto& to_c, const auto& d, const auto& sign) {
+        const int wa = sign(dot(d, cross(to_b, to_c))), wb = sign(dot(d, cross(to_c, to_a))),
+                  wc = sign(dot(d, cross(to_a, to_b)));
+        if (wa * wb < 0 || wb * wc < 0 || wc * wa < 0) return 0;
+        if (wa == 0 || wb == 0 || wc == 0) return 2;
+        const int ahead = sign(dot(to_a, cross(to_b, to_c))) * wa;
+        return ahead == 0 ? 2 : ahead > 0 ? wa : 0;
+    };
+    const Real3 o(origin), d(direction), to_a = Real3(a) - o, to_b = Real3(b) - o, to_c = Real3(c) - o;
+    const Real size = (length(to_a) + length(to_b) + length(to_c)) * (1 + length(d)),
+               bound = Real(1e-29) * size * size * size;
+    const int told = passage(to_a, to_b, to_c, d, [&](Real x) { return x > bound ? 1 : x < -bound ? -1 : 0; });
+    if (told != 2) return told;
+    const Vector moved = Vector(origin) + Vector(Dyadic(1, -4000), Dyadic(1, -9000), Dyadic(1, -14000));
+    const int exact = passage(Vector(a) - moved, Vector(b) - moved, Vector(c) - moved, Vector(direction),
+                              [](const Dyadic& x) { return x.sign(); });
+    return exact == 2 ? 0 : exact;  // a plane along the ray
+}
+
+bool exactly_on_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& p) {
+    const Vector o(p), to_a = Vector(a) - o, to_b = Vector(b) - o, to_c = Vector(c) - o;
+    const Vector n = cross(to_b - to_a, to_c - to_a);
+    return dot(to_a, n).sign() == 0 && dot(n, cross(to_a, to_b)).sign() >= 0 && dot(n, cross(to_b, to_c)).sign() >= 0 &&
+           dot(n, cross(to_c, to_a)).sign() >= 0;
+}
+
 bool exactly_flat(const Point3& a, const Point3& b, const Point3& c) {
     const Vector n = cross(Vector(b) - Vector(a), Vector(c) - Vector(a));
     return n.x.sign() == 0 && n.y.sign() == 0 && n.z.sign() == 0;

@@ -33,4 +33,11 @@ bool exact_box_hit(const Box& box, const Ray& ray);
 /// Whether the area is exactly zero.
 bool exactly_flat(const Point3& a, const Point3& b, const Point3& c);
 
+/// Whether a ray passes through a triangle after its origin: 1 along the normal, -1 against it, 0 not at all. It starts
+/// at the origin moved by (2^-4000, 2^-9000, 2^-14000), less than any decision of usual scenes notices.
+int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const Point3& origin, const Vec3& direction);
+
+/// Whether a point lies on the closed triangle, whose area is not zero.
+bool exactly_on_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& p);
+
 }  // namespace limn::test

@@ -8,10 +8,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "limn/core/hash128.h"
 #include "limn/core/ray.h"
 #include "limn/core/surface.h"
+#include "limn/query/queries.h"
 #include "limn/scene/scene.h"
 
 namespace limn {
@@ -19,18 +21,6 @@ namespace limn {
 namespace flat {
 struct Scene;
 }
-
-/// A hit of a ray in a compiled scene. It holds no pointer.
-struct RayHit {
-    double t = kInfinity;      ///< in units of the ray's direction; kInfinity: a miss
-    std::uint32_t object = 0;  ///< in the order of Scene::add
-    /// The index of the primitive within the object: the triangle of a mesh, the place in a list.
-    std::uint64_t element = 0;
-    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; user-defined: its own; sphere: 0
-    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; user-defined: its own; sphere: 0
-    bool index_matched = false;   ///< the boundary of a medium
-    std::uint64_t primitive = 0;  ///< the primId: the index of the primitive within the scene
-};
 
 /// What compiling made.
 struct SceneStats {
@@ -55,21 +45,94 @@ public:
     ///@}
     ~CompiledScene();
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest primId. Boundaries
-    /// of media count, flagged. An unusable ray misses. Throws only what user-defined objects throw.
+    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
+    /// of media count, flagged. An unusable ray misses. Throws only what an object of the caller's own class throws.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
     /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
     bool any_hit(const Ray& ray) const;
 
-    /// The same for many rays, one after the other in the calling thread. A miss has t == kInfinity; `occluded`
-    /// is 1 or 0. Returns how many of the rays were unusable.
-    /// \throws ArgumentError if the spans differ in length
+    /// Every hit with t in (t_min, t_max], by t and, of equals, by the primitive's number: at a shared edge or vertex
+    /// each triangle that the ray meets, once; a sphere where it is entered and where it is left, and once where the
+    /// ray touches it. Ties within rounding may stand in either order. Boundaries of media count, flagged; an unusable
+    /// ray meets nothing. The first one is closest_hit's. The second form replaces what is in `hits` and keeps its
+    /// memory, here and below.
     ///@{
-    std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits) const;
-    std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+    std::vector<RayHit> all_hits(const Ray& ray) const;
+    void all_hits(const Ray& ray, std::vector<RayHit>& hits) const;
     ///@}
 
-    /// All about the point that `ray` hits. \pre hit was found by closest_hit for this ray in this scene
+    /// Where the ray passes through surfaces between t_min and t_max, by t: once also where it goes through an edge or
+    /// a vertex, and not where it only touches or runs along a face. The ray counts as moved by less than any number,
+    /// both ends with it, always the same way (docs/queries.md); so a closed surface is passed an even number of times
+    /// between two points outside, and an end that lies on a surface is on one side of it. Disks and user-defined
+    /// shapes answer as they do for all_hits. None for an unusable ray.
+    ///@{
+    std::vector<RayCrossing> crossings(const Ray& ray) const;
+    void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;
+    std::size_t count_intersections(const Ray& ray) const;  ///< how many these are
+    /// How many of them go outward less those that go inward: by how much closed surfaces wind more often around the
+    /// ray's start than around its end.
+    std::int64_t winding_number(const Ray& ray) const;
+    ///@}
+
+    /// How often surfaces wind around a point, and whether it lies on one, exactly. `time`: of moving objects, 0 to 1.
+    /// What surfaces that are not closed make of a winding number depends on the way that is counted along: see
+    /// open_edges. Nowhere, so outside, where a coordinate is not finite.
+    PointLocation locate(const Point3& point, double time = 0) const;
+    /// Whether the point is inside, or exactly on a surface: PointLocation::is_inside.
+    bool contains(const Point3& point, double time = 0) const;
+    /// How many edges of triangles, quads and disks are open: used more often one way than the other, ends compared as
+    /// they are. 0: every triangle mesh and box is closed, and winding numbers mean what they say. Edges that lie
+    /// across several shorter ones count as open, and so do those of surfaces that only instances together close. Takes
+    /// some 100 ns and 50 bytes a triangle.
+    std::uint64_t open_edges() const;
+
+    /// The nearest point of all surfaces, up to `max_distance` away; of equally near ones the primitive with the lowest
+    /// number. The distance is right to 2^-32 of the largest coordinate of the point, the surfaces and, inside
+    /// instances, what lies between. Nothing where there is no surface so near, or a coordinate is not finite.
+    /// \throws ArgumentError if the scene has user-defined shapes, which cannot be asked, or if a sphere or a disk that
+    /// comes into question stands in an instance that turns its round shape into another
+    std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
+                                              double time = 0) const;
+    /// The distance of closest_point; negative where the point is inside (contains), 0 where it is exactly on a
+    /// surface, kInfinity where there is no surface. \throws ArgumentError as closest_point
+    double signed_distance(const Point3& point, double time = 0) const;
+
+    /// The same for a ray that passes some primitives over. Rays without a filter pay nothing for it.
+    /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
+    ///@{
+    std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter) const;
+    bool any_hit(const Ray& ray, const RayFilter& filter) const;
+    void all_hits(const Ray& ray, const RayFilter& filter, std::vector<RayHit>& hits) const;
+    void crossings(const Ray& ray, const RayFilter& filter, std::vector<RayCrossing>& crossings) const;
+    std::size_t count_intersections(const Ray& ray, const RayFilter& filter) const;
+    ///@}
+
+    /// Many rays, in the calling thread, or on `threads` of them; 0: on as many as the caller's TBB arena has. The
+    /// answers do not depend on it. A miss has t == kInfinity; `occluded` is 1 or 0. Return how many of the rays were
+    /// unusable.
+    /// \throws ArgumentError if spans differ in length, or threads are not 0 to 1024; as for single rays
+    ///@{
+    std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1) const;
+    std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1) const;
+    std::size_t closest_hit(std::span<const Ray> rays, const RayFilter& filter, std::span<RayHit> hits,
+                            int threads = 1) const;
+    std::size_t any_hit(std::span<const Ray> rays, const RayFilter& filter, std::span<std::uint8_t> occluded,
+                        int threads = 1) const;
+    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1) const;
+    std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1) const;
+    ///@}
+
+    /// The same for many points, at time 0.
+    ///@{
+    void locate(std::span<const Point3> points, std::span<PointLocation> locations, int threads = 1) const;
+    void contains(std::span<const Point3> points, std::span<std::uint8_t> inside, int threads = 1) const;
+    void closest_point(std::span<const Point3> points, std::span<ClosestPoint> nearest, int threads = 1) const;
+    void signed_distance(std::span<const Point3> points, std::span<double> distances, int threads = 1) const;
+    ///@}
+
+    /// All about the point that `ray` hits. \pre hit was found for this ray in this scene, by closest_hit or all_hits;
+    /// of a user-defined shape, by closest_hit
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
 
     const SceneStats& stats() const { return stats_; }  ///< counts and sizes

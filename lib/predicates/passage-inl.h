@@ -1,0 +1,111 @@
+// Passages of the moved ray, of which the filters tell most. Per-target include guard, as Highway has it.
+#if defined(LIMN_PREDICATES_PASSAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_PREDICATES_PASSAGE_INL_H
+#undef LIMN_PREDICATES_PASSAGE_INL_H
+#else
+#define LIMN_PREDICATES_PASSAGE_INL_H
+#endif
+
+#include "predicates/passage.h"
+#include "predicates/quad-inl.h"
+#include "predicates/sphere-inl.h"
+#include "predicates/triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::HWY_NAMESPACE {
+
+inline constexpr Search kEndlessSearch{-kInfinity, kInfinity};
+
+HWY_INLINE Point3 to_point(const Vector<double>& p) { return {p.x, p.y, p.z}; }
+HWY_INLINE Vec3 to_vec(const Vector<double>& v) { return {v.x, v.y, v.z}; }
+
+// visit(the numbers that define a shape ...)
+template <class Visit>
+HWY_INLINE auto with_numbers(const TrianglePredicate<double>& s, const Visit& visit) {
+    return visit(to_point(s.a), to_point(s.b), to_point(s.c));
+}
+template <class Visit>
+HWY_INLINE auto with_numbers(const QuadPredicate<double>& s, const Visit& visit) {
+    return visit(to_point(s.corner), to_vec(s.edge_u), to_vec(s.edge_v));
+}
+template <class Visit>
+HWY_INLINE auto with_numbers(const SpherePredicate<double>& s, const Visit& visit) {
+    return visit(to_point(s.center), s.radius);
+}
+
+HWY_INLINE int facing(const TrianglePredicate<double>& s, const RayFrame& frame) {
+    return limn::facing(to_vec(s.b - s.a), to_vec(s.c - s.a), frame);
+}
+HWY_INLINE int facing(const QuadPredicate<double>& s, const RayFrame& frame) {
+    return limn::facing(to_vec(s.edge_u), to_vec(s.edge_v), frame);
+}
+
+template <class Shape>
+HWY_INLINE bool exact_passage(const Shape& shape, const RayFrame& frame, const Search& search, Passage& passage) {
+    return with_numbers(shape,
+                        [&](const auto&... of_shape) { return exact_passage(of_shape..., frame, search, passage); });
+}
+
+// Whether the ray goes against the outward normal of a flat shape that it hits.
+template <class Shape>
+HWY_INLINE bool is_inward(const Shape& shape, const RayFrame& frame) {
+    const int side = facing(shape, frame);
+    if (HWY_LIKELY(side != 0)) return side < 0;
+    return with_numbers(shape, [&](const auto&... of_shape) { return exact_facing(of_shape..., frame) < 0; });
+}
+
+// Whether a t, as accurate as kAccurate says, is on the same side of an end as the exact one.
+HWY_INLINE bool is_clear_of(double t, double end) {
+    return !std::isfinite(end) || std::abs(t - end) > 2 * kAccurate * std::abs(t);
+}
+
+// What double tells of a line and a shape: whether they surely meet, surely miss each other, or neither.
+enum class Told { nothing, met, missed };
+
+template <template <class> class Predicate>
+HWY_INLINE Told tell_line(const Predicate<double>& shape, const RayFrame& frame, PlanarHit& hit) {
+    const typename Predicate<Single>::Ray ray(ray_of<Single>(frame));
+    const auto r = in_lanes<Single>(shape).filter(ray, {-kInfinity, kInfinity});
+    hit = {first_of_lanes(r.t), first_of_lanes(r.u), first_of_lanes(r.v)};
+    if (any(r.hit)) return Told::met;
+    // A line that meets the shape beyond all doubles is none that misses it.
+    return any(r.miss) && std::abs(hit.t) < kInfinity ? Told::missed : Told::nothing;
+}
+
+// report(passage) for each passage of the moved ray through a shape, until it returns true: whether it did. Where only
+// exact arithmetic tells, undecided() is called first.
+template <class Shape, class Undecided, class Report>
+HWY_INLINE bool for_each_passage(const Shape& shape, const RayFrame& frame, const Search& search,
+                                 const Undecided& undecided, const Report& report) {
+    Passage p;
+    const Told told = tell_line(shape, frame, p);
+    if (told == Told::missed) return false;
+    const int side = told == Told::met ? facing(shape, frame) : 0;
+    if (HWY_LIKELY(side != 0 && is_clear_of(p.t, search.t_min) && is_clear_of(p.t, search.t_max))) {
+        p.inward = side < 0;
+        return search.contains(p.t) && report(p);
+    }
+    undecided();
+    return exact_passage(shape, frame, search, p) && report(p);
+}
+
+template <class Undecided, class Report>
+HWY_INLINE bool for_each_passage(const SpherePredicate<double>& sphere, const RayFrame& frame, const Search& search,
+                                 const Undecided& undecided, const Report& report) {
+    const SphereHits hits = sphere.hits(frame, kEndlessSearch);
+    if (!hits.near_found && !hits.far_found) return false;
+    const auto is_clear = [&](double t) { return is_clear_of(t, search.t_min) && is_clear_of(t, search.t_max); };
+    Passage passages[2]{{{hits.near, 0, 0}, sphere.radius > 0}, {{hits.far, 0, 0}, sphere.radius < 0}};
+    if (HWY_LIKELY(hits.near_found && hits.far_found && hits.near < hits.far && is_clear(hits.near) &&
+                   is_clear(hits.far)))
+        return (search.contains(hits.near) && report(passages[0])) ||
+               (search.contains(hits.far) && report(passages[1]));
+    undecided();
+    const int count = exact_passages(to_point(sphere.center), sphere.radius, frame, search, passages);
+    return (count > 0 && report(passages[0])) || (count > 1 && report(passages[1]));
+}
+
+}  // namespace limn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,60 @@
+// Every hit along a ray.
+#include <algorithm>
+#include <vector>
+
+#include "core/float_environment.h"
+#include "limn/query/compiled_scene.h"
+#include "query/answers.h"
+#include "query/filters.h"
+
+namespace limn {
+
+namespace {
+
+void find_all(const flat::Scene& scene, const Ray& ray, std::vector<trace::Crossing>& found) {
+    trace::every_hit(scene, ray, found);
+    for (const flat::Medium& medium : scene.media) {
+        const std::size_t before = found.size();
+        trace::every_boundary(scene, medium, ray, found);
+        for (std::size_t i = before; i < found.size(); ++i) found[i].index_matched = true;
+    }
+}
+
+void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::vector<RayHit>& hits) {
+    query::sort_along_ray(found);
+    const auto same = [](const trace::Crossing& a, const trace::Crossing& b) {
+        return a.t == b.t && a.primitive == b.primitive;  // a sphere that is touched
+    };
+    found.erase(std::unique(found.begin(), found.end(), same), found.end());
+    hits.reserve(found.size());
+    for (const trace::Crossing& c : found) hits.push_back(query::complete(scene, c));
+}
+
+}  // namespace
+
+void CompiledScene::all_hits(const Ray& ray, std::vector<RayHit>& hits) const {
+    const FloatEnvironment environment;
+    hits.clear();
+    if (!query::is_fit(ray)) return;
+    query::Found found;
+    find_all(*scene_, ray, *found);
+    list(*scene_, *found, hits);
+}
+
+std::vector<RayHit> CompiledScene::all_hits(const Ray& ray) const {
+    std::vector<RayHit> hits;
+    all_hits(ray, hits);
+    return hits;
+}
+
+void CompiledScene::all_hits(const Ray& ray, const RayFilter& filter, std::vector<RayHit>& hits) const {
+    const FloatEnvironment environment;
+    const trace::Filter checked = query::checked(*scene_, filter, "all_hits");
+    hits.clear();
+    if (!query::is_fit(ray)) return;
+    query::Found found;
+    trace::every_hit(*scene_, ray, checked, *found);
+    list(*scene_, *found, hits);
+}
+
+}  // namespace limn

@@ -1,0 +1,34 @@
+// Batches on several threads.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "accel/parallel.h"
+#include "limn/core/error.h"
+
+namespace limn::query {
+
+inline constexpr int kMostThreads = 1024;
+
+// As many as are worth a task.
+inline constexpr std::size_t kPart = 1024;
+
+// work(first, count) for all parts of `size`, on so many threads; 0: on those of the caller's arena.
+template <class Work>
+void for_all_parts(std::size_t size, int threads, const char* who, const Work& work) {
+    if (threads < 0 || threads > kMostThreads)
+        throw ArgumentError(std::string(who) + ": threads must lie in 0 to " + std::to_string(kMostThreads));
+    if (threads == 1 || size <= kPart) return work(std::size_t{0}, size);
+    accel::with_threads(threads, [&] {
+        accel::for_all(0, (size + kPart - 1) / kPart, 1,
+                       [&](std::size_t i) { work(i * kPart, std::min(kPart, size - i * kPart)); });
+    });
+}
+
+inline void check_length(std::size_t asked, std::size_t answers, const char* message) {
+    if (asked != answers) throw ArgumentError(message);
+}
+
+}  // namespace limn::query
