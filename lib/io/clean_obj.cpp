@@ -1,11 +1,9 @@
-#include "io/clean_obj.h"
-
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <limits>
 #include <map>
 
+#include "io/obj_reader.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 
@@ -20,26 +18,25 @@ constexpr std::size_t kCornersPerLine = 1000;
 
 class ObjCleaner {
 public:
-    ObjCleaner(std::string_view text, const std::string& path) : lines_(text, path), path_(path) {}
+    ObjCleaner(std::string_view text, const std::string& path, ObjFile& file, Model& model)
+        : lines_(text, path), file_(file), model_(model) {}
 
-    CleanObj clean() {
-        while (lines_.next()) clean_line(lines_.words());
-        if (passed_over_ > 0 && !has_statement_)
-            throw FileError(path_, "line " + std::to_string(first_passed_over_) + ": " + in_quotes(first_word_) +
-                                       " is no statement of an OBJ, nor is any other line");
-        if (passed_over_ > 0)
-            result_.warnings.push_back(std::to_string(passed_over_) +
-                                       (passed_over_ == 1 ? " line was" : " lines were") +
-                                       " passed over; the first is line " + std::to_string(first_passed_over_));
-        return std::move(result_);
+    std::string clean(const std::string& path) {
+        while (lines_.next())
+            if (const Words words = lines_.words(); !words.empty()) clean_line(words);
+        if (passed_over_ == 0) return std::move(text_);
+        const std::string line = "line " + std::to_string(first_passed_over_);
+        if (!has_statement_)
+            throw FileError(path,
+                            line + ": " + in_quotes(first_word_) + " is no statement of an OBJ, nor is any other line");
+        model_.warnings.push_back(std::to_string(passed_over_) + (passed_over_ == 1 ? " line was" : " lines were") +
+                                  " passed over; the first is " + line);
+        return std::move(text_);
     }
 
 private:
     void clean_line(const Words& words) {
-        if (words.empty()) return;
         const std::string_view key = words[0];
-        if (!is_statement(key)) return pass_over(key);
-        has_statement_ = true;
         if (key == "v") {
             numbers(words, 3, 3, vertices_);
         } else if (key == "vt") {
@@ -51,14 +48,11 @@ private:
         } else if (key == "usemtl") {
             material(std::string(lines_.name()));
         } else if (key == "mtllib") {
-            result_.libraries.push_back({std::string(lines_.name()), lines_.number()});
+            file_.libraries.push_back({std::string(lines_.name()), lines_.number()});
+        } else if (!is_one_of(key, {"o", "g", "s", "l", "p"})) {  // known and not used
+            return pass_over(key);
         }
-    }
-
-    // Lines, points, groups and smoothing are known and not used.
-    static bool is_statement(std::string_view key) {
-        constexpr std::string_view kKnown[] = {"v", "vt", "vn", "f", "usemtl", "mtllib", "o", "g", "s", "l", "p"};
-        return std::find(std::begin(kKnown), std::end(kKnown), key) != std::end(kKnown);
+        has_statement_ = true;
     }
 
     void pass_over(std::string_view key) {
@@ -67,33 +61,28 @@ private:
         first_word_ = key;
     }
 
-    // All words must be numbers; the first `kept` go on, missing ones as 0. What follows (a weight, a vertex colour) is
-    // not used.
+    // All words must be numbers; the first `kept` go on, where tinyobjloader takes missing ones as 0. What follows (a
+    // weight, a vertex colour) is not used.
     void numbers(const Words& words, std::size_t needed, std::size_t kept, std::size_t& count) {
         if (words.size() <= needed)
             lines_.fail(std::string(words[0]) + " needs " + std::to_string(needed) + " numbers");
-        result_.text += words[0];
+        text_ += words[0];
         for (std::size_t i = 1; i < words.size(); ++i) {
             const float value = lines_.require_number(words[i]);
-            if (i > kept) continue;
-            result_.text += ' ';
-            append_number(result_.text, value);
+            if (i <= kept) append_number(text_ += ' ', value);
         }
-        for (std::size_t i = words.size(); i <= kept; ++i) result_.text += " 0";
-        result_.text += '\n';
+        text_ += '\n';
         ++count;
     }
 
     void face(const Words& words) {
         for (std::size_t i = 1; i < words.size(); ++i) {
-            if (i % kCornersPerLine == 1) {
-                result_.text += i == 1 ? "f" : "\nf";
-                result_.face_parts.push_back({result_.face_count, lines_.number()});
-            }
+            if (i % kCornersPerLine == 1) text_ += "\nf";
             corner(words[i]);
         }
-        if (words.size() > 1) result_.text += '\n';
-        ++result_.face_count;
+        text_ += '\n';
+        file_.faces.push_back({lines_.number(), corners_, words.size() - 1, slot_});
+        corners_ += words.size() - 1;
     }
 
     // v, v/vt, v//vn or v/vt/vn; an empty vt or vn counts as left out.
@@ -108,12 +97,12 @@ private:
         }
         const bool too_many = std::count(word.begin(), word.end(), '/') > 2;
         if (parts[0].empty() || too_many) lines_.fail(in_quotes(word) + " is not a corner of a face");
-        result_.text += ' ';
+        text_ += ' ';
         for (std::size_t i = 0; i < 3; ++i) {
             if (i == 2 && parts[2].empty()) break;
             if (i == 1 && parts[1].empty() && parts[2].empty()) break;
-            if (i > 0) result_.text += '/';
-            if (!parts[i].empty()) result_.text += std::to_string(index(parts[i], counts[i], names[i]));
+            if (i > 0) text_ += '/';
+            if (!parts[i].empty()) text_ += std::to_string(index(parts[i], counts[i], names[i]));
         }
     }
 
@@ -135,16 +124,18 @@ private:
     }
 
     void material(const std::string& name) {
-        const auto [found, is_new] = material_numbers_.try_emplace(name, result_.materials.size());
-        if (is_new) result_.materials.push_back(name);
-        result_.text += "usemtl " + std::to_string(found->second) + "\n";
+        const auto [found, is_new] = slots_.try_emplace(name, static_cast<std::uint32_t>(slots_.size()) + 1);
+        if (is_new) model_.materials.push_back(name);
+        slot_ = found->second;
     }
 
     TextLines lines_;
-    const std::string& path_;
-    CleanObj result_;
-    std::map<std::string, std::size_t> material_numbers_;
-    std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0;
+    ObjFile& file_;
+    Model& model_;
+    std::string text_;
+    std::map<std::string, std::uint32_t> slots_;  // of materials
+    std::uint32_t slot_ = 0;
+    std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0, corners_ = 0;
     std::size_t passed_over_ = 0, first_passed_over_ = 0;
     std::string first_word_;
     bool has_statement_ = false;
@@ -152,6 +143,8 @@ private:
 
 }  // namespace
 
-CleanObj clean_obj(std::string_view text, const std::string& path) { return ObjCleaner(text, path).clean(); }
+std::string clean_obj(std::string_view text, const std::string& path, ObjFile& file, Model& model) {
+    return ObjCleaner(text, path, file, model).clean(path);
+}
 
 }  // namespace limn

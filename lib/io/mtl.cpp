@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "io/text_lines.h"
 
@@ -11,10 +10,6 @@ namespace limn {
 namespace {
 
 using Words = std::vector<std::string_view>;
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), word) != names.end();
-}
 
 // The words before a texture's name: map_Kd and its options (Wavefront, MTL Material Format v4.2, 1995, "Options for
 // texture map statements").

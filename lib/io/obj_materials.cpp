@@ -1,16 +1,14 @@
-#include "io/obj_materials.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <sstream>
 #include <utility>
 
 #include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/mtl.h"
+#include "io/obj_reader.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
@@ -75,8 +73,7 @@ std::vector<std::string> words_without_use(const MtlMaterial& m, Look look, cons
 
 class MaterialLoader {
 public:
-    MaterialLoader(bool textures, Model& model)
-        : textures_wanted_(textures), files_(model.files), warnings_(model.warnings) {}
+    MaterialLoader(const ObjOptions& options, Model& model) : options_(options), model_(model) {}
 
     void add_libraries(const ObjLibrary& library, const std::string& obj_path) {
         const std::string& names = library.names;  // one name, which may contain blanks, or several
@@ -94,25 +91,26 @@ public:
         }
     }
 
-    std::vector<std::shared_ptr<const Material>> make_all(const std::vector<std::string>& names,
-                                                          const std::shared_ptr<const Material>& fallback) {
-        std::vector<std::shared_ptr<const Material>> made;
+    std::vector<std::shared_ptr<const Material>> make_all() {
+        std::vector<std::shared_ptr<const Material>> made{options_.default_material};
+        if (!made[0]) made[0] = std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
         std::vector<std::string> unknown;
-        for (const std::string& name : names) {
+        for (const std::string& name : model_.materials) {
             const auto found = materials_.find(name);
             if (found == materials_.end()) unknown.push_back(in_quotes(name));
-            made.push_back(found == materials_.end() ? fallback : make(name, found->second));
+            made.push_back(found == materials_.end() ? made[0] : make(name, found->second));
         }
         warn_of_unknown(unknown);
         warn_of_unused();
-        warnings_.insert(warnings_.begin(), missing_.begin(), missing_.end());
+        model_.warnings.insert(model_.warnings.begin(), missing_.begin(), missing_.end());
         return made;
     }
 
 private:
     void add_library(const std::string& path) {
-        if (!libraries_.insert(path).second) return;
-        files_.push_back(path);
+        // Behind the OBJ itself, so far.
+        if (std::find(model_.files.begin() + 1, model_.files.end(), path) != model_.files.end()) return;
+        model_.files.push_back(path);
         std::string text;
         try {
             text = read_file(path);
@@ -121,7 +119,7 @@ private:
         }
         if (const FileKind kind = kind_of_contents(text); !kind.name.empty() && !kind.may_be_text)
             return missing_.push_back(path + ": is no material library: it appears to be " + std::string(kind.name));
-        parse_mtl(text, path, materials_, warnings_);
+        parse_mtl(text, path, materials_, model_.warnings);
     }
 
     std::shared_ptr<const Material> make(const std::string& name, const MtlMaterial& m) {
@@ -142,7 +140,7 @@ private:
                                                std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2))));
             case Look::diffuse: break;
         }
-        if (textures_wanted_ && !m.diffuse_map.empty())
+        if (options_.textures && !m.diffuse_map.empty())
             if (const auto image = load_texture(beside(m.file, m.diffuse_map)))
                 return std::make_shared<Lambertian>(std::make_shared<ImageTexture>(image));
         const bool is_unsaid = !m.diffuse_map.empty() && !m.lines.contains("Kd");
@@ -162,22 +160,23 @@ private:
 
     void warn_of_unused() {
         for (const auto& [text, others] : unused_)
-            warnings_.push_back(text + (others == 0   ? ""
-                                        : others == 1 ? ", nor in one other material"
-                                                      : ", nor in " + std::to_string(others) + " other materials"));
+            model_.warnings.push_back(text + (others == 0 ? ""
+                                              : others == 1
+                                                  ? ", nor in one other material"
+                                                  : ", nor in " + std::to_string(others) + " other materials"));
     }
 
     void warn_of_unknown(const std::vector<std::string>& names) {
         constexpr std::size_t kMost = 3;  // are named
         for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-            warnings_.push_back("unknown material " + names[i]);
+            model_.warnings.push_back("unknown material " + names[i]);
         if (names.size() > kMost)
-            warnings_.push_back("and " + std::to_string(names.size() - kMost) + " more unknown materials");
+            model_.warnings.push_back("and " + std::to_string(names.size() - kMost) + " more unknown materials");
     }
 
     Color clamped(const Color& c, double largest, const char* key, const std::string& name) {
         const Color result{std::clamp(c.r, 0.0, largest), std::clamp(c.g, 0.0, largest), std::clamp(c.b, 0.0, largest)};
-        if (result != c) warnings_.push_back("material " + in_quotes(name) + ": " + key + " was clamped");
+        if (result != c) model_.warnings.push_back("material " + in_quotes(name) + ": " + key + " was clamped");
         return result;
     }
 
@@ -185,21 +184,20 @@ private:
     std::shared_ptr<const Image> load_texture(const std::string& path) {
         const auto [found, is_new] = textures_.try_emplace(path);
         if (!is_new) return found->second;
-        files_.push_back(path);
+        model_.files.push_back(path);
         try {
             Image image = load_image(path);
             // An albedo; a floating-point file may hold anything, NaN included.
             for (float& v : image.values()) v = v > 0 ? std::min(v, 1.0f) : 0;
             found->second = std::make_shared<const Image>(std::move(image));
         } catch (const FileError& error) {
-            warnings_.emplace_back(error.what());
+            model_.warnings.emplace_back(error.what());
         }
         return found->second;
     }
 
-    bool textures_wanted_;
-    std::vector<std::string>& files_;
-    std::vector<std::string>& warnings_;
+    const ObjOptions& options_;
+    Model& model_;
     std::vector<std::string> missing_;  // warnings that stand before all others
     struct Unused {
         std::string text;
@@ -207,7 +205,6 @@ private:
     };
     std::vector<Unused> unused_;
     std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // by file and word
-    std::set<std::string> libraries_;                                           // that were read, or tried
     std::map<std::string, MtlMaterial> materials_;
     std::map<std::string, std::shared_ptr<const Image>> textures_;
 };
@@ -215,11 +212,10 @@ private:
 }  // namespace
 
 std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& file, const std::string& obj_path,
-                                                                const std::shared_ptr<const Material>& fallback,
-                                                                bool textures, Model& model) {
-    MaterialLoader loader(textures, model);
+                                                                const ObjOptions& options, Model& model) {
+    MaterialLoader loader(options, model);
     for (const ObjLibrary& library : file.libraries) loader.add_libraries(library, obj_path);
-    return loader.make_all(file.materials, fallback);
+    return loader.make_all();
 }
 
 }  // namespace limn

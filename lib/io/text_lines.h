@@ -1,7 +1,9 @@
 // The lines of an OBJ or MTL file, however it was written, and the numbers in them, whatever the locale.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +39,10 @@ private:
 
 // The nearest float32 to a decimal number, ties to even. None if the word is no number, or one that is not finite.
 std::optional<float> parse_float(std::string_view word);
+
+inline bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 // A word of a file for a message: shortened, and without control characters.
 std::string shortened(std::string_view word);

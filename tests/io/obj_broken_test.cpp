@@ -6,8 +6,7 @@
 #include <random>
 
 #include "catch.h"
-#include "io/obj_mesh.h"
-#include "io/obj_parse.h"
+#include "io/obj_reader.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/obj.h"
@@ -35,12 +34,12 @@ void check_sound(const MeshData& d) {
 // What load_obj would say, without a file on the disk; whether it gives a mesh.
 bool is_sound(const std::string& text) {
     try {
-        const ObjFile file = parse_obj(text, "broken.obj");
-        const ObjMesh mesh = build_mesh(file);
-        check_sound(mesh.data);
-        if (mesh.data.triangles.empty()) return false;
-        CHECK_NOTHROW(Mesh(mesh.data, std::vector<std::shared_ptr<const Material>>(1 + file.materials.size())));
-        CHECK(mesh.dropped_faces < file.face_count);
+        Model model;
+        const MeshData mesh = build_mesh(parse_obj(text, "broken.obj", model), model);
+        check_sound(mesh);
+        if (mesh.triangles.empty()) return false;
+        CHECK_NOTHROW(Mesh(mesh, std::vector<std::shared_ptr<const Material>>(1 + model.materials.size())));
+        CHECK(model.dropped_faces < model.faces);
         return true;
     } catch (const FileError& error) {
         check_refusal(error.what(), "broken.obj");

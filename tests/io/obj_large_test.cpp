@@ -6,8 +6,7 @@
 
 #include "catch.h"
 #include "formats.h"
-#include "io/obj_mesh.h"
-#include "io/obj_parse.h"
+#include "io/obj_reader.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
@@ -20,7 +19,10 @@ namespace {
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-ObjMesh load(const std::string& text) { return build_mesh(parse_obj(text, "large.obj")); }
+MeshData load(const std::string& text) {
+    Model model;
+    return build_mesh(parse_obj(text, "large.obj", model), model);
+}
 
 void append_row(std::string& text, const char* key, std::initializer_list<double> values) {
     text += key;
@@ -38,20 +40,20 @@ TEST_CASE("Large OBJ: a face of 300,000 corners is one face", "[io][obj]") {
         append_row(text, "v", {std::cos(angle), std::sin(angle), 0});
         face += ' ' + std::to_string(i + 1);
     }
-    const ObjFile file = parse_obj(text + "f 1 100000 200000\n" + face + "\nf 2 100002 200002\n", "large.obj");
+    Model model;
+    const ObjFile file = parse_obj(text + "f 1 100000 200000\n" + face + "\nf 2 100002 200002\n", "large.obj", model);
     REQUIRE(file.faces.size() == 3);
     CHECK(file.faces[1].corner_count == kCorners);
-    CHECK(file.faces[1].number == 1);
     CHECK(file.corners[file.faces[1].first_corner + 1000].position == 1000);
-    const ObjMesh mesh = build_mesh(file);
-    CHECK(mesh.dropped_faces == 0);
-    CHECK(mesh.data.triangles.size() + mesh.degenerate_triangles == kCorners);  // two more faces, two less
+    const MeshData mesh = build_mesh(file, model);
+    CHECK(model.dropped_faces == 0);
+    CHECK(mesh.triangles.size() + model.degenerate_triangles == kCorners);  // two more faces, two less
     double area = 0;
-    for (std::size_t i = 0; i < mesh.data.triangles.size(); ++i) {
-        if (mesh.data.faces[i] != 1) continue;
-        const Index3 t = mesh.data.triangles[i];
-        const Point3 a = to_point(mesh.data.vertices[t.a]);
-        area += length(cross(to_point(mesh.data.vertices[t.b]) - a, to_point(mesh.data.vertices[t.c]) - a)) / 2;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (mesh.faces[i] != 1) continue;
+        const Index3 t = mesh.triangles[i];
+        const Point3 a = to_point(mesh.vertices[t.a]);
+        area += length(cross(to_point(mesh.vertices[t.b]) - a, to_point(mesh.vertices[t.c]) - a)) / 2;
     }
     CHECK(area == Approx(kPi).epsilon(1e-6));
 }
@@ -69,18 +71,17 @@ TEST_CASE("Large OBJ: one vertex may be shared by 100,000 faces of different nor
         text += "f 1" + normal + ' ' + std::to_string(2 + i) + normal + ' ' + std::to_string(2 + (i + 1) % kFaces) +
                 normal + '\n';
     }
-    const ObjMesh mesh = load(text);
-    CHECK(mesh.dropped_faces == 0);
-    CHECK(mesh.data.triangles.size() == kFaces);
-    CHECK(mesh.data.vertices.size() == 3 * kFaces);
+    const MeshData mesh = load(text);
+    CHECK(mesh.triangles.size() == kFaces);
+    CHECK(mesh.vertices.size() == 3 * kFaces);
 }
 
 TEST_CASE("Large OBJ: lines of millions of characters are read, and messages stay short", "[io][obj]") {
     const std::string blanks(2'000'000, ' '), word(2'000'000, '7');
-    CHECK(load(kTriangle + "f 1" + blanks + "2 3" + blanks + "\n").data.triangles.size() == 1);
-    CHECK(load("#" + word + "\n" + kTriangle + "f 1 2 3 #" + word).data.triangles.size() == 1);
-    CHECK(load(kTriangle + word + "\ng " + word + "\nusemtl " + word + "\nf 1 2 3\n").data.triangles.size() == 1);
-    CHECK(load(kTriangle + "v 0." + word + " 0 0\nf 1 2 3\n").data.triangles.size() == 1);
+    CHECK(load(kTriangle + "f 1" + blanks + "2 3" + blanks + "\n").triangles.size() == 1);
+    CHECK(load("#" + word + "\n" + kTriangle + "f 1 2 3 #" + word).triangles.size() == 1);
+    CHECK(load(kTriangle + word + "\ng " + word + "\nusemtl " + word + "\nf 1 2 3\n").triangles.size() == 1);
+    CHECK(load(kTriangle + "v 0." + word + " 0 0\nf 1 2 3\n").triangles.size() == 1);
     for (const std::string& line : {"v " + word + " 0 0", "f 1 2 " + word, "f 1 2 " + word + "/////"}) try {
             load(kTriangle + line);
             FAIL("accepted");
@@ -106,7 +107,8 @@ TEST_CASE("Large OBJ: coordinates printed with 9 digits are read bit for bit", "
         text += i % 3 == 0 ? "\nv " : " ";
         text.append(digits, end);
     }
-    const std::vector<Float3> read = parse_obj(text, "large.obj").positions;
+    Model model;
+    const std::vector<Float3> read = parse_obj(text, "large.obj", model).positions;
     REQUIRE(read.size() == 3 + count / 3);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
