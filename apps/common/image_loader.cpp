@@ -23,12 +23,8 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return codec().decode(format, bytes, path, most);
 }
 
-Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    return codec().decode_facts(format, bytes, path);
-}
-
-ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    return codec().decode_info(format, bytes, path);
+ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    return codec().decode_header(format, bytes, path);
 }
 
 }  // namespace limn

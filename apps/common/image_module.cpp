@@ -4,5 +4,4 @@
 
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
 
-extern "C" const limn::ImageCodec limn_module{limn::can_encode, limn::encode, limn::decode, limn::decode_facts,
-                                              limn::decode_info};
+extern "C" const limn::ImageCodec limn_module{limn::can_encode, limn::encode, limn::decode, limn::decode_header};

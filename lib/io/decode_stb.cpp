@@ -27,8 +27,7 @@ namespace limn {
 
 namespace {
 
-void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
-    const std::string_view prefix = kFactPrefix;
+void read_png_transfer(std::span<const std::byte> bytes, StoredImage& image) {
     for (const PngChunk& chunk : png_header_chunks(bytes)) {
         if (chunk.type == "sRGB") {
             image.transfer = Transfer::srgb;
@@ -38,9 +37,6 @@ void read_png_header(std::span<const std::byte> bytes, StoredImage& image) {
             if (gamma == 0) continue;
             image.transfer = Transfer::power;
             image.exponent = 100000 / static_cast<double>(gamma);
-        } else if (const std::size_t end = chunk.data.find('\0');
-                   chunk.type == "tEXt" && chunk.data.starts_with(prefix) && end != std::string_view::npos) {
-            image.facts.emplace_back(chunk.data.substr(prefix.size(), end - prefix.size()), chunk.data.substr(end + 1));
         }
     }
 }
@@ -79,19 +75,18 @@ private:
     bool is_hdr_, overran_ = false;
 };
 
-// Calls one of stb's functions on the bytes from their beginning.
+// Calls one of stb's functions.
 template <class Function, class... Arguments>
-auto call(Function function, Reader reader, Arguments... arguments) {
+auto call(Function function, Reader& reader, Arguments... arguments) {
     const stbi_io_callbacks callbacks = Reader::callbacks();
     return function(&callbacks, &reader, arguments...);
 }
 
 template <class T, class Load>
 void read_values(Reader reader, StoredImage& image, const std::string& name, Load load) {
-    const stbi_io_callbacks callbacks = Reader::callbacks();
     int channels_in_file;
     const std::unique_ptr<T, decltype([](T* p) { stbi_image_free(p); })> values(
-        load(&callbacks, &reader, &image.width, &image.height, &channels_in_file, image.channels));
+        call(load, reader, &image.width, &image.height, &channels_in_file, image.channels));
     if (!values) throw FileError(name, std::string("cannot be read: ") + stbi_failure_reason());
     if (reader.overran()) throw FileError(name, "is an image that breaks off before its end");
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
@@ -102,14 +97,14 @@ void read_values(Reader reader, StoredImage& image, const std::string& name, Loa
 }  // namespace
 
 ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name) {
-    const Reader reader(format, bytes);
+    Reader size_reader(format, bytes), depth_reader = size_reader;
     ImageInfo info;
     int channels = 0;
-    if (!call(stbi_info_from_callbacks, reader, &info.width, &info.height, &channels))
+    if (!call(stbi_info_from_callbacks, size_reader, &info.width, &info.height, &channels))
         throw FileError(name, std::string("is not a readable image: ") + stbi_failure_reason());
-    const char* type = format == FileFormat::hdr                     ? "float"
-                       : call(stbi_is_16_bit_from_callbacks, reader) ? "uint16"
-                                                                     : "uint8";
+    const char* type = format == FileFormat::hdr                           ? "float"
+                       : call(stbi_is_16_bit_from_callbacks, depth_reader) ? "uint16"
+                                                                           : "uint8";
     constexpr const char* kNames[] = {"Y", "YA", "RGB", "RGBA"};
     for (const char* c = kNames[channels - 1]; *c != '\0'; ++c) info.channels.push_back({std::string(1, *c), type});
     return info;
@@ -121,7 +116,7 @@ StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, cons
     StoredImage image;
     image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
     require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
-    if (format == FileFormat::png) read_png_header(bytes, image);
+    if (format == FileFormat::png) read_png_transfer(bytes, image);
     const std::string& type = info.channels.front().type;
     if (type == "float") {
         image.transfer = Transfer::linear;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -49,23 +48,12 @@ constexpr Compression kCompressions[] = {{1, 1},     {1, 64}, {1, 1032}, {16, 10
 
 // Attributes of one size (OpenEXR File Layout, "Predefined Attribute Types"). OpenEXR reads so many bytes of them,
 // whatever the header says.
-struct SizedTypes {
-    std::size_t size;
-    std::array<std::string_view, 5> names;
-};
-constexpr SizedTypes kSizedTypes[] = {{1, {"compression", "deepImageState", "envmap", "lineOrder"}},
-                                      {4, {"float", "int"}},
-                                      {8, {"double", "rational", "timecode", "v2f", "v2i"}},
-                                      {9, {"tiledesc"}},
-                                      {12, {"v3f", "v3i"}},
-                                      {16, {"box2f", "box2i", "v2d"}},
-                                      {24, {"v3d"}},
-                                      {28, {"keycode"}},
-                                      {32, {"chromaticities"}},
-                                      {36, {"m33f"}},
-                                      {64, {"m44f"}},
-                                      {72, {"m33d"}},
-                                      {128, {"m44d"}}};
+constexpr std::pair<std::string_view, std::size_t> kSizes[] = {
+    {"compression", 1}, {"deepImageState", 1}, {"envmap", 1},   {"lineOrder", 1}, {"float", 4},
+    {"int", 4},         {"double", 8},         {"rational", 8}, {"timecode", 8},  {"v2f", 8},
+    {"v2i", 8},         {"tiledesc", 9},       {"v3f", 12},     {"v3i", 12},      {"box2f", 16},
+    {"box2i", 16},      {"v2d", 16},           {"v3d", 24},     {"keycode", 28},  {"chromaticities", 32},
+    {"m33f", 36},       {"m44f", 64},          {"m33d", 72},    {"m44d", 128}};
 
 // Returns how many bytes all of them take for a pixel.
 std::int64_t read_channels(Cursor value) {
@@ -84,10 +72,7 @@ std::int64_t read_channels(Cursor value) {
 
 // Sizes within values of the types that hold any.
 void check_value(const std::string& type, Cursor value) {
-    for (const auto& [size, names] : kSizedTypes)
-        demand(
-            type.empty() || value.rest().size() == size || std::find(names.begin(), names.end(), type) == names.end(),
-            kWrongSize);
+    for (const auto& [name, size] : kSizes) demand(type != name || value.rest().size() == size, kWrongSize);
     if (type == "preview") {
         const std::uint64_t width = value.little(4), height = value.little(4);
         demand(width * height <= value.rest().size() && width * height * 4 == value.rest().size(), kWrongSize);

@@ -29,7 +29,11 @@ struct StoredImage {
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> values;
     Transfer transfer = Transfer::unsaid;
     double exponent = 1;  // of Transfer::power: linear = stored ^ exponent
-    Facts facts;          // without their prefix
+};
+
+struct ImageHeader {
+    ImageInfo info;
+    Facts facts;  // without their prefix
 };
 
 // A picture to be written: 8-bit sRGB values for PNG, else linear ones, three channels and those of `layers`.
@@ -50,16 +54,14 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
 // From bytes that encode() made, or that were found sound (io/image_checks.h). Of the pixels the first channels, at
 // most `most`. \throws FileError naming `path`
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most = 3);
-Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
-ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
+ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
 
 // These functions as a module gives them (apps/common/image_module.cpp).
 struct ImageCodec {
     decltype(limn::can_encode)* can_encode;
     decltype(limn::encode)* encode;
     decltype(limn::decode)* decode;
-    decltype(limn::decode_facts)* decode_facts;
-    decltype(limn::decode_info)* decode_info;
+    decltype(limn::decode_header)* decode_header;
 };
 
 }  // namespace limn

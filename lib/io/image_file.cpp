@@ -264,8 +264,8 @@ Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding
     return with_memory(name, [&] { return to_image(decode_stb(format, bytes, name), encoding, name); });
 }
 
-ImageInfo load_image_info(const std::string& path) { return from_file(path, decode_info); }
+ImageInfo load_image_info(const std::string& path) { return from_file(path, decode_header).info; }
 
-Facts load_image_facts(const std::string& path) { return from_file(path, decode_facts); }
+Facts load_image_facts(const std::string& path) { return from_file(path, decode_header).facts; }
 
 }  // namespace limn

@@ -122,7 +122,6 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     image.height = spec.height;
     image.channels = std::min(spec.nchannels, most);
     read_transfer(spec, image);
-    image.facts = read_facts(spec);
     if (spec.format == TypeDesc::UINT8) {
         read_values<std::uint8_t>(input, TypeDesc::UINT8, image, path);
     } else if (spec.format.is_floating_point()) {
@@ -165,20 +164,14 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
-ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    if (is_for_stb(format)) return decode_info_stb(format, bytes, path);
+ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    if (is_for_stb(format)) return {decode_info_stb(format, bytes, path), {}};  // encode() writes no facts of them
     BoundedReader memory(bytes);
     const ImageSpec spec = open(format, memory, path)->spec();
-    ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}};
+    ImageHeader header{{.width = spec.width, .height = spec.height, .channels = {}}, read_facts(spec)};
     for (int i = 0; i < spec.nchannels; ++i)
-        info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
-    return info;
-}
-
-Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    if (is_for_stb(format)) return {};  // encode() writes none of them
-    BoundedReader memory(bytes);
-    return read_facts(open(format, memory, path)->spec());
+        header.info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
+    return header;
 }
 
 }  // namespace limn

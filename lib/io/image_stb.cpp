@@ -63,6 +63,16 @@ Facts read_hdr_facts(std::string_view file) {
     return facts;
 }
 
+Facts read_png_facts(std::span<const std::byte> file) {
+    const std::string_view prefix = kFactPrefix;
+    Facts facts;
+    for (const PngChunk& chunk : png_header_chunks(file))
+        if (const std::size_t end = chunk.data.find('\0');
+            chunk.type == "tEXt" && chunk.data.starts_with(prefix) && end != std::string_view::npos)
+            facts.emplace_back(chunk.data.substr(prefix.size(), end - prefix.size()), chunk.data.substr(end + 1));
+    return facts;
+}
+
 void require_readable(FileFormat format, const std::string& path) {
     if (format == FileFormat::exr)
         throw FileError(path, "is an EXR, which this build, without OpenImageIO, cannot read");
@@ -88,15 +98,12 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return decode_stb(format, bytes, path);
 }
 
-ImageInfo decode_info(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
     require_readable(format, path);
-    return decode_info_stb(format, bytes, path);
-}
-
-Facts decode_facts(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    require_readable(format, path);
-    if (format == FileFormat::hdr) return read_hdr_facts(text_of(bytes));
-    return format == FileFormat::png ? decode_stb(format, bytes, path).facts : Facts{};
+    const Facts facts = format == FileFormat::hdr   ? read_hdr_facts(text_of(bytes))
+                        : format == FileFormat::png ? read_png_facts(bytes)
+                                                    : Facts{};
+    return {decode_info_stb(format, bytes, path), facts};
 }
 
 }  // namespace limn

@@ -20,9 +20,8 @@ Vec3 newell_normal(std::span<const Float3> polygon) {
 bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& triangles) {
     triangles.clear();
     const Place count = static_cast<Place>(polygon.size());
-    const auto fan = [&triangles](Place a, Place b, Place c) { triangles.push_back({a, b, c}); };
     if (count == 3 || !project(polygon)) {
-        for (Place i = 1; i + 1 < count; ++i) fan(0, i, i + 1);
+        for (Place i = 1; i + 1 < count; ++i) triangles.push_back({0, i, i + 1});
         return true;
     }
     previous_.resize(count);
@@ -33,8 +32,6 @@ bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& tr
     for (Place i = 0; i < count; ++i) {
         previous_[i] = i == 0 ? count - 1 : i - 1;
         next_[i] = i + 1 == count ? 0 : i + 1;
-    }
-    for (Place i = 0; i < count; ++i) {
         is_dent_[i] = turn(previous_[i], i, next_[i]) <= 0;
         candidates_.push_back({next_[i], 0});  // from corner 1 on: a quadrilateral is cut between 0 and 2
     }
@@ -88,33 +85,28 @@ void PolygonCutter::fill_grid() {
     if (dents == 0) return;
     lower_ = upper_ = points_[0];
     for (const Point& p : points_) {
-        lower_ = {std::min(lower_.x, p.x), std::min(lower_.y, p.y)};
-        upper_ = {std::max(upper_.x, p.x), std::max(upper_.y, p.y)};
+        lower_ = {std::min(lower_[0], p[0]), std::min(lower_[1], p[1])};
+        upper_ = {std::max(upper_[0], p[0]), std::max(upper_[1], p[1])};
     }
-    const auto cell = [this](Place i) { return row(points_[i].y) * side_ + column(points_[i].x); };
+    const auto cell_of = [this](Place i) { return cell(1, points_[i][1]) * side_ + cell(0, points_[i][0]); };
     cell_start_.assign(side_ * side_ + 1, 0);
     for (Place i = 0; i < points_.size(); ++i)
-        if (is_dent_[i]) ++cell_start_[cell(i)];
+        if (is_dent_[i]) ++cell_start_[cell_of(i)];
     for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
     dents_.resize(dents);
     for (Place i = 0; i < points_.size(); ++i)
-        if (is_dent_[i]) dents_[--cell_start_[cell(i)]] = i;
+        if (is_dent_[i]) dents_[--cell_start_[cell_of(i)]] = i;
 }
 
-std::size_t PolygonCutter::column(double x) const {
-    const double place = (x - lower_.x) / (upper_.x - lower_.x) * static_cast<double>(side_);
-    return std::min(static_cast<std::size_t>(place), side_ - 1);
-}
-
-std::size_t PolygonCutter::row(double y) const {
-    const double place = (y - lower_.y) / (upper_.y - lower_.y) * static_cast<double>(side_);
-    return std::min(static_cast<std::size_t>(place), side_ - 1);
+std::size_t PolygonCutter::cell(std::size_t axis, double place) const {
+    const double cells = (place - lower_[axis]) / (upper_[axis] - lower_[axis]) * static_cast<double>(side_);
+    return std::min(static_cast<std::size_t>(cells), side_ - 1);
 }
 
 // Twice the signed area of a triangle, positive where it turns left.
 double PolygonCutter::turn(Place a, Place b, Place c) const {
     const Point p = points_[a], q = points_[b], r = points_[c];
-    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
 bool PolygonCutter::is_ear(Place i) {
@@ -127,10 +119,10 @@ bool PolygonCutter::is_ear(Place i) {
 // place as one of the triangle's are no obstacle (the ends of a cut that leads to a hole).
 bool PolygonCutter::holds_a_dent(Place a, Place i, Place b) {
     if (side_ == 0) return false;
-    const auto [x0, x1] = std::minmax({points_[a].x, points_[i].x, points_[b].x});
-    const auto [y0, y1] = std::minmax({points_[a].y, points_[i].y, points_[b].y});
-    for (std::size_t y = row(y0); y <= row(y1); ++y) {
-        const std::size_t first = cell_start_[y * side_ + column(x0)], last = cell_start_[y * side_ + column(x1) + 1];
+    const auto [x0, x1] = std::minmax({points_[a][0], points_[i][0], points_[b][0]});
+    const auto [y0, y1] = std::minmax({points_[a][1], points_[i][1], points_[b][1]});
+    for (std::size_t y = cell(1, y0); y <= cell(1, y1); ++y) {
+        const std::size_t first = cell_start_[y * side_ + cell(0, x0)], last = cell_start_[y * side_ + cell(0, x1) + 1];
         for (std::size_t k = first; k < last; ++k) {
             const Place d = dents_[k];
             ++tests_;

@@ -1,6 +1,7 @@
 // Cutting a polygon into triangles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,10 +29,7 @@ public:
 
 private:
     using Place = std::uint32_t;
-    struct Point {
-        double x, y;
-        bool operator==(const Point&) const = default;
-    };
+    using Point = std::array<double, 2>;
     struct Candidate {
         Place place;
         std::uint32_t version;
@@ -39,8 +37,7 @@ private:
 
     bool project(std::span<const Float3> polygon);
     void fill_grid();
-    std::size_t column(double x) const;
-    std::size_t row(double y) const;
+    std::size_t cell(std::size_t axis, double place) const;
     double turn(Place a, Place b, Place c) const;
     bool is_ear(Place i);
     bool holds_a_dent(Place a, Place i, Place b);
