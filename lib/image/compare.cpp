@@ -28,10 +28,6 @@ double share_of_worst(std::vector<double>& errors, double sum) {
     return sum > 0 ? worst / sum : kNaN;
 }
 
-void make_invalid(ImageMetrics& m) {
-    m.relative_mse = m.mse = m.smape = m.psnr_srgb = m.largest_relative = m.worst_share = kNaN;
-}
-
 // `reference(i)` is value i of the reference, in double.
 template <class Reference>
 ImageMetrics compare(const Image& test, Reference reference) {
@@ -60,7 +56,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
     m.largest_x = static_cast<int>(pixel % width);
     m.largest_y = static_cast<int>(pixel / width);
     if (!m.valid) {
-        make_invalid(m);
+        m.relative_mse = m.mse = m.smape = m.psnr_srgb = m.largest_relative = m.worst_share = kNaN;
         return m;
     }
     const double n = static_cast<double>(values.size());
