@@ -15,11 +15,11 @@ namespace {
 
 // After a message, on lines of its own.
 constexpr std::string_view kUsage =
-    "\nusage: limn render MODEL.obj -o OUT.exr [options]    render a model\n"
+    "\nusage: limn render MODEL -o OUT.exr [options]        render a model\n"
     "       limn merge FILM ... -o OUT.exr [options]      one picture from films of its parts\n"
     "       limn compare TEST REF [REF_B] [options]       the error between two images\n"
     "       limn info FILE [--json FILE]                  what a model, a film or an image holds\n"
-    "       limn trace MODEL.obj [options]                which face each ray hits: text or float64 in and out\n"
+    "       limn trace MODEL [options]                    which face each ray hits: text or float64 in and out\n"
     "       limn bench [MODEL.obj ...] [options]          rays a second here, beside Embree where it is there\n"
     "       limn help COMMAND                             the options of a command; limn COMMAND --help too\n"
     "       limn --version";

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_film, load_image, load_obj or read_rays, half an hour if not told otherwise. What leads to new
-# code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
+# run.sh TARGET [SECONDS]: fuzzes load_film, load_image, load_obj, load_ply, load_stl or read_rays, half an hour if not told otherwise. What leads
+# to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 data=$here/../io/data
-target=${1:?TARGET: load_film, load_image, load_obj or read_rays}
+target=${1:?TARGET: load_film, load_image, load_obj, load_ply, load_stl or read_rays}
 seconds=${2:-1800}
 
 launcher=()
@@ -27,6 +27,10 @@ case $target in
             mtl=${obj%.obj}.mtl
             { cat "$obj" && printf '\0' && if [[ -e $mtl ]]; then cat "$mtl"; fi; } >"$seeds/$(basename "$obj")"
         done
+        largest=2048
+        ;;
+    load_ply | load_stl)
+        cp "$here"/seeds/*."${target#load_}" "$seeds"
         largest=2048
         ;;
     load_film)
