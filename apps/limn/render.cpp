@@ -34,12 +34,12 @@ Figure view_of(const std::string& path, const RenderOptions& options, const Cons
 int render_command(int argc, const char* const* argv) {
     Options command(
         "limn render",
-        "Renders a model (OBJ, PLY, STL) under a default light, from the front right unless the camera "
+        "Renders a model (OBJ, PLY, STL, glTF) under a default light, from the front right unless the camera "
         "options say otherwise.");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);
-    command.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY or STL", .required = true},
+    command.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
                 file_name("MODEL", model));
     add_render_options(command, options);
     state_presets(command, view_of_box({{-1, -1, -1}, {1, 1, 1}}, options));

@@ -96,7 +96,7 @@ void trace(const Arguments& a, const Console& console) {
 int trace_command(int argc, const char* const* argv) {
     Options options("limn trace", "Answers which face of a model each ray hits first, or whether it hits any.", kForms);
     Arguments a;
-    options.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY or STL", .required = true},
+    options.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
                 file_name("MODEL", a.model));
     options.add({.name = "--rays", .value = "FILE", .help = "Where the rays come from", .preset = "-, standard input"},
                 file_name("--rays", a.rays));

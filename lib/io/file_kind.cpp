@@ -54,7 +54,7 @@ constexpr Mark kMarks[] = {
     {"\0\0"sv, {"a HEIF picture"}, 4, "ftypmif1"sv},
     {"ply\n"sv, {"a PLY model", {}, false, ModelFormat::ply}},
     {"ply\r"sv, {"a PLY model", {}, false, ModelFormat::ply}},
-    {"glTF"sv, {"a binary glTF model"}},
+    {"glTF"sv, {"a binary glTF model", {}, false, ModelFormat::gltf}},
     {"Kaydara FBX Binary"sv, {"an FBX model"}},
     {"; FBX"sv, {"an FBX model"}},
     {"BLENDER"sv, {"a Blender file"}},
@@ -120,7 +120,8 @@ FileKind kind_of_contents(std::string_view contents) {
     if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
     const std::size_t first = contents.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || contents[first] != '{') return {};
-    return {contents.find("\"asset\"") != std::string_view::npos ? "a glTF model" : "JSON text"};
+    if (contents.find("\"asset\"") == std::string_view::npos) return {"JSON text"};
+    return {"a glTF model", {}, false, ModelFormat::gltf};
 }
 
 }  // namespace limn

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-enum class ModelFormat { ply, stl };
+enum class ModelFormat { gltf, ply, stl };
 
 struct FileKind {
     std::string_view name{};             // "a PNG picture", "UTF-16 text", "a PLY model" and the like; empty if unknown

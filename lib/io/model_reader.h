@@ -12,6 +12,7 @@ namespace limn {
 
 // Each reads a file in memory, which messages call `path`; what it names is beside that. \throws FileError, or a Fault
 // of the file as a whole
+Model read_gltf(std::string_view bytes, const std::string& path, const ModelOptions& options);
 Model read_obj(std::string_view text, const std::string& path, const ModelOptions& options);
 Model read_ply(std::string_view bytes, const std::string& path, const ModelOptions& options);
 Model read_stl(std::string_view bytes, const std::string& path, const ModelOptions& options);

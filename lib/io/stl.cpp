@@ -133,12 +133,13 @@ void read_binary(std::string_view bytes, StlMesh& mesh, Model& model) {
     for (std::uint64_t i = 0; i < stated; ++i) {
         Cursor triangle(file.take(kStlTriangle));
         triangle.take(12);
+        const auto number = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(triangle.little(4))); };
         Float3 corners[3];
-        for (Float3& corner : corners)
-            for (float* to : {&corner.x, &corner.y, &corner.z}) {
-                *to = std::bit_cast<float>(static_cast<std::uint32_t>(triangle.little(4)));
-                demand(std::isfinite(*to), "triangle " + std::to_string(i) + " has a corner that is not finite");
-            }
+        for (Float3& c : corners) {
+            c.x = number(), c.y = number(), c.z = number();
+            demand(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z),
+                   "triangle " + std::to_string(i) + " has a corner that is not finite");
+        }
         mesh.add(corners, "triangle", i);
     }
 }

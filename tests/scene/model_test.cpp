@@ -31,8 +31,9 @@ TEST_CASE("Model: a scene gets an object for each instance, the mesh itself wher
     CHECK(scene.add(model) == 1);
     REQUIRE(scene.objects().size() == 3);
     CHECK(scene.objects()[1] == model.meshes[0]);
-    CHECK(scene.objects()[2]->bounds() == Box{{2, 0, 0}, {3, 1, 1}});
-    CHECK(model.bounds() == Box{{0, 0, 0}, {3, 1, 1}});
+    const Box cube = model.meshes[0]->bounds(), right = transform_box(Transform::translate({2, 0, 0}), cube);
+    CHECK(scene.objects()[2]->bounds() == right);
+    CHECK(model.bounds() == merge(cube, right));
 }
 
 TEST_CASE("Model: a material is replaced by its name, wherever it is, and the triangles are shared", "[scene][model]") {

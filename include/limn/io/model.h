@@ -22,7 +22,7 @@ struct ModelOptions {
 };
 
 /// Reads a model, in any locale; what it is the contents tell, whatever the name: Wavefront OBJ (load_obj), PLY,
-/// STL. What
+/// STL, glTF 2.0 (.gltf and .glb). What
 /// becomes of materials, and what a warning: docs/models.md. Only regular files are read: no pipe, no device.
 ///
 /// \throws FileError naming the file and the place in it: unreadable, no model (and what it appears to be), damaged, no
