@@ -1,5 +1,5 @@
-// Whatever the bytes of a glTF or .glb are, reading them gives a model or a refusal. What it names is beside a file that
-// is not there.
+// Whatever the bytes of a glTF or .glb are, reading them gives a model or a refusal. What it names is beside a file
+// that is not there.
 #include <cstdint>
 
 #include "io/bytes.h"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays, half an hour if not told otherwise. What leads
-# to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
+# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays, half an hour if not
+# told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next
+# time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
