@@ -10,7 +10,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
-       ./build.sh fuzz [load_film] [load_image] [load_obj] [read_rays] [--seconds N]
+       ./build.sh fuzz [load_film] [load_gltf] [load_image] [load_obj] [load_ply] [load_stl] [read_rays] [--seconds N]
        ./build.sh release [--renew]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
@@ -99,7 +99,7 @@ fuzz() {
     local targets=() seconds=1800 target failed=0
     while [[ $# -gt 0 ]]; do
         case $1 in
-            load_film | load_image | load_obj | read_rays) targets+=("$1") ;;
+            load_film | load_gltf | load_image | load_obj | load_ply | load_stl | read_rays) targets+=("$1") ;;
             --seconds)
                 [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
                 seconds=$2
@@ -109,7 +109,7 @@ fuzz() {
         esac
         shift
     done
-    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_image load_obj read_rays)
+    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_gltf load_image load_obj load_ply load_stl read_rays)
     install_needs
     install_missing clang-14 libclang-rt-14-dev
     for target in "${targets[@]}"; do

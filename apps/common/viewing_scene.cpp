@@ -35,7 +35,7 @@ std::shared_ptr<const Hittable> key_light(const Box& box) {
 Scene make_viewing_scene(const Model& model) {
     Scene scene;
     scene.background = kSky;
-    for (const auto& mesh : model.meshes) scene.add(mesh);
+    scene.add(model);
     scene.add(key_light(model.bounds()));
     return scene;
 }

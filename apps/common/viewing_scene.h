@@ -1,7 +1,6 @@
 /// \file
 #pragma once
 
-#include "limn/io/obj.h"
 #include "limn/scene/scene.h"
 
 namespace limn::app {

@@ -7,7 +7,7 @@
 #include "json_output.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
-#include "limn/io/obj.h"
+#include "limn/io/model.h"
 #include "limn/render/film.h"
 #include "limn/shape/mesh_edges.h"
 #include "parse.h"
@@ -30,13 +30,38 @@ std::string corner(const Point3& p) {
     return fmt::format("({}, {}, {})", static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
 }
 
+// What all meshes of a model are together, each once.
+struct MeshSums {
+    std::size_t triangles = 0;
+    EdgeCounts edges;
+    bool has_normals = false, has_uvs = false;  // any
+};
+
+MeshSums sums_of(const Model& model) {
+    MeshSums sums;
+    for (const auto& mesh : model.meshes) {
+        const MeshData& data = mesh->data();
+        const EdgeCounts edges = count_edges(*mesh);
+        sums.triangles += data.triangles.size();
+        sums.edges.edges += edges.edges;
+        sums.edges.open += edges.open;
+        sums.edges.nonmanifold += edges.nonmanifold;
+        sums.has_normals |= !data.normals.empty();
+        sums.has_uvs |= !data.uvs.empty();
+    }
+    return sums;
+}
+
+std::vector<std::string> camera_names(const Model& model) {
+    std::vector<std::string> names;
+    for (const ModelCamera& camera : model.cameras) names.push_back(camera.name);
+    return names;
+}
+
 Description describe_model(const std::string& path) {
-    const Model model = from_files([&] { return load_obj(path); });
-    const Mesh& mesh = *model.meshes.front();  // an OBJ gives one
-    const std::size_t triangles = mesh.data().triangles.size();
-    const EdgeCounts edges = count_edges(mesh);
+    const Model model = from_files([&] { return load_model(path); });
+    const auto& [triangles, edges, has_normals, has_uvs] = sums_of(model);
     const Box box = model.bounds();
-    const bool has_normals = !mesh.data().normals.empty(), has_uvs = !mesh.data().uvs.empty();
 
     Description d;
     const auto row = [&d](const char* name, const auto& value) {
@@ -55,6 +80,11 @@ Description describe_model(const std::string& path) {
     row("normals", yes_or_no(has_normals));
     row("texture coordinates", yes_or_no(has_uvs));
     row("materials", model.materials.empty() ? "none" : fmt::format("{}", fmt::join(model.materials, ", ")));
+    // What an OBJ has none of.
+    if (model.meshes.size() > 1) row("meshes", model.meshes.size());
+    if (model.instances.size() > 1) row("instances", model.instances.size());
+    if (!model.cameras.empty()) row("cameras", fmt::format("{}", fmt::join(camera_names(model), ", ")));
+    if (!model.lights.empty()) row("lights", model.lights.size());
     for (const std::string& warning : model.warnings) row("warning", warning);
 
     d.json = {
@@ -74,6 +104,10 @@ Description describe_model(const std::string& path) {
         {"normals", has_normals},
         {"texture_coordinates", has_uvs},
         {"materials", model.materials},
+        {"meshes", model.meshes.size()},
+        {"instances", model.instances.size()},
+        {"cameras", camera_names(model)},
+        {"lights", model.lights.size()},
         {"warnings", model.warnings},
     };
     return d;
@@ -171,7 +205,7 @@ Description describe(const std::string& path) {
 int info_command(int argc, const char* const* argv) {
     Options options(
         "limn info",
-        "Prints what a file holds: a model (a Wavefront OBJ), a film, or an image with its size, channels and the "
+        "Prints what a file holds: a model (OBJ, PLY, STL, glTF), a film, or an image with its size, channels and the "
         "facts of its render. The kind of file is told by its contents, not by its name.",
         "An open edge belongs to one triangle, a non-manifold edge to more than two. A model without open\n"
         "edges is closed. For this count vertices at the same place are one vertex, and triangles without\n"

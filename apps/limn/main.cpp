@@ -15,11 +15,11 @@ namespace {
 
 // After a message, on lines of its own.
 constexpr std::string_view kUsage =
-    "\nusage: limn render MODEL.obj -o OUT.exr [options]   render a model\n"
+    "\nusage: limn render MODEL -o OUT.exr [options]       render a model\n"
     "       limn merge FILM ... -o OUT.exr [options]     one picture from the films of its parts\n"
     "       limn compare TEST REF [REF_B] [options]      the error between two images\n"
     "       limn info FILE [--json FILE]                 what a model, a film or an image holds\n"
-    "       limn trace MODEL.obj [options]               the face that each ray hits, as text or float64\n"
+    "       limn trace MODEL [options]                   the face that each ray hits, as text or float64\n"
     "       limn bench [MODEL.obj ...] [options]         rays per second on this machine, beside Embree\n"
     "       limn help COMMAND                            the options of a command; or limn COMMAND --help\n"
     "       limn --version";

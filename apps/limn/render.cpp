@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "limn/io/obj.h"
+#include "limn/io/model.h"
 #include "parse.h"
 #include "render_task.h"
 #include "text_file.h"
@@ -20,7 +20,7 @@ Figure view_of_box(const Box& box, const RenderOptions& options) {
 }
 
 Figure view_of(const std::string& path, const RenderOptions& options, const Console& console) {
-    const Model model = load_obj(path);
+    const Model model = load_model(path);
     check_distinct(options.all_outputs(), model.files);
     for (const std::string& warning : model.warnings) console.note(warning);
     Figure figure = view_of_box(model.bounds(), options);
@@ -34,12 +34,12 @@ Figure view_of(const std::string& path, const RenderOptions& options, const Cons
 int render_command(int argc, const char* const* argv) {
     Options command(
         "limn render",
-        "Renders a Wavefront OBJ under a default light. The camera stands at the front right unless its options "
+        "Renders a model (OBJ, PLY, STL, glTF) under a default light. The camera stands at the front right unless its options "
         "say otherwise.");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);
-    command.add({.name = "MODEL", .value = "", .help = "The model, a Wavefront OBJ", .required = true},
+    command.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
                 file_name("MODEL", model));
     add_render_options(command, options);
     state_presets(command, view_of_box({{-1, -1, -1}, {1, 1, 1}}, options));

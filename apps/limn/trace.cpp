@@ -6,7 +6,7 @@
 #include "answer_writer.h"
 #include "commands.h"
 #include "limn/core/error.h"
-#include "limn/io/obj.h"
+#include "limn/io/model.h"
 #include "limn/query/compiled_scene.h"
 #include "parse.h"
 #include "program.h"
@@ -46,10 +46,10 @@ struct Traceable {
 };
 
 Traceable load(const Arguments& a, const Console& console) {
-    Model model = load_obj(a.model, {.textures = false});
+    Model model = load_model(a.model, {.textures = false});
     for (const std::string& warning : model.warnings) console.note(warning);
     Scene scene;
-    for (const auto& mesh : model.meshes) scene.add(mesh);
+    scene.add(model);
     CompiledScene compiled = compile(scene);
     return {std::move(model), std::move(compiled)};
 }
@@ -62,7 +62,7 @@ std::size_t answer_closest(const Traceable& in, std::span<const Ray> rays, Answe
         if (hit.t == kInfinity)
             answers.miss();
         else
-            answers.hit(hit.t, in.model.meshes[hit.object]->face(hit.element), hit.u, hit.v);
+            answers.hit(hit.t, in.model.meshes[in.model.instances[hit.object].mesh]->face(hit.element), hit.u, hit.v);
     }
     return unusable;
 }
@@ -100,9 +100,9 @@ void trace(const Arguments& a, const Console& console) {
 
 int trace_command(int argc, const char* const* argv) {
     Options options("limn trace",
-                    "Prints the face of a Wavefront OBJ that each ray hits first, or whether it hits any.", kForms);
+                    "Prints the face of a model that each ray hits first, or whether it hits any.", kForms);
     Arguments a;
-    options.add({.name = "MODEL", .value = "", .help = "The model, a Wavefront OBJ", .required = true},
+    options.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
                 file_name("MODEL", a.model));
     options.add({.name = "--rays", .value = "FILE", .help = "File of the rays", .preset = "-, which is standard input"},
                 file_name("--rays", a.rays));

@@ -24,13 +24,11 @@ public:
     std::string clean(const std::string& path) {
         while (lines_.next())
             if (const Words words = lines_.words(); !words.empty()) clean_line(words);
-        if (passed_over_ == 0) return std::move(text_);
-        const std::string line = "line " + std::to_string(first_passed_over_);
+        if (passed_over_.count == 0) return std::move(text_);
         if (!has_statement_)
-            throw FileError(path,
-                            line + ": " + in_quotes(first_word_) + " is no statement of an OBJ, nor is any other line");
-        model_.warnings.push_back(std::to_string(passed_over_) + (passed_over_ == 1 ? " line was" : " lines were") +
-                                  " passed over; the first is " + line);
+            throw FileError(path, "line " + std::to_string(passed_over_.first) + ": " + in_quotes(first_word_) +
+                                      " is no statement of an OBJ, nor is any other line");
+        model_.warnings.push_back(passed_over_.warning());
         return std::move(text_);
     }
 
@@ -56,9 +54,8 @@ private:
     }
 
     void pass_over(std::string_view key) {
-        if (passed_over_++ > 0) return;
-        first_passed_over_ = lines_.number();
-        first_word_ = key;
+        if (passed_over_.count == 0) first_word_ = key;
+        passed_over_.add(lines_.number());
     }
 
     // All words must be numbers; the first `kept` go on, where tinyobjloader takes missing ones as 0. What follows (a
@@ -136,7 +133,7 @@ private:
     std::map<std::string, std::uint32_t> slots_;  // of materials
     std::uint32_t slot_ = 0;
     std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0, corners_ = 0;
-    std::size_t passed_over_ = 0, first_passed_over_ = 0;
+    PassedOver passed_over_;
     std::string first_word_;
     bool has_statement_ = false;
 };

@@ -1,5 +1,6 @@
 #include "io/file_kind.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,9 +52,9 @@ constexpr Mark kMarks[] = {
     {"\0\0"sv, {"an AVIF picture"}, 4, "ftypavif"sv},
     {"\0\0"sv, {"a HEIF picture"}, 4, "ftyphei"sv},
     {"\0\0"sv, {"a HEIF picture"}, 4, "ftypmif1"sv},
-    {"ply\n"sv, {"a PLY model"}},
-    {"ply\r"sv, {"a PLY model"}},
-    {"glTF"sv, {"a binary glTF model"}},
+    {"ply\n"sv, {"a PLY model", {}, false, ModelFormat::ply}},
+    {"ply\r"sv, {"a PLY model", {}, false, ModelFormat::ply}},
+    {"glTF"sv, {"a binary glTF model", {}, false, ModelFormat::gltf}},
     {"Kaydara FBX Binary"sv, {"an FBX model"}},
     {"; FBX"sv, {"an FBX model"}},
     {"BLENDER"sv, {"a Blender file"}},
@@ -77,11 +78,11 @@ bool is_pnm(std::string_view contents) {
            (contents[2] == '\n' || contents[2] == ' ' || contents[2] == '\r');
 }
 
-// 80 bytes of any text, the number of triangles, and 50 bytes for each.
-bool is_binary_stl(std::span<const std::byte> file) {
-    if (file.size() < 84) return false;
-    const std::uint64_t triangles = little_endian(file, 80, 4);
-    return triangles > 0 && file.size() == 84 + 50 * triangles;
+bool is_ascii_stl(std::string_view contents) {
+    const auto holds = [beginning = contents.substr(0, 1000)](std::string_view word) {
+        return beginning.find(word) != std::string_view::npos;
+    };
+    return begins_with_solid(contents) && (holds("facet") || holds("FACET") || holds("endsolid"));
 }
 
 // Without a byte order mark: every other byte of Latin text is zero.
@@ -97,19 +98,30 @@ bool is_utf16(std::string_view contents) {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view contents) {
+    if (contents.size() < kStlHeader) return false;
+    const std::uint64_t triangles = little_endian(std::as_bytes(std::span(contents)), 80, 4);
+    return triangles > 0 && contents.size() == kStlHeader + kStlTriangle * triangles;
+}
+
+bool begins_with_solid(std::string_view contents) {
+    const std::string_view text = contents.substr(std::min(contents.size(), contents.find_first_not_of(" \t\r\n")));
+    const bool has_word = text.starts_with("solid") || text.starts_with("SOLID") || text.starts_with("Solid");
+    return has_word && contents.substr(0, kStlHeader).find('\0') == std::string_view::npos;
+}
+
 FileKind kind_of_contents(std::string_view contents) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(contents));
     for (const Mark& mark : kMarks)
         if (has(contents, mark)) return mark.kind;
     if (is_pnm(contents)) return {"a PNM picture"};
-    if (contents.starts_with("solid") && contents.substr(0, 1000).find("facet") != std::string_view::npos)
-        return {"an STL model"};
+    if (is_binary_stl(contents) || is_ascii_stl(contents)) return {"an STL model", {}, false, ModelFormat::stl};
     if (is_utf16(contents)) return {"UTF-16 text"};
-    if (is_binary_stl(bytes)) return {"an STL model"};
     if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
     const std::size_t first = contents.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || contents[first] != '{') return {};
-    return {contents.find("\"asset\"") != std::string_view::npos ? "a glTF model" : "JSON text"};
+    if (contents.find("\"asset\"") == std::string_view::npos) return {"JSON text"};
+    return {"a glTF model", {}, false, ModelFormat::gltf};
 }
 
 }  // namespace limn

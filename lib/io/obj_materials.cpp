@@ -7,6 +7,7 @@
 
 #include "core/read_file.h"
 #include "io/file_kind.h"
+#include "io/model_reader.h"
 #include "io/mtl.h"
 #include "io/obj_reader.h"
 #include "io/text_lines.h"
@@ -92,8 +93,7 @@ public:
     }
 
     std::vector<std::shared_ptr<const Material>> make_all() {
-        std::vector<std::shared_ptr<const Material>> made{options_.default_material};
-        if (!made[0]) made[0] = std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
+        std::vector<std::shared_ptr<const Material>> made{default_material(options_)};
         std::vector<std::string> unknown;
         for (const std::string& name : model_.materials) {
             const auto found = materials_.find(name);

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "core/nearest_float3.h"
 #include "io/obj_reader.h"
 #include "limn/core/error.h"
 
@@ -14,17 +15,13 @@ namespace limn {
 namespace {
 
 // The text holds float32 values, which survive the way through double.
-Float3 to_float3(double x, double y, double z) {
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
-
 tinyobj::callback_t callbacks() {
     tinyobj::callback_t result;
     result.vertex_cb = [](void* file, double x, double y, double z, double) {
-        static_cast<ObjFile*>(file)->positions.push_back(to_float3(x, y, z));
+        static_cast<ObjFile*>(file)->positions.push_back(nearest_float3({x, y, z}));
     };
     result.normal_cb = [](void* file, double x, double y, double z) {
-        static_cast<ObjFile*>(file)->normals.push_back(to_float3(x, y, z));
+        static_cast<ObjFile*>(file)->normals.push_back(nearest_float3({x, y, z}));
     };
     result.texcoord_cb = [](void* file, double u, double v, double) {
         static_cast<ObjFile*>(file)->uvs.push_back({static_cast<float>(u), static_cast<float>(v)});

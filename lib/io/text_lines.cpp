@@ -31,7 +31,8 @@ std::string_view take_line(std::string_view& text) {
 
 }  // namespace
 
-TextLines::TextLines(std::string_view text, std::string path) : path_(std::move(path)), rest_of_text_(text) {
+TextLines::TextLines(std::string_view text, std::string path, LineForm form)
+    : path_(std::move(path)), form_(form), rest_of_text_(text) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.substr(0, 3) == kByteOrderMark) rest_of_text_.remove_prefix(3);
 }
@@ -45,6 +46,7 @@ bool TextLines::next() {
         ++next_number_;
         line_ += part;
         continues = part.ends_with('\\') && !trim(line_).starts_with('#');  // comments may end in a Windows folder
+        continues = continues && form_ == LineForm::as_in_obj;
         if (continues) line_.back() = ' ';
     }
     return true;
@@ -53,7 +55,7 @@ bool TextLines::next() {
 std::vector<std::string_view> TextLines::words() const {
     std::vector<std::string_view> words;
     std::string_view text = trim(line_);
-    while (!text.empty() && text.front() != '#') {
+    while (!text.empty() && (text.front() != '#' || form_ == LineForm::plain)) {
         const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
         words.push_back(word);
         text = trim(text.substr(word.size()));
@@ -81,6 +83,11 @@ float TextLines::require_number(std::string_view word) const {
     const std::optional<float> value = parse_float(word);
     if (!value) fail(in_quotes(word) + " is not a number within the range of float32");
     return *value;
+}
+
+std::string PassedOver::warning() const {
+    return std::to_string(count) + (count == 1 ? " line was" : " lines were") + " passed over; the first is line " +
+           std::to_string(first);
 }
 
 std::optional<float> parse_float(std::string_view word) {

@@ -1,4 +1,4 @@
-// The lines of an OBJ or MTL file, however it was written, and the numbers in them, whatever the locale.
+// The lines of an OBJ, MTL, PLY or STL file, however it was written, and the numbers in them, whatever the locale.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,21 @@
 
 namespace limn {
 
-// Steps through logical lines: a byte order mark is skipped; LF, CR LF and CR end a line; one that ends in a backslash
-// and is no comment continues on the next; the last one needs no end.
+// What a line may hold beside words. As in OBJ: one that ends in a backslash and is no comment continues on the next,
+// and a word that begins with '#' begins a comment.
+enum class LineForm { as_in_obj, plain };
+
+// Steps through logical lines: a byte order mark is skipped; LF, CR LF and CR end a line; the last one needs no end.
 class TextLines {
 public:
-    explicit TextLines(std::string_view text, std::string path = {});
+    explicit TextLines(std::string_view text, std::string path = {}, LineForm form = LineForm::as_in_obj);
     // Moves to the next line; false behind the last.
     bool next();
     // Of the first physical line, counted from 1.
     std::size_t number() const { return number_; }
-    // Words between blanks, up to one that begins with '#'.
+    // What stands behind the line.
+    std::string_view rest() const { return rest_of_text_; }
+    // Words between blanks, up to a comment.
     std::vector<std::string_view> words() const;
     // What stands behind the first `skipped` words, without surrounding blanks: a name may hold blanks, but ends at a
     // comment. Names like "Material #25" are common, so a '#' before a digit is part of the name.
@@ -32,9 +37,20 @@ public:
 
 private:
     std::string path_;
+    LineForm form_;
     std::string_view rest_of_text_;
     std::string line_;
     std::size_t number_ = 0, next_number_ = 1;
+};
+
+// Lines that a reader knows no use for.
+struct PassedOver {
+    std::size_t count = 0, first = 0;
+
+    void add(std::size_t line) {
+        if (count++ == 0) first = line;
+    }
+    std::string warning() const;
 };
 
 // The nearest float32 to a decimal number, ties to even. None if the word is no number, or one that is not finite.

@@ -73,6 +73,13 @@ Mesh::Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials
     if (degenerate_ == data_->triangles.size()) throw Error("Mesh: there is no triangle with an area");
 }
 
+Mesh::Mesh(const Mesh& mesh, std::vector<std::shared_ptr<const Material>> materials) : Mesh(mesh) {
+    if (materials.size() < materials_.size())
+        throw ArgumentError("Mesh: " + std::to_string(materials.size()) + " materials in place of " +
+                            std::to_string(materials_.size()));
+    materials_ = std::move(materials);
+}
+
 std::uint32_t Mesh::face(std::uint64_t element) const {
     return data_->faces.empty() ? static_cast<std::uint32_t>(element) : data_->faces.at(element);
 }

@@ -6,12 +6,17 @@
 #include <tuple>
 
 #include "predicates/mesh_triangle.h"
+#include "shape/position_numbers.h"
 
 namespace limn {
 
 namespace {
 
-// For each vertex a number that it has in common with those at the same position, and with no others.
+// An edge as one number, the same in both directions.
+std::uint64_t edge(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+}  // namespace
+
 std::vector<std::uint32_t> position_numbers(const std::vector<Float3>& vertices) {
     std::vector<std::uint32_t> order(vertices.size()), numbers(vertices.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -26,11 +31,6 @@ std::vector<std::uint32_t> position_numbers(const std::vector<Float3>& vertices)
     }
     return numbers;
 }
-
-// An edge as one number, the same in both directions.
-std::uint64_t edge(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-
-}  // namespace
 
 EdgeCounts count_edges(const Mesh& mesh) {
     const MeshData& data = mesh.data();

@@ -50,7 +50,7 @@ const std::vector<Library>& libraries() {
         row("Highway", "hwy/.*", R"(\bhwy\b)", "lib/(bsdf|lanes|lights|material|predicates|sampling|shade|trace)/.*"),
         row("fmt", "fmt/.*", R"(\bfmt\s*::)", "apps/.*"),
         row("CLI11", "CLI/.*", R"(\bCLI\s*::)", "apps/.*"),
-        row("nlohmann-json", "nlohmann/.*", R"(\bnlohmann\b)", "apps/.*"),
+        row("nlohmann-json", "nlohmann/.*", R"(\bnlohmann\b)", "lib/io/gltf.*"),
     };
     return table;
 }

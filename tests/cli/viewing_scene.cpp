@@ -18,6 +18,7 @@ Scene viewed(double scale = 1) {
         v = to_float3(scale * Vec3{4 * double{v.x} - 1, 4 * double{v.y} - 2, 2 * double{v.z}});
     Model model;
     model.meshes.push_back(std::make_shared<Mesh>(data, nullptr));
+    model.instances.push_back({});
     return app::make_viewing_scene(model);
 }
 

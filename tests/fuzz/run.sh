@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_film, load_image, load_obj or read_rays, half an hour if not told otherwise. What leads to new
-# code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next time. Exit status 0: none failed.
+# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays, half an hour if not
+# told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next
+# time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 data=$here/../io/data
-target=${1:?TARGET: load_film, load_image, load_obj or read_rays}
+target=${1:?TARGET: load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays}
 seconds=${2:-1800}
 
 launcher=()
@@ -28,6 +29,14 @@ case $target in
             { cat "$obj" && printf '\0' && if [[ -e $mtl ]]; then cat "$mtl"; fi; } >"$seeds/$(basename "$obj")"
         done
         largest=2048
+        ;;
+    load_ply | load_stl)
+        cp "$here"/seeds/*."${target#load_}" "$seeds"
+        largest=2048
+        ;;
+    load_gltf)
+        cp "$here"/seeds/*.gltf "$here"/seeds/*.glb "$seeds"
+        largest=4096
         ;;
     load_film)
         cp "$here"/seeds/*.film "$seeds"

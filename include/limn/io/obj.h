@@ -2,45 +2,16 @@
 /// Models from Wavefront files.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "limn/shape/mesh.h"
+#include "limn/io/model.h"
 
 namespace limn {
 
-/// What was read from a model file.
-struct Model {
-    /// An OBJ gives one; `Mesh::face` numbers its faces in file order.
-    std::vector<std::shared_ptr<const Mesh>> meshes;
-    std::size_t vertices = 0;              ///< positions in the file, lines with v
-    std::size_t faces = 0;                 ///< in the file
-    std::size_t dropped_faces = 0;         ///< fewer than three corners, or no area
-    std::size_t degenerate_triangles = 0;  ///< of exactly zero area, which no ray can hit
-    std::vector<std::string> materials;    ///< the names that its usemtl lines give, in the order of their first use
-    /// What in the files was not used as they say, a missing MTL first: a missing texture, an unknown material, lines
-    /// that were passed over, and once for each MTL the words that its materials have and limn does not use.
-    std::vector<std::string> warnings;
-    std::vector<std::string> files;  ///< that were read, or tried: the model, its MTL files, their textures
+using ObjOptions = ModelOptions;  ///< what load_obj puts where the files say nothing
 
-    Box bounds() const;  ///< around all meshes
-};
-
-/// What load_obj puts where the files say nothing.
-struct ObjOptions {
-    /// For faces without a material; by default grey, Lambertian of albedo 0.5.
-    std::shared_ptr<const Material> default_material{};
-    /// Whether the images that materials name are read. Without them a material with map_Kd takes Kd, and without Kd
-    /// (0.6, 0.6, 0.6).
-    bool textures = true;
-};
-
-/// Reads a Wavefront OBJ and its MTL, in any locale. Decimals become the nearest float32. Polygons are cut by ear
-/// clipping; one of many thousand corners that takes too long is dropped with a warning. Vertices are those of the file
-/// unless faces name normals or texture coordinates: then one for each combination, and a corner without a normal, or
-/// with one of length zero, gets its face's, one without a texture coordinate (0, 0).
+/// Reads a Wavefront OBJ and its MTL, in any locale; load_model does so, too. Decimals become the nearest float32.
+/// Polygons are cut by ear clipping; one of many thousand corners that takes too long is dropped with a warning.
+/// Vertices are those of the file unless faces name normals or texture coordinates: then one for each combination, and
+/// a corner without a normal, or with one of length zero, gets its face's, one without a texture coordinate (0, 0).
 ///
 /// What files say in odd ways: lines end in LF, CR LF or CR, and continue behind a backslash; a byte order mark is
 /// skipped; '#' begins a comment. A name may hold blanks; a '#' behind a blank ends it, unless a digit follows

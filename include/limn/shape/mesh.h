@@ -29,8 +29,11 @@ public:
     Mesh(MeshData data, std::shared_ptr<const Material> material);
     Mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials);
     ///@}
+    /// The same triangles, which are shared, of other materials. \throws ArgumentError if there are fewer of them
+    Mesh(const Mesh& mesh, std::vector<std::shared_ptr<const Material>> materials);
 
     const MeshData& data() const { return *data_; }  ///< valid as long as the mesh
+    const std::vector<std::shared_ptr<const Material>>& materials() const { return materials_; }  ///< by slot
     /// The index of the polygon that triangle `element` was cut from. \pre element < data().triangles.size()
     std::uint32_t face(std::uint64_t element) const;
     /// Triangles of exactly zero area, which no ray can hit.

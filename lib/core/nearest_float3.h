@@ -1,0 +1,11 @@
+#pragma once
+
+#include "limn/core/vec.h"
+
+namespace limn {
+
+inline Float3 nearest_float3(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace limn

@@ -1,0 +1,243 @@
+// glTF 2.0 (Khronos, 2021), as JSON with files beside it or as one binary file.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "io/bytes.h"
+#include "io/gltf_meshes.h"
+#include "limn/core/math.h"
+#include "predicates/ray_frame.h"
+
+namespace limn {
+
+namespace {
+
+struct Parts {
+    std::string_view json;
+    std::span<const std::byte> chunk;  // of a binary file
+};
+
+// 4.4: a header of 12 bytes, then chunks of a length, a type and data; JSON first.
+Parts divide(std::string_view bytes) {
+    if (!bytes.starts_with("glTF")) return {bytes, {}};
+    constexpr std::uint64_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+    Cursor file(std::as_bytes(std::span(bytes)), "breaks off within its header");
+    file.take(4);
+    const std::uint64_t version = file.little(4), size = file.little(4);
+    demand(version == 2, "is a binary glTF of version " + std::to_string(version) + "; version 2 is read");
+    demand(size >= 12 && size <= bytes.size(),
+           "breaks off: it states " + std::to_string(size) + " bytes, and has " + std::to_string(bytes.size()));
+    file = Cursor(file.rest().first(size - 12));
+    Parts parts;
+    for (bool is_first = true; !file.rest().empty(); is_first = false) {
+        demand(file.rest().size() >= 8, "breaks off before a chunk");
+        const std::uint64_t length = file.little(4), type = file.little(4);
+        demand(length <= file.rest().size(), "breaks off: a chunk states " + std::to_string(length) +
+                                                 " bytes, and there are " + std::to_string(file.rest().size()));
+        const std::span<const std::byte> data = file.take(length);
+        demand(!is_first || type == kJson, "its first chunk is not JSON");
+        if (is_first) parts.json = text_of(data);
+        if (type == kBinary && parts.chunk.empty()) parts.chunk = data;
+    }
+    demand(!parts.json.empty(), "holds no JSON");
+    return parts;
+}
+
+nlohmann::json parse(std::string_view text) {
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& error) {
+        const std::string what = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
+        throw Fault{"is no JSON: " + what.substr(std::min(what.size(), what.find("] ") + 2), 200)};
+    }
+}
+
+class GltfReader {
+public:
+    GltfReader(const nlohmann::json& root, std::span<const std::byte> chunk, const std::string& path,
+               const ModelOptions& options, Model& model)
+        : document_(root, path),
+          path_(path),
+          options_(options),
+          model_(model),
+          buffers_(document_, chunk, path, model) {}
+
+    void read() {
+        const std::string version = document_["asset"]["version"].text_or("");
+        if (!version.starts_with("2.")) document_["asset"]["version"].fail("is not 2.0, which is read");
+        check_extensions();
+        materials_ = load_gltf_materials(document_, buffers_, path_, options_, model_);
+        GltfMeshes meshes(document_, buffers_, materials_, options_, model_);
+        meshes_ = &meshes;
+        visit_all();
+        if (document_["animations"].size() > 0) model_.warnings.emplace_back("animations are not used");
+        if (document_["skins"].size() > 0) model_.warnings.emplace_back("skins are not used: meshes stand unposed");
+        if (model_.instances.empty())
+            document_.fail(model_.faces == 0 ? "has no usable face: its scene holds no triangles"
+                                             : "has no usable face: all " + std::to_string(model_.faces) +
+                                                   " have no area, or stand nowhere");
+    }
+
+private:
+    struct Visit {
+        GltfValue node;
+        Transform world_from_parent;
+    };
+
+    void check_extensions() {
+        static const std::set<std::string> known{"KHR_lights_punctual",  "KHR_materials_emissive_strength",
+                                                 "KHR_materials_ior",    "KHR_materials_transmission",
+                                                 "KHR_materials_unlit",  "KHR_mesh_quantization",
+                                                 "KHR_texture_transform"};
+        const GltfValue required = document_["extensionsRequired"], used = document_["extensionsUsed"];
+        for (std::size_t i = 0; i < required.size(); ++i) {
+            const std::string name = required[i].text_or("");
+            if (!known.contains(name) && !name.starts_with("KHR_materials_"))
+                required[i].fail("the extension " + name + " is not read");
+        }
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (!known.contains(used[i].text_or("")))
+                model_.warnings.push_back("the extension " + used[i].text_or("") + " is not used");
+    }
+
+    // The nodes of the scene, or of the first, or those that are no other's children.
+    void visit_all() {
+        const GltfValue nodes = document_["nodes"], scenes = document_["scenes"], number = document_["scene"];
+        if (number.exists()) {
+            visit_children(number.in(scenes)["nodes"], {});
+        } else if (scenes.size() > 0) {
+            visit_children(scenes[0]["nodes"], {});
+        } else {
+            std::set<std::uint64_t> children;
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                for (std::size_t k = 0; k < nodes[i]["children"].size(); ++k)
+                    children.insert(nodes[i]["children"][k].natural());
+            for (std::size_t i = nodes.size(); i-- > 0;)
+                if (!children.contains(i)) open_.push_back({nodes[i], {}});
+        }
+        while (!open_.empty()) {
+            const Visit next = open_.back();
+            open_.pop_back();
+            if (!visited_.insert(next.node.place()).second)
+                next.node.fail("has two parents, or is among its own children");
+            visit(next);
+        }
+    }
+
+    // Later, the first child first.
+    void visit_children(const GltfValue& numbers, const Transform& world_from_parent) {
+        for (std::size_t i = numbers.size(); i-- > 0;)
+            open_.push_back({numbers[i].in(document_["nodes"]), world_from_parent});
+    }
+
+    void visit(const Visit& visit) {
+        const auto& [node, world_from_parent] = visit;
+        const Transform world_from_node = world_from_parent * transform_of(node);
+        if (!is_finite(world_from_node)) node.fail("its matrix is not finite");
+        const std::string name = node["name"].text_or("");
+        if (node["mesh"].exists()) add_instances(node, world_from_node, name);
+        if (node["camera"].exists()) add_camera(node["camera"].in(document_["cameras"]), world_from_node, name);
+        const GltfValue light = node["extensions"]["KHR_lights_punctual"]["light"];
+        if (light.exists())
+            add_light(light.in(document_["extensions"]["KHR_lights_punctual"]["lights"]), world_from_node, name);
+        visit_children(node["children"], world_from_node);
+    }
+
+    static Transform transform_of(const GltfValue& node) {
+        Transform m;
+        if (node["matrix"].exists()) {
+            const std::vector<double> columns = node["matrix"].numbers_or(std::vector<double>(16));
+            for (std::size_t row = 0; row < 3; ++row)
+                for (std::size_t column = 0; column < 4; ++column) m.rows[row][column] = columns[4 * column + row];
+            return m;
+        }
+        const std::vector<double> t = node["translation"].numbers_or({0, 0, 0}),
+                                  q = node["rotation"].numbers_or({0, 0, 0, 1}),
+                                  s = node["scale"].numbers_or({1, 1, 1});
+        const double x = q[0], y = q[1], z = q[2], w = q[3];
+        const double rotation[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                                       {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                                       {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column < 3; ++column) m.rows[row][column] = rotation[row][column] * s[column];
+            m.rows[row][3] = t[row];
+        }
+        return m;
+    }
+
+    void add_instances(const GltfValue& node, const Transform& world_from_node, const std::string& name) {
+        const std::vector<std::size_t>& meshes = meshes_->get(node["mesh"]);
+        if (!can_be_inverted(world_from_node))
+            return model_.warnings.push_back(node.place() + ": its matrix is singular, and what it holds left out");
+        for (const std::size_t mesh : meshes) model_.instances.push_back({mesh, world_from_node, name});
+    }
+
+    static bool can_be_inverted(const Transform& m) {
+        try {
+            inverse(m);
+            return !is_singular(m);
+        } catch (const ArgumentError&) {
+            return false;
+        }
+    }
+
+    void add_camera(const GltfValue& description, const Transform& m, const std::string& node_name) {
+        ModelCamera camera;
+        camera.name = node_name.empty() ? description["name"].text_or(description.place()) : node_name;
+        camera.camera.look_from = transform_point(m, {0, 0, 0});
+        camera.camera.look_at = transform_point(m, {0, 0, -1});
+        camera.camera.up = transform_vector(m, {0, 1, 0});
+        if (description["type"].text_or("") == "orthographic") {
+            camera.orthographic_height = 2 * description["orthographic"]["ymag"].number();
+        } else {
+            const GltfValue perspective = description["perspective"], angle = perspective["yfov"];
+            camera.camera.vertical_fov = angle.number() * 180 / kPi;
+            if (!(camera.camera.vertical_fov > 0 && camera.camera.vertical_fov < 180))
+                angle.fail("is not between 0 and pi");
+            if (perspective["aspectRatio"].exists()) camera.camera.aspect_ratio = perspective["aspectRatio"].number();
+        }
+        model_.cameras.push_back(camera);
+    }
+
+    void add_light(const GltfValue& description, const Transform& m, const std::string& node_name) {
+        const std::string type = description["type"].text_or("");
+        ModelLight light;
+        light.name = node_name.empty() ? description["name"].text_or(description.place()) : node_name;
+        if (type != "point" && type != "spot" && type != "directional")
+            description["type"].fail("is none of point, spot and directional");
+        light.kind = type == "point"  ? ModelLight::Kind::point
+                     : type == "spot" ? ModelLight::Kind::spot
+                                      : ModelLight::Kind::directional;
+        const std::vector<double> color = description["color"].numbers_or({1, 1, 1});
+        light.intensity = description["intensity"].number_or(1) * Color{color[0], color[1], color[2]};
+        light.position = transform_point(m, {0, 0, 0});
+        light.direction = normalize(transform_vector(m, {0, 0, -1}));
+        const GltfValue spot = description["spot"];
+        light.inner_cone_angle = spot["innerConeAngle"].number_or(0) * 180 / kPi;
+        light.outer_cone_angle = spot["outerConeAngle"].number_or(kPi / 4) * 180 / kPi;
+        model_.lights.push_back(light);
+    }
+
+    GltfValue document_;
+    const std::string& path_;
+    const ModelOptions& options_;
+    Model& model_;
+    GltfBuffers buffers_;
+    std::vector<GltfMaterial> materials_;
+    GltfMeshes* meshes_ = nullptr;
+    std::vector<Visit> open_;
+    std::set<std::string> visited_;  // places of nodes
+};
+
+}  // namespace
+
+Model read_gltf(std::string_view bytes, const std::string& path, const ModelOptions& options) {
+    Model model;
+    model.files = {path};
+    const Parts parts = divide(bytes);
+    const nlohmann::json root = parse(parts.json);
+    GltfReader(root, parts.chunk, path, options, model).read();
+    return model;
+}
+
+}  // namespace limn

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/gltf_buffers.h"
+#include "limn/io/model.h"
+#include "limn/material/material.h"
+
+namespace limn {
+
+struct GltfMaterial {
+    std::string name;
+    std::shared_ptr<const Material> material;
+    // How its picture lies: which texture coordinates, and where their (u, v) goes, v downward.
+    std::uint64_t uv_set = 0;
+    std::array<double, 3> u_of{1, 0, 0}, v_of{0, 1, 0};
+};
+
+/// All materials of a glTF, as the table in docs/models.md says; what is not used becomes a warning of the model.
+/// \throws FileError naming file and place
+std::vector<GltfMaterial> load_gltf_materials(const GltfValue& document, GltfBuffers& buffers, const std::string& path,
+                                              const ModelOptions& options, Model& model);
+
+}  // namespace limn

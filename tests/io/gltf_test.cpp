@@ -1,0 +1,252 @@
+// glTF 2.0, as JSON and binary.
+#include <cmath>
+
+#include "gltf_files.h"
+#include "limn/core/math.h"
+#include "limn/core/surface.h"
+#include "limn/image/image.h"
+#include "limn/io/image_io.h"
+#include "limn/material/dielectric.h"
+#include "limn/material/diffuse_light.h"
+#include "limn/material/lambertian.h"
+#include "limn/material/metal.h"
+#include "limn/scene/scene.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+const std::string kSquare = embedded_square();
+
+std::string with(const std::string& what, const std::string& by) { return replaced(kSquare, what, by); }
+
+std::string with_material(const std::string& members) {
+    return with(R"("name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "metallicFactor": 0})",
+                members);
+}
+
+Model load(const std::string& bytes, const ModelOptions& options = {}) {
+    const Folder folder;
+    return load_model(folder.write("a.model", bytes), options);
+}
+
+template <class Kind>
+bool is_of(const Model& model) {
+    return dynamic_cast<const Kind*>(model.meshes.at(0)->materials().at(1).get()) != nullptr;
+}
+
+// Of the square's material at a point of the square.
+Color albedo_at(const Model& model, double x, double y) {
+    const auto hit = model.meshes.at(0)->hit({.origin = {x, y, 1}, .direction = {0, 0, -1}});
+    REQUIRE(hit);
+    Surface s;
+    s.uv = *hit->uv;
+    s.normal = s.shading_normal = hit->normal;
+    return kPi * hit->material->value(s, {0, 0, 1}, {0, 0, 1}).value;
+}
+
+double distance(const Color& a, const Color& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+}
+
+// Red, green; blue, white: from the top left, in bytes of a PNG.
+std::string four_pixels(const Folder& folder) {
+    Image image(2, 2);
+    image.set(0, 0, {1, 0, 0});
+    image.set(1, 0, {0, 1, 0});
+    image.set(0, 1, {0, 0, 1});
+    image.set(1, 1, {1, 1, 1});
+    save_image(image, folder.path("four.png"));
+    return folder.read("four.png");
+}
+
+const std::string kTextured = R"("pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}})";
+
+std::string with_texture(const std::string& image, const std::string& material = kTextured) {
+    return replaced(with_material(material), "\"materials\"",
+                    R"("textures": [{"source": 0, "sampler": 0}], "samplers": [{"magFilter": 9728}],
+"images": [{)" + image + "}], \"materials\"");
+}
+
+}  // namespace
+
+TEST_CASE("glTF: embedded, outside and binary buffers give the same mesh", "[io][gltf]") {
+    const Folder folder;
+    folder.write("a b.bin", square_bytes());
+    for (const std::string& bytes :
+         {kSquare, square_gltf("\"uri\": \"a%20b.bin\", "), glb(square_gltf(""), square_bytes())}) {
+        const Model model = load_model(folder.write("a.model", bytes));
+        REQUIRE(model.meshes.size() == 1);
+        const MeshData& data = model.meshes[0]->data();
+        CHECK(data.vertices == std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+        CHECK(data.triangles == std::vector<Index3>{{0, 1, 2}, {0, 2, 3}});
+        CHECK(data.uvs == std::vector<Float2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});  // v upward
+        CHECK(data.material_slots == std::vector<std::uint32_t>{1, 1});
+        CHECK(data.normals.empty());
+        CHECK(model.materials == std::vector<std::string>{"red"});
+        CHECK(model.instances.size() == 1);
+        CHECK(model.instances[0].name == "square");
+        CHECK(model.faces == 2);
+        CHECK(model.vertices == 4);
+        CHECK(model.warnings.empty());
+        CHECK(distance(albedo_at(model, 0.5, 0.5), {1, 0, 0}) < 1e-12);
+    }
+}
+
+TEST_CASE("glTF: strips and fans are cut as the specification says", "[io][gltf]") {
+    using Triangles = std::vector<Index3>;
+    const auto triangles = [](const std::string& text) { return load(text).meshes.at(0)->data().triangles; };
+    CHECK(triangles(with("\"indices\": 2", "\"mode\": 5")) == Triangles{{0, 1, 2}, {1, 3, 2}});
+    CHECK(triangles(with("\"indices\": 2", "\"mode\": 6")) == Triangles{{0, 1, 2}, {1, 3, 2}});
+    CHECK(load(with("\"indices\": 2", "\"mode\": 6")).meshes[0]->data().vertices[2] == Float3{0, 0, 0});
+}
+
+TEST_CASE("glTF: interleaved, normalised and sparse accessors are read", "[io][gltf]") {
+    // Positions of 16 bits in steps of 8 bytes, as KHR_mesh_quantization has them; the rest as before.
+    std::string bytes;
+    for (const int corner : {0, 1, 3, 2})
+        bytes += little((corner & 1) * 65535U, 2) + little((corner >> 1) * 65535U, 2) + little(0, 2) + little(7, 2);
+    bytes += std::string(16, '\0') + square_bytes().substr(48);
+    const std::string whole = square_gltf("\"uri\": \"" + data_uri(bytes) + "\", ");
+    const std::string quantized =
+        replaced(replaced(whole, "\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 8"),
+                 R"("componentType": 5126, "count": 4, "type": "VEC3")",
+                 R"("componentType": 5123, "normalized": true, "count": 4, "type": "VEC3")");
+    CHECK(load(quantized).meshes.at(0)->data().vertices ==
+          std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+
+    // Vertex 2, the third index, moves to the first one's place in the view of texture coordinates: (0, 1, 1).
+    const std::string sparse = replaced(
+        kSquare, "\"type\": \"VEC3\"",
+        R"("type": "VEC3", "sparse": {"count": 1, "indices": {"bufferView": 2, "byteOffset": 4, "componentType": 5123},
+        "values": {"bufferView": 1}})");
+    CHECK(load(sparse).meshes.at(0)->data().vertices ==
+          std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {0, 1, 0}});
+}
+
+TEST_CASE("glTF: nodes place meshes, cameras and lights", "[io][gltf]") {
+    const std::string nodes = R"("nodes": [
+{"children": [1, 2], "translation": [10, 0, 0], "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]},
+{"mesh": 0, "scale": [2, 2, 2], "name": "first"},
+{"mesh": 0, "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,5,0,1], "camera": 0, "name": "eye",
+ "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+"cameras": [{"type": "perspective", "perspective": {"yfov": 1, "aspectRatio": 1.5, "znear": 0.1}}],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 3, "color": [1, 0.5, 0],
+ "spot": {"outerConeAngle": 0.5}}]}})";
+    const Model model = load(with(R"("nodes": [{"mesh": 0, "name": "square"}])", nodes));
+    CHECK(model.meshes.size() == 1);
+    REQUIRE(model.instances.size() == 2);
+    const auto near = [](const Point3& p, const Point3& q) { return length(p - q) < 1e-12; };
+    CHECK(model.instances[0].name == "first");
+    CHECK(near(transform_point(model.instances[0].world_from_mesh, {1, 0, 0}), {10, 2, 0}));
+    CHECK(near(transform_point(model.instances[1].world_from_mesh, {1, 0, 0}), {5, 1, 0}));
+    Scene scene;
+    scene.add(model);
+    CHECK(scene.objects().size() == 2);
+
+    REQUIRE(model.cameras.size() == 1);
+    const ModelCamera& camera = model.cameras[0];
+    CHECK(camera.name == "eye");
+    CHECK(near(camera.camera.look_from, {5, 0, 0}));
+    CHECK(near(camera.camera.look_at, {5, 0, -1}));
+    CHECK(length(camera.camera.up - Vec3{-1, 0, 0}) < 1e-12);
+    CHECK(camera.camera.vertical_fov == Approx(180 / kPi));
+    CHECK(camera.camera.aspect_ratio == 1.5);
+    CHECK_FALSE(camera.orthographic_height);
+
+    REQUIRE(model.lights.size() == 1);
+    const ModelLight& light = model.lights[0];
+    CHECK(light.kind == ModelLight::Kind::spot);
+    CHECK(light.intensity == Color{3, 1.5, 0});
+    CHECK(near(light.position, {5, 0, 0}));
+    CHECK(length(light.direction - Vec3{0, 0, -1}) < 1e-12);
+    CHECK(light.outer_cone_angle == Approx(90 / kPi));
+}
+
+TEST_CASE("glTF: an orthographic camera keeps its height", "[io][gltf]") {
+    const Model model = load(with(R"("nodes": [{"mesh": 0,)", R"("cameras": [{"type": "orthographic", "name": "plan",
+"orthographic": {"xmag": 2, "ymag": 1.5, "zfar": 9, "znear": 0}}], "nodes": [{"mesh": 0, "camera": 0,)"));
+    REQUIRE(model.cameras.size() == 1);
+    CHECK(model.cameras[0].orthographic_height == 3.0);
+    CHECK(model.cameras[0].name == "square");
+}
+
+TEST_CASE("glTF: materials become what there is", "[io][gltf]") {
+    CHECK(is_of<Lambertian>(load(kSquare)));
+    CHECK(is_of<Metal>(load(with_material(R"("name": "default")"))));  // metallicFactor is 1 unless stated
+    CHECK(is_of<Metal>(load(with_material(R"("pbrMetallicRoughness": {"metallicFactor": 0.6})"))));
+    CHECK(is_of<DiffuseLight>(load(with_material(R"("emissiveFactor": [1, 1, 0])"))));
+    CHECK(is_of<Dielectric>(
+        load(with_material(R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}})"))));
+    CHECK(load(with_material(R"("alphaMode": "BLEND")")).warnings ==
+          std::vector<std::string>{"alphaMode of material 'material 0' is not used"});
+    const Model lamp = load(with_material(
+        R"("emissiveFactor": [1, 0.5, 0], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}})"));
+    CHECK(lamp.meshes[0]->materials()[1]->emitted({}) == Color{4, 2, 0});
+    Model model = load(kSquare);
+    model.replace_material("red", std::make_shared<Dielectric>(1.5));
+    CHECK(is_of<Dielectric>(model));
+}
+
+TEST_CASE("glTF: pictures of all three kinds of places lie as they should", "[io][gltf]") {
+    const Folder folder;
+    const std::string png = four_pixels(folder);
+    const std::string in_view = replaced(
+        replaced(with_texture(R"("bufferView": 3, "mimeType": "image/png")"), "\"bufferViews\": [",
+                 R"("bufferViews": [)"),
+        R"("byteOffset": 80, "byteLength": 12}])",
+        R"("byteOffset": 80, "byteLength": 12}, {"buffer": 1, "byteLength": )" + std::to_string(png.size()) + "}]");
+    const std::string second_buffer = in_view.substr(0, in_view.rfind("]}")) + ", {\"uri\": \"" + data_uri(png) +
+                                      "\", \"byteLength\": " + std::to_string(png.size()) + "}]}";
+    for (const std::string& text : {with_texture("\"uri\": \"four.png\""),
+                                    with_texture("\"uri\": \"" + data_uri(png, "image/png") + "\""), second_buffer}) {
+        const Model model = load_model(folder.write("a.gltf", text));
+        CHECK(model.warnings.empty());
+        CHECK(distance(albedo_at(model, 0.25, 0.75), {1, 0, 0}) < 1e-6);
+        CHECK(distance(albedo_at(model, 0.75, 0.75), {0, 1, 0}) < 1e-6);
+        CHECK(distance(albedo_at(model, 0.25, 0.25), {0, 0, 1}) < 1e-6);
+        CHECK(distance(albedo_at(model, 0.75, 0.25), {1, 1, 1}) < 1e-6);
+    }
+}
+
+TEST_CASE("glTF: a base colour multiplies its picture, and a transform moves it", "[io][gltf]") {
+    const Folder folder;
+    four_pixels(folder);
+    const std::string text = with_texture("\"uri\": \"four.png\"", R"("pbrMetallicRoughness": {"metallicFactor": 0,
+"baseColorFactor": [0.5, 0.25, 1, 1], "baseColorTexture": {"index": 0,
+"extensions": {"KHR_texture_transform": {"offset": [0.5, 0]}}}})");
+    const Model model = load_model(folder.write("a.gltf", text));
+    CHECK(distance(albedo_at(model, 0.75, 0.75), {0.5, 0, 0}) < 1e-6);  // half a picture to the left, repeated
+    CHECK(distance(albedo_at(model, 0.25, 0.25), {0.5, 0.25, 1}) < 1e-6);
+}
+
+TEST_CASE("glTF: a picture that cannot be read is named, and the factor stands for it", "[io][gltf]") {
+    const Folder folder;
+    const std::string text = with_texture("\"uri\": \"none.png\"");
+    const Model model = load_model(folder.write("a.gltf", text));
+    REQUIRE(model.warnings.size() == 1);
+    CHECK(model.warnings[0] == folder.path("none.png") + ": there is no such file");
+    CHECK(distance(albedo_at(model, 0.5, 0.5), {1, 1, 1}) < 1e-12);
+    CHECK(load_model(folder.path("a.gltf"), {.textures = false}).warnings.empty());
+    const Model damaged = load(with_texture("\"uri\": \"data:image/png;base64,AAAA\""));
+    REQUIRE(damaged.warnings.size() == 1);
+    CHECK(damaged.warnings[0].find("a.model: images[0]: is not a readable image") != std::string::npos);
+}
+
+TEST_CASE("glTF: each primitive is a mesh of the vertices that it uses", "[io][gltf]") {
+    const std::string text = with(R"("indices": 2, "material": 0})",
+                                  R"("indices": 3, "material": 0}, {"attributes": {"POSITION": 0}, "indices": 4})");
+    const std::string accessors = replaced(text, R"("count": 6, "type": "SCALAR"})",
+                                           R"("count": 6, "type": "SCALAR"},
+{"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"},
+{"bufferView": 2, "byteOffset": 6, "componentType": 5123, "count": 3, "type": "SCALAR"})");
+    const Model model = load(accessors);
+    REQUIRE(model.meshes.size() == 2);
+    CHECK(model.instances.size() == 2);
+    CHECK(model.meshes[0]->data().vertices.size() == 3);
+    CHECK(model.meshes[1]->data().vertices.size() == 3);
+    CHECK(model.meshes[1]->data().uvs.empty());
+    CHECK(model.meshes[1]->data().material_slots[0] == 0);
+    CHECK(model.meshes[1]->face(0) == 1);  // faces of the file
+}
