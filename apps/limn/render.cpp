@@ -32,10 +32,10 @@ Figure view_of(const std::string& path, const RenderOptions& options, const Cons
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
-    Options command(
-        "limn render",
-        "Renders a model (OBJ, PLY, STL, glTF) under a default light. The camera stands at the front right unless its options "
-        "say otherwise.");
+    Options command("limn render",
+                    "Renders a model (OBJ, PLY, STL, glTF) under a default light. The camera stands at the front right "
+                    "unless its options "
+                    "say otherwise.");
     std::string model;
     RenderOptions options;
     options.command_line = "limn " + command_line(argc, argv);

@@ -99,8 +99,8 @@ void trace(const Arguments& a, const Console& console) {
 }  // namespace
 
 int trace_command(int argc, const char* const* argv) {
-    Options options("limn trace",
-                    "Prints the face of a model that each ray hits first, or whether it hits any.", kForms);
+    Options options("limn trace", "Prints the face of a model that each ray hits first, or whether it hits any.",
+                    kForms);
     Arguments a;
     options.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
                 file_name("MODEL", a.model));

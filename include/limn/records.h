@@ -78,7 +78,7 @@ struct MaterialRecord {
     const bsdf::Lobe* lobe = nullptr;        ///< how it scatters; null: it absorbs all light
     TextureId texture = TextureId::none;     ///< albedo, which scales what the lobe scatters; none: white
     TextureId emission = TextureId::none;    ///< radiance on both sides; none: it does not emit
-    double parameter = 0;                    ///< of the lobe. metal: fuzz; dielectric: index of refraction
+    double parameter = 0;                    ///< of the lobe: what the material says
     Fresnel fresnel = Fresnel::exact;        ///< dielectric
     bool specular = false;                   ///< Material::value is zero for all directions
     const Material* object = nullptr;        ///< user-defined; not owning

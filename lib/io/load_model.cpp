@@ -23,8 +23,8 @@ Model read_model(std::string_view bytes, const std::string& path, const ModelOpt
     if (kind.model == ModelFormat::stl || (kind.name.empty() && is_named_stl(path)))
         return read_stl(bytes, path, options);
     if (kind.name.empty() || kind.may_be_text) return read_obj(bytes, path, options);
-    const char* hint =
-        kind.name.starts_with("UTF-") ? "; saved as UTF-8 it can be read" : "; models are read from OBJ, PLY, STL and glTF";
+    const char* hint = kind.name.starts_with("UTF-") ? "; saved as UTF-8 it can be read"
+                                                     : "; models are read from OBJ, PLY, STL and glTF";
     throw FileError(path, "is no model: it appears to be " + std::string(kind.name) + hint);
 }
 

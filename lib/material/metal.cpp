@@ -31,9 +31,9 @@ struct Fuzzy {
     static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>& in) {
         const N fuzz = s.parameter;
         const Vector<N> m = mirror(s.out, s.shading_normal);
-        const N c = dot(in, m);
+        const N c = dot(in, m), height = dot(in, s.normal);
         const N h_squared = fuzz * fuzz - length_squared(cross(in, m));
-        const Mask<N> reached = (c > 0.0) & (h_squared > 0.0) & (dot(in, s.normal) > 0.0) & !is_mirror(s);
+        const Mask<N> mirrors = is_mirror(s), reached = (c > 0.0) & (h_squared > 0.0) & (height > 0.0) & !mirrors;
         const N pdf = sqrt(h_squared) * (3.0 * c * c + h_squared) / (2 * kPi * fuzz * fuzz * fuzz);
         const N drawn = select(reached, pdf, 0.0);
         return {drawn * s.albedo, drawn};

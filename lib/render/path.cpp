@@ -7,7 +7,6 @@
 
 #include "core/spawn.h"
 #include "limn/scene/background.h"
-#include "sampling/sobol_lanes.h"
 #include "shade/shading.h"
 
 namespace limn::transport {
@@ -100,9 +99,9 @@ void PathTracer::draw(const sampling::PathRows<n>& paths, std::size_t first, std
     std::uint32_t group[kShaded] = {};
     for (std::size_t i = 0; i < count; ++i) group[i] = Sampler::group_of(paths.vertex[first + i], use);
     if (paths_[0].sampler.kind() == SamplerKind::sobol)
-        return sampling::draw_sobol({count, paths.base + first, paths.index + first, group}, dimensions, numbers);
+        return sobol::draw({count, paths.base + first, paths.index + first, group}, dimensions, numbers);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto drawn = paths_[paths.path[first + i]].sampler.next_of(group[i]);
+        const auto drawn = paths_[paths.path[first + i]].sampler.numbers_of(group[i]);
         for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
     }
 }
@@ -191,8 +190,8 @@ double PathTracer::want_light_on_the_way(std::size_t row, const FreeFlight& flow
     if (!sample_lights_ || now_->vertex[row] == max_depth_) return 0;
     const std::optional<Equiangular> along = pivot_.along(ray_list_[row], media_);
     if (!along) return 0;
-    Sampler& sampler = paths_[now_->path[row]].sampler;
-    const auto [t, choose, pick, u, v] = sampler.next_of(Sampler::group_of(now_->vertex[row], Use::segment));
+    const Sampler& sampler = paths_[now_->path[row]].sampler;
+    const auto [t, choose, pick, u, v] = sampler.numbers_of(Sampler::group_of(now_->vertex[row], Use::segment));
     const FreeFlight flight = media_.scatter_at(along->sample(t), choose);
     const double odds = flight.scatters ? along->pdf(flight.t) / flight.density : 0;
     Surface& point = met_.surface;

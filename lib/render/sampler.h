@@ -5,10 +5,7 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 
-#include "limn/core/surface.h"
-#include "limn/core/vec.h"
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
 #include "sampling/sobol.h"
@@ -35,70 +32,36 @@ public:
         const std::uint64_t point = sample / Film::kReplicates, replicate = sample % Film::kReplicates;
         // A sequence ends after 2^24 points; what follows is another randomisation.
         const std::uint64_t sequence = (point >> sobol::kIndexBits) * Film::kReplicates + replicate;
-        base_ = sobol::seeds_of(sobol::seeds_of(sobol::mixed(seed + sobol::kStep), pixel), sequence);
-        index_ = sobol::reversed(static_cast<std::uint32_t>(point)) & ~0xffU;
+        base_ = sobol::base_of(seed, pixel, sequence);
+        index_ = sobol::index_of(static_cast<std::uint32_t>(point));
     }
 
-    // What is drawn next is the first group for this use at this vertex of the path; the camera's are before vertex 1.
-    void seek(int vertex, Use use) { group_ = group_of(static_cast<std::uint32_t>(vertex), use); }
-
-    // Each takes a group. In [0, 1).
-    double next() { return draw<1>()[0]; }
-    Uv next_2d() {
-        const auto [u, v] = draw<2>();
-        return {u, v};
-    }
-    Random3 next_3d() {
-        const auto [x, y, z] = draw<3>();
-        return {x, y, z};
-    }
-    std::array<double, 5> next_5d() { return draw<5>(); }
-
-    // What a batch of paths needs to draw by draw_sobol; not where numbers are independent.
+    // What a batch of paths needs for sobol::draw; not where numbers are independent.
     SamplerKind kind() const { return kind_; }
     std::uint64_t base() const { return base_; }
     std::uint32_t index() const { return index_; }
 
-    // The first group for a use at a vertex; it has as many as kGroupsOfUse.
+    // The group for a use at a vertex. The camera's is 0, and the first vertex 1.
     static std::uint32_t group_of(std::uint32_t vertex, Use use) {
         return vertex * kGroupsOfVertex + static_cast<std::uint32_t>(use) * kGroupsOfUse;
     }
-    // The first n numbers of the group, up to 5.
-    std::array<double, 5> next_of(std::uint32_t group) {
-        group_ = group;
-        return draw<5>();
-    }
-
-private:
-    // Flights come last, since there may be many.
-    static constexpr std::uint32_t kGroupsOfVertex = 4096, kGroupsOfUse = 16;
-
-    template <std::size_t n>
-    std::array<double, n> draw() {
-        const std::uint32_t group = group_++;
-        if (kind_ == SamplerKind::independent) return independent<n>(group);
-        const std::uint64_t seeds = sobol::seeds_of(base_, group);
-        const std::uint32_t index = sobol::scrambled_upward(index_, static_cast<std::uint32_t>(seeds));
-        return [&]<std::size_t... d>(std::index_sequence<d...>) {
-            return std::array<double, n>{
-                sobol::number(sobol::reversed_coordinate<d>(index), sobol::seed_of<d>(seeds))...};
-        }
-        (std::make_index_sequence<n>{});
-    }
-
-    template <std::size_t n>
-    std::array<double, n> independent(std::uint32_t group) const {
-        std::array<double, n> numbers{};
-        for (std::size_t first = 0; first < n; first += 4) {
+    // Its numbers, in [0, 1).
+    std::array<double, 5> numbers_of(std::uint32_t group) const {
+        if (kind_ == SamplerKind::sobol) return sobol::numbers_of(base_, index_, group);
+        std::array<double, 5> numbers{};
+        for (std::size_t first = 0; first < numbers.size(); first += 4) {
             const auto block = r123::Philox4x64{}({{pixel_, sample_, group, first / 4}}, {{seed_, 0}});
-            for (std::size_t i = first; i < n && i < first + 4; ++i)
+            for (std::size_t i = first; i < numbers.size() && i < first + 4; ++i)
                 numbers[i] = static_cast<double>(block[i - first] >> 11) * 0x1p-53;
         }
         return numbers;
     }
 
+private:
+    static constexpr std::uint32_t kGroupsOfVertex = 4096, kGroupsOfUse = 16;
+
     SamplerKind kind_;
-    std::uint32_t group_ = 0, index_ = 0;
+    std::uint32_t index_ = 0;
     std::uint64_t seed_, pixel_, sample_, base_ = 0;
 };
 

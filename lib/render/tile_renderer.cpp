@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "render/sampler.h"
-#include "sampling/sobol_lanes.h"
 
 namespace limn::transport {
 
@@ -17,11 +16,11 @@ void draw_first(std::span<Path> paths, std::size_t dimensions, sampling::Row* nu
         const Sampler& sampler = paths[i].sampler;
         base[i] = sampler.base(), index[i] = sampler.index();
         if (sampler.kind() == SamplerKind::sobol) continue;
-        const auto drawn = Sampler(sampler).next_of(0);
+        const auto drawn = sampler.numbers_of(0);
         for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
     }
     if (paths[0].sampler.kind() == SamplerKind::sobol)
-        sampling::draw_sobol({paths.size(), base, index, group}, dimensions, numbers);
+        sobol::draw({paths.size(), base, index, group}, dimensions, numbers);
 }
 
 }  // namespace

@@ -145,16 +145,24 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
 PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out) {
     Passages query{{}, ray.t_max, out, asks_origin};
     search_all(
-        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_passages)
-                                       (of...); }, query, out);
+        scene, ray,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(search_passages)
+            (of...);
+        },
+        query, out);
     return query;
 }
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Closest> query{{ray.t_max}, &filter};
     search_all(
-        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_closest)
-                                       (of...); }, query, nullptr);
+        scene, ray,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(search_filtered_closest)
+            (of...);
+        },
+        query, nullptr);
     Hit& best = query.best;
     if (!scene.media.empty() && best.primitive != flat::RawHit::kMiss)
         best.index_matched = best.index_matched || flat::locate(scene, best.primitive).index_matched;
@@ -164,23 +172,35 @@ Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) 
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Any> query{{ray.t_max}, &filter};
     search_all(
-        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_any)
-                                       (of...); }, query, nullptr);
+        scene, ray,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(search_filtered_any)
+            (of...);
+        },
+        query, nullptr);
     return query.found;
 }
 
 void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out) {
     Filtered<Every> query{{ray.t_max, out}, &filter};
     search_all(
-        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_every)
-                                       (of...); }, query, &out);
+        scene, ray,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(search_filtered_every)
+            (of...);
+        },
+        query, &out);
 }
 
 PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out) {
     Filtered<Passages> query{{{}, ray.t_max, out}, &filter};
     search_all(
-        scene, ray, [](auto&&... of) { HWY_DYNAMIC_DISPATCH(search_filtered_passages)
-                                       (of...); }, query, out);
+        scene, ray,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(search_filtered_passages)
+            (of...);
+        },
+        query, out);
     return query;
 }
 

@@ -8,8 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    limn::fuzz::attempt<limn::FileError>([&] {
-        limn::fuzz::attempt<limn::Fault>([&] { limn::read_ply(bytes, "a.ply", {.crease = 30}); });
-    });
+    limn::fuzz::attempt<limn::FileError>(
+        [&] { limn::fuzz::attempt<limn::Fault>([&] { limn::read_ply(bytes, "a.ply", {.crease = 30}); }); });
     return 0;
 }

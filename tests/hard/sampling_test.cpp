@@ -84,9 +84,8 @@ TEST_CASE("Sampler: the numbers of a pixel, of a sample and of a seed are unifor
     const auto pairs_p = [](const auto& sampler_of) {
         std::uint64_t i = 0;
         return uniform_square_p(kCount, [&] {
-            Sampler sampler = sampler_of(i++);
-            const Uv uv = sampler.next_2d();
-            return std::pair(uv.u, uv.v);
+            const auto numbers = sampler_of(i++).numbers_of(0);
+            return std::pair(numbers[0], numbers[1]);
         });
     };
     CHECK(pairs_p([](std::uint64_t i) { return Sampler(64, 7, i); }) > kSamplerLevel);
@@ -250,8 +249,8 @@ TEST_CASE("Media: free paths are exponential in mean and distribution, and so is
     double sum = 0, tail_sum = 0;
     int missing = 0;
     for (int i = 0; i < draws; ++i) {
-        transport::Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
-        const double u = sampler.next(), in_tail = 1 - std::ldexp(1 - sampler.next(), -24);
+        const Sampler sampler(55, static_cast<std::uint64_t>(i), 0);
+        const double u = sampler.numbers_of(0)[0], in_tail = 1 - std::ldexp(1 - sampler.numbers_of(1)[0], -24);
         const transport::FreeFlight path = media.sample(-std::log1p(-u), 0.5),
                                     far = media.sample(-std::log1p(-in_tail), 0.5);
         if (!path.scatters || !far.scatters) {

@@ -7,7 +7,7 @@
 #include "core/spawn.h"
 #include "limn/limn.h"
 #include "render/sampler.h"
-#include "sampling/sobol_lanes.h"
+#include "sampling/sobol.h"
 #include "shade/stages.h"
 #include "support/random_geometry.h"
 #include "support/single_shading.h"
@@ -132,9 +132,9 @@ TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][s
                 group[i] = Sampler::group_of(i % 7, static_cast<transport::Use>(i % 4));
             }
             for (const std::size_t dimensions : {1u, 2u, 3u, 5u}) {
-                sampling::draw_sobol({count, base, index, group}, dimensions, numbers);
+                sobol::draw({count, base, index, group}, dimensions, numbers);
                 for (std::size_t i = 0; i < count; ++i) {
-                    const auto alone = samplers[i].next_of(group[i]);
+                    const auto alone = samplers[i].numbers_of(group[i]);
                     for (std::size_t d = 0; d < dimensions; ++d) wrong += alone[d] != numbers[d][i];
                 }
             }

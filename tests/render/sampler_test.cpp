@@ -17,14 +17,13 @@ constexpr SamplerKind kKinds[] = {SamplerKind::sobol, SamplerKind::independent};
 // The camera's five, three towards a light and three to scatter by at each of `vertices`.
 std::vector<double> numbers(SamplerKind kind, std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample,
                             int vertices = 1) {
-    Sampler sampler(seed, pixel, sample, kind);
-    const auto camera = sampler.next_5d();
+    const Sampler sampler(seed, pixel, sample, kind);
+    const auto camera = sampler.numbers_of(0);
     std::vector<double> values(camera.begin(), camera.end());
     for (int vertex = 1; vertex <= vertices; ++vertex)
         for (const Use use : {Use::light, Use::scattering}) {
-            sampler.seek(vertex, use);
-            const Random3 r = sampler.next_3d();
-            values.insert(values.end(), {r.x, r.y, r.z});
+            const auto r = sampler.numbers_of(Sampler::group_of(static_cast<std::uint32_t>(vertex), use));
+            values.insert(values.end(), r.begin(), r.begin() + 3);
         }
     return values;
 }
@@ -35,45 +34,24 @@ TEST_CASE("Sampler: independent numbers of seed, pixel and sample 0 are the publ
           "[render][sampler]") {
     // Random123's kat_vectors: counter and key 0.
     const std::uint64_t published[] = {0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b, 0x7e68b68aec7ba23b};
-    const auto drawn = Sampler(0, 0, 0, SamplerKind::independent).next_5d();
+    const auto drawn = Sampler(0, 0, 0, SamplerKind::independent).numbers_of(0);
     for (std::size_t i = 0; i < 4; ++i) CHECK(drawn[i] == static_cast<double>(published[i] >> 11) * 0x1p-53);
 }
 
-TEST_CASE("Sampler: numbers lie between 0 and 1, 1 left out, and a smaller group has the first of a larger one",
-          "[render][sampler]") {
+TEST_CASE("Sampler: numbers lie between 0 and 1, 1 left out", "[render][sampler]") {
     holds([](std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample, std::uint8_t vertex) {
-        for (const SamplerKind kind : kKinds) {
-            Sampler five(seed, pixel, sample, kind), three = five, two = five, one = five;
-            for (Sampler* s : {&five, &three, &two, &one}) s->seek(vertex, Use::flight);
-            for (int group = 0; group < 3; ++group) {
-                const auto all = five.next_5d();
-                for (const double x : all) RC_ASSERT(x >= 0 && x < 1);
-                const Random3 triple = three.next_3d();
-                RC_ASSERT(triple.x == all[0] && triple.y == all[1] && triple.z == all[2]);
-                const Uv pair = two.next_2d();
-                RC_ASSERT(pair.u == all[0] && pair.v == all[1]);
-                RC_ASSERT(one.next() == all[0]);
-            }
-        }
+        for (const SamplerKind kind : kKinds)
+            for (const Use use : {Use::light, Use::scattering, Use::roulette, Use::segment, Use::flight})
+                for (const double x : Sampler(seed, pixel, sample, kind).numbers_of(Sampler::group_of(vertex, use)))
+                    RC_ASSERT(x >= 0 && x < 1);
     });
-}
-
-TEST_CASE("Sampler: what was drawn before changes nothing of what a vertex gets", "[render][sampler]") {
-    for (const SamplerKind kind : kKinds) {
-        Sampler busy(1, 2, 3, kind), fresh(1, 2, 3, kind);
-        busy.next_5d();
-        busy.seek(1, Use::flight);
-        for (int i = 0; i < 1000; ++i) busy.next_2d();
-        for (Sampler* s : {&busy, &fresh}) s->seek(2, Use::roulette);
-        CHECK(busy.next() == fresh.next());
-    }
 }
 
 TEST_CASE("Sampler: numbers have bits beyond the 32 of a Sobol point", "[render][sampler]") {
     for (const SamplerKind kind : kKinds) {
         std::set<std::uint64_t> lowest;
         for (std::uint64_t i = 0; i < 1000; ++i)
-            lowest.insert(static_cast<std::uint64_t>(Sampler(i, 0, 0, kind).next() * 0x1p53) & 0xfff);
+            lowest.insert(static_cast<std::uint64_t>(Sampler(i, 0, 0, kind).numbers_of(0)[0] * 0x1p53) & 0xfff);
         // Of 4096 values 1000 draws leave out 4096 (1 - 1/4096)^1000 = 3208.5, with a standard deviation under 10.
         CHECK(lowest.size() > 887 - 50);
     }

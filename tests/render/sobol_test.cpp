@@ -1,12 +1,13 @@
 // Owen-scrambled Sobol points: against Boost's sequence, against the definition of a net, and by how fast sums
 // converge.
-#include "sampling/sobol.h"
+#include "sampling/sobol-inl.h"
 
 #include <boost/random/sobol.hpp>
 #include <functional>
 #include <set>
 
 #include "catch.h"
+#include "limn/core/surface.h"
 #include "render/sampler.h"
 #include "support/random_geometry.h"
 
@@ -16,18 +17,18 @@ using transport::Sampler;
 
 namespace {
 
+using sobol::HWY_NAMESPACE::scrambled_upward;
+
 std::array<std::uint32_t, sobol::kDimensions> point(std::uint32_t index) {
-    const std::uint32_t r = sobol::reversed(index);
-    return {sobol::reversed(sobol::reversed_coordinate<0>(r)), sobol::reversed(sobol::reversed_coordinate<1>(r)),
-            sobol::reversed(sobol::reversed_coordinate<2>(r)), sobol::reversed(sobol::reversed_coordinate<3>(r)),
-            sobol::reversed(sobol::reversed_coordinate<4>(r))};
+    std::array<std::uint32_t, sobol::kDimensions> p;
+    sobol::HWY_NAMESPACE::find_coordinates<sobol::kDimensions>(sobol::HWY_NAMESPACE::reversed(index), p.data());
+    for (std::uint32_t& coordinate : p) coordinate = sobol::HWY_NAMESPACE::reversed(coordinate);
+    return p;
 }
 
 // Number `sample` of the group that this vertex scatters by.
-std::array<double, 5> numbers(std::uint64_t pixel, std::uint64_t sample, int vertex = 1) {
-    Sampler sampler(17, pixel, sample);
-    sampler.seek(vertex, transport::Use::scattering);
-    return sampler.next_5d();
+std::array<double, 5> numbers(std::uint64_t pixel, std::uint64_t sample) {
+    return Sampler(17, pixel, sample).numbers_of(Sampler::group_of(1, transport::Use::scattering));
 }
 
 // Whether samples 2 first, 2 (first + 1) ... of a replicate have one in each of the boxes of 2^-a by 2^-b.
@@ -50,8 +51,8 @@ double variance_of_mean(std::uint64_t samples, SamplerKind kind, const std::func
     for (int pixel = 0; pixel < pixels; ++pixel) {
         double mean = 0;
         for (std::uint64_t i = 0; i < samples; ++i) {
-            Sampler sampler(3, static_cast<std::uint64_t>(pixel), i, kind);
-            mean += f(sampler.next_3d()) / static_cast<double>(samples);
+            const auto r = Sampler(3, static_cast<std::uint64_t>(pixel), i, kind).numbers_of(0);
+            mean += f({r[0], r[1], r[2]}) / static_cast<double>(samples);
         }
         sum += mean, squares += mean * mean;
     }
@@ -107,8 +108,7 @@ TEST_CASE("Sobol: scrambling turns each bit half of the time, whatever the seed 
         std::array<int, 32> turned{};
         std::array<std::array<int, 32>, 32> together{};
         for (int i = 0; i < seeds; ++i) {
-            const std::uint32_t flips =
-                sobol::scrambled_upward(x, static_cast<std::uint32_t>(random.index(1ULL << 32))) ^ x;
+            const std::uint32_t flips = scrambled_upward(x, static_cast<std::uint32_t>(random.index(1ULL << 32))) ^ x;
             for (std::size_t b = 0; b < 32; ++b) {
                 turned[b] += (flips >> b) & 1;
                 for (std::size_t c = 0; c < b; ++c) together[b][c] += ((flips >> b) ^ (flips >> c)) & 1;
@@ -130,7 +130,7 @@ TEST_CASE("Sobol: a bit is turned by the bits below it alone", "[render][sampler
         const auto x = static_cast<std::uint32_t>(random.index(1ULL << 32)),
                    seed = static_cast<std::uint32_t>(random.index(1ULL << 32));
         const auto bit = static_cast<unsigned>(random.index(32));
-        const std::uint32_t change = sobol::scrambled_upward(x, seed) ^ sobol::scrambled_upward(x ^ (1U << bit), seed);
+        const std::uint32_t change = scrambled_upward(x, seed) ^ scrambled_upward(x ^ (1U << bit), seed);
         CHECK(std::countr_zero(change) == static_cast<int>(bit));
     }
 }

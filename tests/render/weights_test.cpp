@@ -25,16 +25,18 @@ TEST_CASE("Estimators: a lamp's light is shared by the squares of the densities 
     transport::PathTracer tracer(scene.flat(), 2, Estimator::path);
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
-        transport::Sampler numbers(1, 2, i), same_numbers(1, 2, i);
-        same_numbers.seek(1, transport::Use::light);
-        const Random3 pick = same_numbers.next_3d();
+        const transport::Sampler numbers(1, 2, i);
+        const auto numbers_for = [&](transport::Use use) {
+            const auto drawn = numbers.numbers_of(transport::Sampler::group_of(1, use));
+            return Random3{drawn[0], drawn[1], drawn[2]};
+        };
+        const Random3 pick = numbers_for(transport::Use::light);
         const auto drawn = sample_light(scene.flat(), receiver, 0, pick.x, pick.y, pick.z);
         REQUIRE(drawn.has_value());
         const ScatterValue f = material_value(scene.flat(), floor, out, drawn->direction);
         double expected = f.value.r * kRadiance * squares(drawn->pdf, f.pdf) / drawn->pdf;
 
-        same_numbers.seek(1, transport::Use::scattering);
-        const auto scattered = sample_material(scene.flat(), floor, out, same_numbers.next_3d());
+        const auto scattered = sample_material(scene.flat(), floor, out, numbers_for(transport::Use::scattering));
         REQUIRE(scattered.has_value());
         const Ray ray = floor.spawn_ray(scattered->direction, 0);
         if (const auto hit = scene.closest_hit(ray)) {
