@@ -32,6 +32,7 @@
 #include "limn/material/lambertian.h"
 #include "limn/material/material.h"
 #include "limn/material/metal.h"
+#include "limn/material/oren_nayar.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/query/queries.h"
 #include "limn/record_sink.h"

@@ -75,7 +75,7 @@ TEST_CASE("All hits of meshes: random, vertex, edge and in-plane rays meet exact
 TEST_CASE("All hits: as if each object was asked again and again, for every kind of shape, listed and in trees",
           "[hard][all-hits]") {
     Random random(602);
-    for (const std::size_t count_of_shapes : {1, 20, 100}) {
+    for (const std::size_t count_of_shapes : {1u, 20u, 100u}) {
         std::vector<Object> objects;
         for (std::size_t i = 0; i < count_of_shapes; ++i) {
             const Object shape = i % 6 == 5 ? std::make_shared<Disk>(Point3{} + random.in_cube(5), random.unit(),
