@@ -7,6 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
+       ./build.sh queries [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
@@ -20,6 +21,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
   accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
+  queries      wrong answers and rays a second of limn, embreex, Open3D, trimesh and CGAL: docs/queries.md
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
                --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
@@ -31,7 +33,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   docs         the API reference: build/docs/html/index.html
   release      whether all reports are of these sources, and claims true; --renew writes anew those that are not
 
---full takes the longer form if there is one; bench measures the models too. Reports continue where they were
+--full takes the longer form if there is one; bench and queries measure the models too. Reports continue where they were
 interrupted, as long as the sources stay the same.
 TEXT
     exit 2
@@ -63,7 +65,8 @@ program_packages=(
 
 # And what the suite needs: the default targets are all of these.
 install_needs() {
-    install_missing "${program_packages[@]}" pkg-config python3 catch2 librapidcheck-dev libboost-dev
+    install_missing "${program_packages[@]}" pkg-config python3 python3-dev python3-venv catch2 librapidcheck-dev \
+        libboost-dev
 }
 
 build() {
@@ -137,7 +140,7 @@ for option in "$@"; do
     if [[ $option == --full ]]; then
         full=(--full)
         export LIMN_FULL=1
-    elif [[ $command == bench && $option == *.obj ]]; then
+    elif [[ $command =~ ^(bench|queries)$ && $option == *.obj ]]; then
         models+=("$(cd "$caller" && realpath -m "$option")")
     elif [[ $command =~ ^(convergence|compilers|sanitize|fuzz|release)$ ]]; then
         others+=("$option")
@@ -177,6 +180,11 @@ case $command in
         install_missing libembree-dev python3 python3-matplotlib python3-numpy
         build
         /usr/bin/python3 apps/bench/accuracy.py "${full[@]}"
+        ;;
+    queries)
+        install_missing python3-numpy libcgal-dev libgmp-dev libmpfr-dev
+        build
+        /usr/bin/python3 -B apps/bench/queries.py "${full[@]}" "${models[@]}"
         ;;
     compilers)  # builds trees of its own, as the next two do
         install_needs

@@ -23,7 +23,7 @@ from reports import Kept, origin, write
 BIN = ROOT / "build/release/bin"
 RAW = ROOT / "build/accuracy"
 GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "instances", "leaving", "far-origins",
-          "bad-rays", "furnace")
+          "bad-rays", "furnace", "queries")
 # Rays a row, and rays a row of leaks: with --full 1.2e8 through the twelve rows of closed meshes together. 1e8 in each
 # would take two hours of two cores.
 RAYS = {False: ("250000", "1000000"), True: ("1000000", "10000000")}

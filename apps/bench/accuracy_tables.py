@@ -30,6 +30,14 @@ TEXTS = {
                 "the other side of the body, or of the gap. The columns differ only in where the ray starts. In each of "
                 "them limn's exact intersection decides what it hits."),
     "far origins": ("Origins far away", "Half of the rays parallel to an axis, half towards the origin."),
+    "queries": ("Queries",
+                "Rays aimed at vertices, edges and faces, in the planes of faces, along the axes and anywhere, and as "
+                "many points on the surface, an ulp beside it and anywhere. All triangles are looked at for each: by "
+                "a filter in double with a proven bound, then in exact arithmetic. All hits: each triangle that the "
+                "ray meets, once, in order. Crossings: each passage of the ray as moved by the symbolic rule "
+                "([queries](queries.md)), how many there are, and the winding number. Inside: the winding number of "
+                "the point and whether it is on the surface. Nearest: the distance to 2⁻³², the triangle, the sign. "
+                "Hits counted: who takes the number of hits for that of crossings."),
     "bad rays": ("Rays that cannot be used", "Each has to miss. The time is that of one such ray over that of a good "
                  "ray at the same mesh of 20480 triangles. Aborts: Embree has ended the process of its caller."),
     "furnace": ("Furnaces",
@@ -132,6 +140,10 @@ def tables(group):
             group, columns, lambda _, c: f"{share(c['self_hits'], c['asked'])} / {share(c['lost'], c['asked'])}")
     if group["measure"] == "furnace":
         return table(group, columns, lambda _, c: f"{c['figure']:+.1e} ± {c['figure_error']:.0e}", bound=False)
+    if group["measure"] == "queries":
+        rays = sum(row["rays"] for row in group["rows"])
+        return [f"Wrong answers; {count(rays)} of each in all rows together, 3 / N = {3 / rays:.0e}:", ""] + table(
+            group, columns, lambda _, c: count(c["false_hits"]), bound=False)
     if group["measure"] == "bad":
         return table(group, columns, bad_ray, bound=False)
     return (["False hits / false misses:", ""] + table(group, columns, decision)

@@ -1,5 +1,6 @@
 #include "parse.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,20 @@ namespace {
 
 // No side is longer than this: a mistyped size is refused at once and not when memory runs out.
 constexpr int kLongestSide = 65536;
+
+// Parts with commas between them.
+template <std::size_t count>
+std::array<std::string_view, count> divide(std::string_view option, std::string_view text, const std::string& form) {
+    std::array<std::string_view, count> parts;
+    std::string_view rest = text;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t comma = rest.find(',');
+        if ((comma == std::string_view::npos) != (i == count - 1)) refuse(option, text, "is not of the form " + form);
+        parts[i] = rest.substr(0, comma);
+        rest.remove_prefix(std::min(rest.size(), parts[i].size() + 1));
+    }
+    return parts;
+}
 
 }  // namespace
 
@@ -58,19 +73,27 @@ double parse_positive(std::string_view option, std::string_view text) {
 }
 
 std::array<double, 3> parse_triple(std::string_view option, std::string_view text) {
+    const std::array parts = divide<3>(option, text, "x,y,z");
     std::array<double, 3> values{};
-    std::string_view rest = text;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::size_t comma = rest.find(',');
-        if ((comma == std::string_view::npos) != (i == 2)) refuse(option, text, "is not of the form x,y,z");
-        try {
-            values[i] = parse_number(option, rest.substr(0, comma));
+    for (std::size_t i = 0; i < values.size(); ++i) try {
+            values[i] = parse_number(option, parts[i]);
         } catch (const ArgumentError&) {
             refuse(option, text, "holds something that is not a finite number");
         }
-        if (i < 2) rest.remove_prefix(comma + 1);
-    }
     return values;
+}
+
+PixelBounds parse_bounds(std::string_view option, std::string_view text) {
+    const std::array parts = divide<4>(option, text, "X0,Y0,X1,Y1");
+    std::array<int, 4> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) try {
+            values[i] = parse_integer(option, parts[i], 0, kLongestSide);
+        } catch (const ArgumentError&) {
+            refuse(option, text, "must be whole numbers in 0 .. " + std::to_string(kLongestSide));
+        }
+    const PixelBounds bounds{values[0], values[1], values[2], values[3]};
+    if (bounds.width() <= 0 || bounds.height() <= 0) refuse(option, text, "holds no pixel");
+    return bounds;
 }
 
 Size parse_size(std::string_view option, std::string_view text) {

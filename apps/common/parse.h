@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "limn/image/image.h"
 #include "options.h"
 
 namespace limn::app {
@@ -49,6 +50,9 @@ struct Size {
 };
 /// WIDTHxHEIGHT in pixels.
 Size parse_size(std::string_view option, std::string_view text);
+
+/// LEFT,TOP,RIGHT,BOTTOM in pixels, of which there is at least one.
+PixelBounds parse_bounds(std::string_view option, std::string_view text);
 
 /// The arguments as one line that a shell would read back.
 std::string command_line(int argc, const char* const* argv);

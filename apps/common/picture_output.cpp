@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -24,7 +25,8 @@ std::vector<std::string> parse_channels(const std::string& text) {
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string name = text.substr(begin, end - begin);
-        if (name != "error" && name != "samples") refuse("--channels", text, "must be error, samples or error,samples");
+        if (name != "error" && name != "samples" && !FirstHits::knows(name))
+            refuse("--channels", text, "must be of error, samples, albedo, normal, position, depth, object, primitive");
         if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
         names.push_back(name);
         begin = end + 1;
@@ -46,9 +48,14 @@ Image clamped_to_half(Image image, const Console& console) {
 }
 
 // Below eight samples a pixel no error is known: then that channel is NaN.
-std::vector<ImageLayer> layers_of(const PixelMaps& maps, const PictureOptions& options) {
+std::vector<ImageLayer> layers_of(const PixelMaps& maps, const std::optional<FirstHits>& hits,
+                                  const PictureOptions& options) {
     std::vector<ImageLayer> layers;
     for (const std::string& name : options.channels) {
+        if (FirstHits::knows(name)) {
+            std::ranges::move(hits.value().layers(name), std::back_inserter(layers));
+            continue;
+        }
         std::vector<float> values = name == "error" ? maps.error : maps.samples;
         values.resize(maps.samples.size(), std::numeric_limits<float>::quiet_NaN());
         layers.push_back({name, std::move(values)});
@@ -56,13 +63,12 @@ std::vector<ImageLayer> layers_of(const PixelMaps& maps, const PictureOptions& o
     return layers;
 }
 
-bool save_images(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
-                 const Console& console) {
-    if (options.outputs.empty()) return true;
-    const std::vector<ImageLayer> layers = layers_of(result.maps, options);
-    const SaveOptions save{
-        .half = options.half, .facts = picture_facts(result, info, options.command_line), .layers = layers};
-    const Image image = options.half ? clamped_to_half(result.image, console) : result.image;
+std::optional<PartOf> part_of(const FilmInfo& info) {
+    if (!info.crop) return {};
+    return PartOf{info.crop->left, info.crop->top, info.width, info.height};
+}
+
+bool save_images(const Image& image, const SaveOptions& save, const PictureOptions& options, const Console& console) {
     bool all = true;
     for (const std::string& path : options.outputs) try {
             save_image(image, path, save);
@@ -107,10 +113,17 @@ void add_picture_options(Options& options, PictureOptions& o, const std::string&
                  .preset = "none"},
                 file_name("--film", o.film));
     options.add({.name = "--channels",
-                 .value = "error,samples",
-                 .help = "Further channels of an EXR: each pixel's estimated relMSE, its number of samples",
+                 .value = "LIST",
+                 .help = "Further channels of an EXR, with commas between them: error, each pixel's estimated relMSE; "
+                         "samples, how many it has; of the surface that the camera sees first albedo, normal, "
+                         "position, depth, object, primitive",
                  .preset = "none"},
                 [&o](const std::string& s) { o.channels = parse_channels(s); });
+    options.add({.name = "--exposure",
+                 .value = "STOPS",
+                 .help = "Show a PNG brighter, by 2 to the STOPS, or darker",
+                 .preset = "0"},
+                [&o](const std::string& s) { o.exposure = parse_number("--exposure", s); });
     options.add_flag("--half", o.half, "Write EXR with 16 bits a value instead of 32");
     options.add({.name = "--report",
                  .value = "FILE.json",
@@ -129,10 +142,27 @@ void check_picture_options(const PictureOptions& o) {
         if (!path.empty()) check_text_path(path);
 }
 
+void save_preview(const RenderJob& job, const FilmInfo& info, const PictureOptions& options, const Console& console) {
+    const SaveOptions save{.alpha = job.alpha(), .exposure = options.exposure, .part_of = part_of(info)};
+    save_images(job.image(), save, options, console);
+}
+
+bool wants_first_hits(const PictureOptions& options) { return std::ranges::any_of(options.channels, FirstHits::knows); }
+
 bool save_pictures(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
-                   const Console& console) {
+                   const Console& console, const std::optional<FirstHits>& hits) {
     const auto begin = std::chrono::steady_clock::now();
-    const bool saved = save_images(result, info, options, console);
+    bool saved = true;
+    if (!options.outputs.empty()) {
+        const SaveOptions save{.half = options.half,
+                               .facts = picture_facts(result, info, options.command_line),
+                               .layers = layers_of(result.maps, hits, options),
+                               .alpha = result.maps.alpha,
+                               .exposure = options.exposure,
+                               .part_of = part_of(info)};
+        saved =
+            save_images(options.half ? clamped_to_half(result.image, console) : result.image, save, options, console);
+    }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (saved) console.note(summary(result, options));
     if (!options.report.empty()) write_text(options.report, report_json(result, seconds.count()));

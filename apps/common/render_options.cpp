@@ -14,12 +14,22 @@ namespace {
 constexpr int kMostSamples = std::numeric_limits<int>::max();
 constexpr int kMostThreads = 1024;
 
+constexpr std::pair<const char*, Projection> kProjections[] = {{"perspective", Projection::perspective},
+                                                               {"orthographic", Projection::orthographic},
+                                                               {"panorama", Projection::panorama}};
+
 // Stands for what only the scene can tell: see state_presets.
 constexpr const char* kOfScene = "the scene's own";
 
 void add_numbers(Options& options, RenderOptions& o) {
     options.add({.name = "--size", .value = "WxH", .help = "Size of the picture in pixels", .preset = kOfScene},
                 [&o](const std::string& s) { o.size = parse_size("--size", s); });
+    options.add({.name = "--crop",
+                 .value = "X0,Y0,X1,Y1",
+                 .help = "Render these pixels alone, counted from the top left corner: columns X0 to X1 - 1 of rows Y0 "
+                         "to Y1 - 1",
+                 .preset = "all"},
+                [&o](const std::string& s) { o.crop = parse_bounds("--crop", s); });
     options.add({.name = "--spp",
                  .value = "N",
                  .help = "Samples per pixel; with --error or --time-limit the upper limit of their average",
@@ -93,6 +103,8 @@ void add_films(Options& options, RenderOptions& o) {
         file_name("--checkpoint", o.checkpoint));
     add("--every", "SECONDS", "Time between two checkpoints", "60",
         [&o](const std::string& s) { o.every = parse_positive("--every", s); });
+    add("--preview", "SECONDS", "Write the pictures of -o also while they are rendered, each whole, in this interval",
+        "none", [&o](const std::string& s) { o.preview = parse_positive("--preview", s); });
     add("--resume", "FILE",
         "Continue the render of this film. Threads, outputs, --spp, --error and --time-limit may differ. A film "
         "that is also written need not exist yet",
@@ -101,6 +113,12 @@ void add_films(Options& options, RenderOptions& o) {
         [&o](const std::string& s) { o.shard = parse_shard(s); });
     add("--plan", "FILE", "Take as many samples as this plan of limn merge --plan asks for", "none",
         file_name("--plan", o.plan));
+}
+
+Projection parse_projection(const std::string& text) {
+    for (const auto& [name, projection] : kProjections)
+        if (text == name) return projection;
+    refuse("--projection", text, "must be perspective, orthographic or panorama");
 }
 
 void add_camera(Options& options, CameraOptions& o) {
@@ -126,6 +144,11 @@ void add_camera(Options& options, CameraOptions& o) {
             if (!(*o.vertical_fov > 0 && *o.vertical_fov < 180))
                 refuse("--vfov", s, "must be over 0 and under 180 degrees");
         });
+    add("--projection", "perspective|orthographic|panorama",
+        "How the scene is seen: an orthographic view has a --height, a panorama shows all directions",
+        [&o](const std::string& s) { o.projection = parse_projection(s); });
+    add("--height", "H", "Height of an orthographic view in world units",
+        [&o](const std::string& s) { o.view_height = parse_positive("--height", s); });
     add("--aperture-angle", "DEG", "Full angle of the lens, seen from the plane in focus; 0 makes everything sharp",
         [&o](const std::string& s) {
             o.aperture_angle = parse_number("--aperture-angle", s);
@@ -150,6 +173,8 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
     replace(camera.vertical_fov, o.vertical_fov);
     replace(camera.aperture_angle, o.aperture_angle);
     replace(camera.focus_distance, o.focus_distance);
+    replace(camera.projection, o.projection);
+    replace(camera.view_height, o.view_height);
 }
 
 }  // namespace
@@ -168,6 +193,7 @@ void check_together(RenderOptions& o, const std::vector<std::string>& outputs) {
     };
     const bool is_part = o.shard && o.shard->count > 1;
     require(!o.every || !o.checkpoint.empty(), "--every: there is no --checkpoint");
+    require(!o.preview || !o.outputs.empty() || !outputs.empty(), "--preview: there is no -o");
     require(!is_part || !o.film.empty() || !o.checkpoint.empty(),
             "--shard: needs --film or --checkpoint, for a part of a picture is no picture");
     require(!is_part || o.outputs.empty(), "--shard: a part of a picture cannot be written by -o; see limn merge");
@@ -195,6 +221,8 @@ void state_presets(Options& options, const Figure& figure) {
     options.preset("--look-at", triple(c.look_at));
     options.preset("--vup", triple(c.up));
     options.preset("--vfov", fmt::format("{}", c.vertical_fov));
+    options.preset("--projection", kProjections[static_cast<int>(c.projection)].first);
+    options.preset("--height", c.view_height ? fmt::format("{}", *c.view_height) : "as much as --vfov shows");
     options.preset("--aperture-angle", fmt::format("{}", c.aperture_angle));
     options.preset("--focus-dist", c.focus_distance ? fmt::format("{}", *c.focus_distance) : "that of --look-at");
 }
@@ -212,6 +240,7 @@ void apply(const RenderOptions& o, Figure& figure) {
     if (o.time_limit) settings.time_limit = o.time_limit;
     if (o.uniform) settings.uniform = true;
     replace(settings.shard, o.shard);
+    if (o.crop) settings.crop = o.crop;
     replace(settings.seed, o.seed);
     replace(settings.threads, o.threads);
     replace(settings.max_depth, o.max_depth);
@@ -219,6 +248,13 @@ void apply(const RenderOptions& o, Figure& figure) {
     replace(settings.sampler, o.sampler);
     if (o.no_antialias) settings.antialias = false;
     replace_camera(figure.camera, o.camera);
+    const auto require = [](bool holds, const char* what) {
+        if (!holds) throw ArgumentError(what);
+    };
+    require(!o.camera.view_height || figure.camera.projection == Projection::orthographic,
+            "--height: only --projection orthographic has one");
+    require(!o.camera.vertical_fov || figure.camera.projection == Projection::perspective,
+            "--vfov: only --projection perspective has one");
 }
 
 void check_camera_alone(const CameraOptions& o) {

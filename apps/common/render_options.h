@@ -17,7 +17,8 @@ namespace limn::app {
 struct CameraOptions {
     std::optional<Point3> look_from, look_at;
     std::optional<Vec3> up;
-    std::optional<double> vertical_fov, aperture_angle, focus_distance;
+    std::optional<double> vertical_fov, aperture_angle, focus_distance, view_height;
+    std::optional<Projection> projection;
 };
 
 /// What the command line says; empty where it says nothing.
@@ -29,6 +30,8 @@ struct RenderOptions : PictureOptions {
     std::optional<Shard> shard;
     std::string checkpoint, resume, plan;  ///< paths or empty
     std::optional<double> every;           ///< seconds between two checkpoints
+    std::optional<double> preview;         ///< seconds between two previews
+    std::optional<PixelBounds> crop;
     std::optional<Estimator> estimator;
     std::optional<SamplerKind> sampler;
     CameraOptions camera;
@@ -51,7 +54,7 @@ void state_presets(Options& options, const Figure& figure);
 /// written without -o and --film. \throws ArgumentError
 void check_together(RenderOptions& options, const std::vector<std::string>& outputs = {});
 
-/// Replaces what the command line names.
+/// Replaces what the command line names. \throws ArgumentError if the camera has no such thing
 void apply(const RenderOptions& options, Figure& figure);
 
 /// Refuses a camera that is impossible whatever the figure: eye equal to target, up along the view.

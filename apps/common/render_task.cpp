@@ -95,6 +95,7 @@ int run_render_task(const RenderTask& task, const RenderOptions& options, const 
     RenderJob job(scene, figure.camera, figure.settings);
     load_film(job, options, console);
     if (!options.plan.empty()) job.load_plan(options.plan);
+    const FilmInfo& info = job.film().info();
     {
         std::optional<Checkpoints> checkpoints;
         if (!options.checkpoint.empty())
@@ -102,6 +103,8 @@ int run_render_task(const RenderTask& task, const RenderOptions& options, const 
                 bar.clear();
                 console.error(std::string(e.what()) + "; the render goes on without this checkpoint");
             });
+        std::optional<Repeated> previews;
+        if (options.preview) previews.emplace(*options.preview, [&] { save_preview(job, info, options, console); });
         job.run();
     }
     bar.clear();
@@ -112,7 +115,9 @@ int run_render_task(const RenderTask& task, const RenderOptions& options, const 
     bool saved = true;
     for (const std::string& film : written_films(options)) saved &= save_film(job, film, console);
     const RenderResult result = job.result();
-    saved &= save_pictures(result, job.film().info(), options, console);
+    std::optional<FirstHits> hits;
+    if (wants_first_hits(options)) hits = first_hits(scene, figure.camera, figure.settings);
+    saved &= save_pictures(result, info, options, console, hits);
     if (!saved) return kFailed;
     return result.report.complete ? kDone : interrupted_status();
 }

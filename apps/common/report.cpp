@@ -84,6 +84,9 @@ std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResul
         {"seconds.render", text(r.render_seconds)},
         {"error.metric", kMetric},
     };
+    if (const auto& crop = info.crop)
+        facts.emplace_back("crop", fmt::format("{},{},{},{} of {}x{}", crop->left, crop->top, crop->right, crop->bottom,
+                                               info.width, info.height));
     if (e.reason.empty()) {
         facts.emplace_back("error.estimate", text(e.estimate));
         facts.emplace_back("error.ci95_low", text(e.ci95_low));

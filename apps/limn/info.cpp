@@ -7,9 +7,9 @@
 #include "json_output.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
-#include "limn/io/model.h"
 #include "limn/render/film.h"
 #include "limn/shape/mesh_edges.h"
+#include "model_input.h"
 #include "parse.h"
 #include "program.h"
 #include "text_file.h"
@@ -58,8 +58,16 @@ std::vector<std::string> camera_names(const Model& model) {
     return names;
 }
 
+// "object/group", or one of the two.
+std::vector<std::string> part_names(const Model& model) {
+    std::vector<std::string> names;
+    for (const ModelPart& part : model.parts)
+        names.push_back(part.object + (part.object.empty() || part.group.empty() ? "" : "/") + part.group);
+    return names;
+}
+
 Description describe_model(const std::string& path) {
-    const Model model = from_files([&] { return load_model(path); });
+    const Model model = from_files([&] { return read_model(path); });
     const auto& [triangles, edges, has_normals, has_uvs] = sums_of(model);
     const Box box = model.bounds();
 
@@ -79,6 +87,7 @@ Description describe_model(const std::string& path) {
     row("closed", yes_or_no(edges.is_closed()));
     row("normals", yes_or_no(has_normals));
     row("texture coordinates", yes_or_no(has_uvs));
+    if (!model.parts.empty()) row("parts", fmt::format("{}", fmt::join(part_names(model), ", ")));
     row("materials", model.materials.empty() ? "none" : fmt::format("{}", fmt::join(model.materials, ", ")));
     // What an OBJ has none of.
     if (model.meshes.size() > 1) row("meshes", model.meshes.size());
@@ -103,6 +112,7 @@ Description describe_model(const std::string& path) {
         {"closed", edges.is_closed()},
         {"normals", has_normals},
         {"texture_coordinates", has_uvs},
+        {"parts", part_names(model)},
         {"materials", model.materials},
         {"meshes", model.meshes.size()},
         {"instances", model.instances.size()},
@@ -134,6 +144,9 @@ Description describe_image(const std::string& path) {
 
     Description d;
     d.table += table_row("size", fmt::format("{} x {}", image.width, image.height));
+    if (const auto& whole = image.part_of)
+        d.table += table_row(
+            "part of", fmt::format("{} x {}, from ({}, {}) on", whole->width, whole->height, whole->left, whole->top));
     d.table += table_row("channels", fmt::format("{}", fmt::join(names, ", ")));
     d.table += table_row("pixel type", pixel_type(image.channels));
     for (auto& [name, value] : facts) {
@@ -159,6 +172,7 @@ Description describe_film(const std::string& path) {
     };
     row("film of", info.scene);
     row("size", fmt::format("{} x {}", info.width, info.height));
+    if (const auto& c = info.crop) row("crop", fmt::format("{},{},{},{}", c->left, c->top, c->right, c->bottom));
     row("shard", shard);
     row("samples a pixel", film.mean_samples());
     row("finished", yes_or_no(film.is_finished()));
@@ -186,6 +200,7 @@ Description describe_film(const std::string& path) {
 
 // A model first, for which no library of images is loaded.
 Description describe(const std::string& path) {
+    if (path == kStandardInput) return describe_model(path);
     if (is_film_file(path)) return describe_film(path);
     try {
         return describe_model(path);
@@ -211,11 +226,14 @@ int info_command(int argc, const char* const* argv) {
         "edges is closed. For this count vertices at the same place are one vertex, and triangles without\n"
         "area are left out.");
     std::string file;
-    options.add({.name = "FILE", .value = "", .help = "The model, film or image", .required = true},
+    options.add({.name = "FILE",
+                 .value = "",
+                 .help = "The model, film or image; - for a model from standard input",
+                 .required = true},
                 file_name("FILE", file));
     JsonOption json_option(options);
     if (!options.parse(argc, argv)) return kDone;
-    json_option.check({file});
+    json_option.check({input_file(file)});
 
     const Description description = describe(file);
     json_option.write(description.table, description.json);

@@ -28,6 +28,7 @@ void check(const Arguments& a) {
     std::vector<std::string> outputs = a.all_outputs();
     if (!a.plan.empty()) outputs.push_back(a.plan);
     if (outputs.empty()) throw ArgumentError("-o is missing: nothing would be written");
+    if (wants_first_hits(a)) throw ArgumentError("--channels: a film knows error and samples alone");
     check_distinct(outputs, a.films);
     check_picture_options(a);
     if (!a.plan.empty()) check_text_path(a.plan);

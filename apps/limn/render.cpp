@@ -1,56 +1,140 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "commands.h"
-#include "limn/io/model.h"
+#include "limn/core/error.h"
+#include "limn/io/image_io.h"
+#include "limn/scene/model_view.h"
+#include "model_input.h"
 #include "parse.h"
 #include "render_task.h"
 #include "text_file.h"
-#include "viewing_scene.h"
 
 namespace limn::app {
 
 namespace {
 
-// The default settings, and a camera that has the whole box in the picture.
-Figure view_of_box(const Box& box, const RenderOptions& options) {
+struct Arguments : RenderOptions {
+    std::string model, camera_name, environment;
+    std::optional<Color> background;
+    bool no_background = false, no_ground = false;
+    std::optional<double> crease;
+};
+
+// Without -o or options.
+Figure default_figure() {
     Figure figure;
-    const Size size = options.size.value_or(Size{figure.settings.width, figure.settings.height});
-    figure.camera = frame_box(box, static_cast<double>(size.width) / size.height);
+    figure.camera.vertical_fov = 30;
+    figure.settings.samples_per_pixel = 8;  // a picture within seconds, which knows its error
     return figure;
 }
 
-Figure view_of(const std::string& path, const RenderOptions& options, const Console& console) {
-    const Model model = load_model(path);
-    check_distinct(options.all_outputs(), model.files);
+// The camera of a model with that name. Where it has a shape of its own and the options none, the picture gets that.
+void take_camera(const Model& model, const Arguments& a, Figure& figure) {
+    const auto found = std::ranges::find(model.cameras, a.camera_name, &ModelCamera::name);
+    if (found == model.cameras.end()) {
+        std::vector<std::string> names;
+        for (const ModelCamera& camera : model.cameras) names.push_back(camera.name);
+        throw FileError(a.model, fmt::format("has no camera '{}'; it has {}", a.camera_name,
+                                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    }
+    figure.camera = found->camera;
+    if (!figure.camera.aspect_ratio || a.size) return;
+    const double width = std::round(figure.settings.height * *figure.camera.aspect_ratio);
+    figure.settings.width = static_cast<int>(std::clamp(width, 1.0, static_cast<double>(kMaxSide)));
+}
+
+std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) {
+    Image image = load_image(path);
+    try {
+        return std::make_shared<EnvironmentMap>(std::move(image));
+    } catch (const ArgumentError& e) {
+        throw FileError(path, e.what());
+    }
+}
+
+Figure view_of(const Arguments& a, const Console& console) {
+    const Model model = read_model(a.model, {.crease = a.crease});
+    check_distinct(a.all_outputs(), model.files);
     for (const std::string& warning : model.warnings) console.note(warning);
-    Figure figure = view_of_box(model.bounds(), options);
-    figure.name = std::filesystem::path(path).filename().string();
-    figure.scene = make_viewing_scene(model);
+    Figure figure = default_figure();
+    const Size size = a.size.value_or(Size{figure.settings.width, figure.settings.height});
+    ViewOptions view{.aspect_ratio = static_cast<double>(size.width) / size.height,
+                     .background = a.background,
+                     .ground = !a.no_ground};
+    if (a.camera.projection) view.projection = *a.camera.projection;
+    if (a.camera.up) view.up = *a.camera.up;
+    if (!a.environment.empty()) view.environment = load_environment(a.environment);
+    ModelView seen = view_model(model, view);
+    figure.scene = std::move(seen.scene);
+    figure.camera = seen.camera;
+    figure.name = std::filesystem::path(a.model).filename().string();
+    figure.settings.transparent = a.no_background;
+    if (!a.camera_name.empty()) take_camera(model, a, figure);
     return figure;
+}
+
+void add_view_options(Options& command, Arguments& a) {
+    const auto add = [&command](const char* name, const char* value, const char* help, const char* preset,
+                                const Use& use) {
+        command.add({.name = name, .value = value, .help = help, .preset = preset, .group = "View"}, use);
+    };
+    add("--background", "R,G,B|none",
+        "Color of what is behind the model, which is light as well; none: the sky is light, and the picture gets alpha",
+        "a sky", [&a](const std::string& text) {
+            a.no_background = text == "none";
+            if (a.no_background) return;
+            const auto [r, g, b] = parse_triple("--background", text);
+            if (!(r >= 0 && g >= 0 && b >= 0)) refuse("--background", text, "must not be negative");
+            a.background = Color{r, g, b};
+        });
+    add("--environment", "FILE",
+        "Light the model by an environment map, an equirectangular picture, in place of the key light and the sky",
+        "none", [&a](const std::string& text) { a.environment = text; });
+    add("--ground", "none", "Nothing for the model to stand on", "a ground", [&a](const std::string& text) {
+        if (text != "none") refuse("--ground", text, "must be none");
+        a.no_ground = true;
+    });
+    add("--smooth", "DEG", "Smooth meshes without normals where their triangles turn by less than that",
+        "they stay flat", [&a](const std::string& text) {
+            a.crease = parse_number("--smooth", text);
+            if (!(*a.crease >= 0 && *a.crease <= 180)) refuse("--smooth", text, "must lie in 0 .. 180 degrees");
+        });
+    add("--camera", "NAME", "A camera of the model file; limn info names them", "one that frames the model",
+        [&a](const std::string& text) { a.camera_name = text; });
 }
 
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
     Options command("limn render",
-                    "Renders a model (OBJ, PLY, STL, glTF) under a default light. The camera stands at the front right "
-                    "unless its options "
-                    "say otherwise.");
-    std::string model;
-    RenderOptions options;
-    options.command_line = "limn " + command_line(argc, argv);
-    command.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
-                file_name("MODEL", model));
-    add_render_options(command, options);
-    state_presets(command, view_of_box({{-1, -1, -1}, {1, 1, 1}}, options));
+                    "Renders a model (OBJ, PLY, STL, glTF) on a ground, under a key light and a sky. The camera stands "
+                    "at the front right unless its options say otherwise.");
+    Arguments a;
+    a.command_line = "limn " + command_line(argc, argv);
+    command.add({.name = "MODEL",
+                 .value = "",
+                 .help = "The model: OBJ, PLY, STL or glTF; - for standard input",
+                 .required = true},
+                file_name("MODEL", a.model));
+    add_render_options(command, a);
+    add_view_options(command, a);
+    state_presets(command, default_figure());
     command.preset("--look-from", "the front right, from where all of the model is seen");
     command.preset("--look-at", "the middle of the model");
+    command.preset("--height", "as high as the model");
     if (!command.parse(argc, argv)) return kDone;
-    check_together(options);
+    check_together(a);
+    if (a.background && !a.environment.empty())
+        throw ArgumentError("--environment: is the background, and so is --background");
 
-    const Console console{.program = "limn", .quiet = options.quiet};
-    const RenderTask task{.make = [&] { return view_of(model, options, console); }, .inputs = {model}};
-    return run_render_task(task, options, console);
+    const Console console{.program = "limn", .quiet = a.quiet};
+    const RenderTask task{.make = [&] { return view_of(a, console); }, .inputs = {input_file(a.model), a.environment}};
+    return run_render_task(task, a, console);
 }
 
 }  // namespace limn::app

@@ -6,8 +6,8 @@
 #include "answer_writer.h"
 #include "commands.h"
 #include "limn/core/error.h"
-#include "limn/io/model.h"
 #include "limn/query/compiled_scene.h"
+#include "model_input.h"
 #include "parse.h"
 #include "program.h"
 #include "progress_bar.h"
@@ -46,7 +46,7 @@ struct Traceable {
 };
 
 Traceable load(const Arguments& a, const Console& console) {
-    Model model = load_model(a.model, {.textures = false});
+    Model model = read_model(a.model, {.textures = false});
     for (const std::string& warning : model.warnings) console.note(warning);
     Scene scene;
     scene.add(model);
@@ -102,7 +102,10 @@ int trace_command(int argc, const char* const* argv) {
     Options options("limn trace", "Prints the face of a model that each ray hits first, or whether it hits any.",
                     kForms);
     Arguments a;
-    options.add({.name = "MODEL", .value = "", .help = "The model: OBJ, PLY, STL or glTF", .required = true},
+    options.add({.name = "MODEL",
+                 .value = "",
+                 .help = "The model: OBJ, PLY, STL or glTF; - for standard input",
+                 .required = true},
                 file_name("MODEL", a.model));
     options.add({.name = "--rays", .value = "FILE", .help = "File of the rays", .preset = "-, which is standard input"},
                 file_name("--rays", a.rays));
@@ -110,6 +113,8 @@ int trace_command(int argc, const char* const* argv) {
     options.add_flag("--binary", a.binary, "Read rays and write results as little-endian float64 instead of text");
     options.add_flag("--quiet", a.quiet, "Print errors only");
     if (!options.parse(argc, argv)) return kDone;
+    if (a.model == kStandardInput && a.rays == kStandardInput)
+        throw ArgumentError("MODEL -: standard input cannot be the rays too; name a file of them with --rays");
     if (a.binary && ::isatty(STDOUT_FILENO) != 0)
         throw ArgumentError("--binary: standard output is a terminal; send it to a file or a pipe");
 

@@ -29,6 +29,12 @@ public:
     std::uint32_t lattice(const std::shared_ptr<const PerlinLattice>& lattice);
     ///@}
 
+    /// Adds a light that is no shape, or sets the environment.
+    ///@{
+    void light(const LightRecord& record) { records_.lights.push_back(record); }
+    void environment(const EnvironmentRecord& record) { records_.environment = record; }
+    ///@}
+
     /// Adds a shape to the current group. Its ids must be the sink's own. What a record points to must stay alive: a
     /// mesh's arrays as long as `owner`; a user-defined shape as long as the scene, which keeps what was added to it
     /// and for what groups hold. \throws ArgumentError if there are too many primitives

@@ -4,6 +4,7 @@
 /// what they point to alive through `RecordSink::keep`.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,8 +28,9 @@ namespace limn {
 class Hittable;
 class Texture;
 namespace bsdf {
+struct AlbedoTable;
 struct Lobe;
-}
+}  // namespace bsdf
 
 /// Rows of the tables of SceneRecords.
 ///@{
@@ -59,6 +61,14 @@ static_assert(sizeof(TextureRecord) == 64);
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
+/// On which sides of a surface a lamp shines: on that of the outward normal, which is the front, or the other.
+enum class Sides : std::uint8_t { both, front, back };
+
+/// Whether the side that a ray comes from shines.
+constexpr bool shines(Sides sides, bool front_face) {
+    return sides == Sides::both || (sides == Sides::front) == front_face;
+}
+
 /// How to call a user-defined material.
 struct MaterialThunks {
     /// Material::emitted, Material::sample and Material::value.
@@ -72,17 +82,37 @@ struct MaterialThunks {
 /// The `kind` of user-defined materials.
 inline constexpr std::string_view kUserDefinedMaterial = "user-defined";
 
+/// What some materials say beside albedo and parameter.
+struct MaterialDetails {
+    static constexpr std::size_t kNumbers = 6;  ///< at most
+
+    /// Of the lobe, which says which is which: numbers, a second texture (none: white), and the albedos of its
+    /// microsurface, where it has one.
+    ///@{
+    std::array<double, kNumbers> numbers{};
+    TextureId texture = TextureId::none;
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table{}, coat_albedo_table{};
+    ///@}
+
+    TextureId normal_map = TextureId::none;  ///< of all lobes: what bends the shading normal, see NormalMap
+    TextureId opacity = TextureId::none;     ///< of all lobes: how much light the surface stops, see AlphaMask
+    double opacity_cutoff = 0;               ///< over 0: all where the opacity is at least that, none elsewhere
+    bool tangents = false;                   ///< asks for Surface::dp_du and dp_dv
+};
+
 /// One material.
 struct MaterialRecord {
     std::string_view kind = "";              ///< "lambertian", "diffuse-light", ...; of static lifetime
     const bsdf::Lobe* lobe = nullptr;        ///< how it scatters; null: it absorbs all light
     TextureId texture = TextureId::none;     ///< albedo, which scales what the lobe scatters; none: white
-    TextureId emission = TextureId::none;    ///< radiance on both sides; none: it does not emit
+    TextureId emission = TextureId::none;    ///< radiance; none: it does not emit
+    Sides sides = Sides::both;               ///< that emit
     double parameter = 0;                    ///< of the lobe: what the material says
     Fresnel fresnel = Fresnel::exact;        ///< dielectric
     bool specular = false;                   ///< Material::value is zero for all directions
     const Material* object = nullptr;        ///< user-defined; not owning
     const MaterialThunks* thunks = nullptr;  ///< user-defined: how to call it; of static lifetime
+    std::shared_ptr<const MaterialDetails> details = nullptr;  ///< null: it says no more
 };
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
@@ -190,6 +220,29 @@ struct ForeignRecord {
 };
 static_assert(sizeof(ForeignRecord) == 64);
 
+// ---- lights that are no shapes -------------------------------------------------------------------------------------
+
+/// How a light record shines.
+enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
+
+/// A light without a shape: see limn/scene/lights.h.
+struct LightRecord {
+    LightSourceKind kind = LightSourceKind::point;  ///< decides which fields count
+    Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
+    Point3 position;                                ///< point, spot
+    Vec3 direction;                                 ///< unit, into which it shines; of all but a point
+    double cos_inner = 1;                           ///< spot: of the angle up to which it has all of its intensity
+    double cos_outer = 0;                           ///< spot: of the angle from which on it has none
+    double one_minus_cos = 0;                       ///< sun: 1 - cos of its angular radius
+};
+
+/// An equirectangular map: see EnvironmentMap.
+struct EnvironmentRecord {
+    std::shared_ptr<const Image> image{};  ///< null: there is none
+    Transform world_from_map{};            ///< turns and mirrors only
+    double scale = 1;                      ///< of the radiance
+};
+
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
 /// `count` primitives of one kind, in the order of description. For a mesh, an instance or a medium: one row with
@@ -227,8 +280,10 @@ struct SceneRecords {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
+    std::vector<LightRecord> lights;
     ///@}
 
+    EnvironmentRecord environment;                                  ///< in place of the background, if it has an image
     std::vector<GroupRecord> groups = std::vector<GroupRecord>(1);  ///< row 0 is the scene itself
     std::vector<std::shared_ptr<const void>> kept;                  ///< owners of what the records point to
     std::vector<std::string> tags;  ///< of user-defined objects, in the order of description

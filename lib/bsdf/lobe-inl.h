@@ -12,6 +12,7 @@
 #endif
 
 #include <optional>
+#include <type_traits>
 
 #include "bsdf/lobe.h"
 #include "sampling/rows-inl.h"
@@ -28,6 +29,11 @@ struct LobeInput {
     Vector<N> normal, shading_normal, out, albedo;
     Mask<N> front_face, exact_fresnel;
     N parameter;
+    // Of materials with details.
+    Vector<N> dp_du, second_texture;
+    N details[MaterialDetails::kNumbers];
+    std::conditional_t<std::is_same_v<N, double>, const AlbedoTable*, const AlbedoTable*const*> albedo_table,
+        coat_albedo_table;
 };
 
 template <class N>
@@ -55,10 +61,20 @@ HWY_INLINE Vector<N> mirror(const Vector<N>& out, const Vector<N>& normal) {
 }
 
 HWY_INLINE LobeInput<Doubles> input_at(const Vertices& v, std::size_t i) {
-    return {
-        load3<Doubles>(v.normal, i),   load3<Doubles>(v.shading_normal, i),   -normalize(load3<Doubles>(v.incoming, i)),
-        load3<Doubles>(v.albedo, i),   load<Doubles>(v.front_face + i) > 0.0, load<Doubles>(v.exact_fresnel + i) > 0.0,
-        load<Doubles>(v.parameter + i)};
+    LobeInput<Doubles> input{load3<Doubles>(v.normal, i),
+                             load3<Doubles>(v.shading_normal, i),
+                             -normalize(load3<Doubles>(v.incoming, i)),
+                             load3<Doubles>(v.albedo, i),
+                             load<Doubles>(v.front_face + i) > 0.0,
+                             load<Doubles>(v.exact_fresnel + i) > 0.0,
+                             load<Doubles>(v.parameter + i),
+                             load3<Doubles>(v.dp_du, i),
+                             load3<Doubles>(v.second_texture, i),
+                             {},
+                             v.albedo_table + i,
+                             v.coat_albedo_table + i};
+    for (std::size_t k = 0; k < MaterialDetails::kNumbers; ++k) input.details[k] = load<Doubles>(v.details[k] + i);
+    return input;
 }
 
 template <class L>
@@ -88,7 +104,23 @@ inline LobeInput<double> input_of(const Surface& s, const Vec3& out, const Color
             {albedo.r, albedo.g, albedo.b},
             s.front_face,
             fresnel == Fresnel::exact,
-            parameter};
+            parameter,
+            broadcast<double>(s.dp_du),
+            {1, 1, 1},
+            {},
+            nullptr,
+            nullptr};
+}
+
+// With details.
+inline LobeInput<double> input_of(const Surface& s, const Vec3& out, const Color& albedo, double parameter,
+                                  const MaterialDetails& details, const Color& second_texture = {1, 1, 1}) {
+    LobeInput<double> input = input_of(s, out, albedo, parameter);
+    input.second_texture = {second_texture.r, second_texture.g, second_texture.b};
+    for (std::size_t k = 0; k < MaterialDetails::kNumbers; ++k) input.details[k] = details.numbers[k];
+    input.albedo_table = details.albedo_table.get();
+    input.coat_albedo_table = details.coat_albedo_table.get();
+    return input;
 }
 
 template <class L>
@@ -115,19 +147,19 @@ HWY_AFTER_NAMESPACE();
     void value(bsdf::Vertices& v, const bsdf::Rows3& in) { bsdf::HWY_NAMESPACE::value_all<Formulas>(v, in); }
 
 #undef LIMN_LOBE
-#define LIMN_LOBE(...)                                                            \
-    HWY_EXPORT(sample);                                                           \
-    HWY_EXPORT(value);                                                            \
-    constexpr bsdf::Lobe kLobe{__VA_ARGS__,                                       \
-                               .sample =                                          \
-                                   [](bsdf::Vertices& v) {                        \
-                                       HWY_DYNAMIC_DISPATCH(sample)               \
-                                       (v);                                       \
-                                   },                                             \
-                               .value =                                           \
-                                   [](bsdf::Vertices& v, const bsdf::Rows3& in) { \
-                                       HWY_DYNAMIC_DISPATCH(value)                \
-                                       (v, in);                                   \
-                                   }};
+#define LIMN_LOBE(...)                                                                   \
+    HWY_EXPORT(sample);                                                                  \
+    HWY_EXPORT(value);                                                                   \
+    extern constexpr bsdf::Lobe kLobe{__VA_ARGS__,                                       \
+                                      .sample =                                          \
+                                          [](bsdf::Vertices& v) {                        \
+                                              HWY_DYNAMIC_DISPATCH(sample)               \
+                                              (v);                                       \
+                                          },                                             \
+                                      .value =                                           \
+                                          [](bsdf::Vertices& v, const bsdf::Rows3& in) { \
+                                              HWY_DYNAMIC_DISPATCH(value)                \
+                                              (v, in);                                   \
+                                          }};
 
 #endif

@@ -2,9 +2,11 @@
 // (lib/material), in terms of lobe-inl.h; those of user-defined materials are called one by one.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "limn/core/surface.h"
+#include "limn/records.h"
 #include "sampling/rows.h"
 
 namespace limn::bsdf {
@@ -28,6 +30,12 @@ struct Vertices {
     Rows3 albedo;
     Row parameter = {}, exact_fresnel = {};  // 1: Fresnel::exact
     std::vector<UserDefined> user_defined;   // as many, where the lobe calls them
+    // Of materials with details.
+    Rows3 dp_du, second_texture;
+    Row details[MaterialDetails::kNumbers] = {};
+    const AlbedoTable* albedo_table[kShaded] = {};
+    const AlbedoTable* coat_albedo_table[kShaded] = {};
+    std::uint32_t folds = 0;  // bits of those whose shading normal a NormalMap bent, on a one-sided lobe
 
     // For sample: three uniform numbers. Of its results the weight is black where light is absorbed, and the pdf is 0
     // where the direction is specular.
@@ -46,6 +54,10 @@ struct Lobe {
     void (*sample)(Vertices&);
     void (*value)(Vertices&, const Rows3& in);
 };
+
+// A lobe's functions, to be called so. What it reflects below the surface around a bent normal is mirrored there.
+void sample(const Lobe& lobe, Vertices& vertices);
+void value(const Lobe& lobe, Vertices& vertices, const Rows3& in);
 
 extern const Lobe kUserDefined;
 

@@ -6,6 +6,8 @@
 
 #include "compile/steps.h"
 #include "core/require.h"
+#include "flat/tables.h"
+#include "scene/lights.h"
 
 namespace limn::compiler {
 
@@ -24,14 +26,6 @@ void fill_rows(const SceneRecords& records, flat::Scene& out) {
     });
 }
 
-flat::Instance pack(const InstanceRecord& record) {
-    flat::Instance instance{record.world_from_object0, record.world_from_object1, {}, record.group, record.moving};
-    if (record.moving) return instance;  // inverted anew for each ray
-    instance.object_from_world = inverse(record.world_from_object0);
-    instance.lost = inverse_error(record.world_from_object0);
-    return instance;
-}
-
 void move_tables(SceneRecords&& records, flat::Scene& out) {
     for (const GroupRecord& group : records.groups) {
         flat::Group& packed = out.groups.emplace_back();
@@ -44,11 +38,15 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
     for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
     out.foreign = std::move(records.foreign);
     out.medium_shapes = std::move(records.media);
-    for (const InstanceRecord& instance : records.instances) out.instances.push_back(pack(instance));
+    for (const InstanceRecord& instance : records.instances) {
+        out.instances.emplace_back().group = instance.group;
+        place_instance(out.instances.back(), instance.world_from_object0, instance.world_from_object1);
+    }
     out.materials = std::move(records.materials);
     out.textures = std::move(records.textures);
     out.images = std::move(records.images);
     out.lattices = std::move(records.lattices);
+    out.light_sources = std::move(records.lights);
     out.kept = std::move(records.kept);
 }
 
@@ -63,9 +61,13 @@ void gather_features(flat::Scene& s) {
         f.foreign_textures |= t.kind == TextureKind::foreign;
         f.texture_coordinates |= t.kind == TextureKind::image;
     }
-    for (const MaterialRecord& m : s.materials) f.foreign_materials |= m.kind == kUserDefinedMaterial;
+    for (const MaterialRecord& m : s.materials) {
+        f.foreign_materials |= m.kind == kUserDefinedMaterial;
+        f.tangents |= m.kind == kUserDefinedMaterial || (m.details && m.details->tangents);
+    }
     f.texture_coordinates |= f.foreign_textures || f.foreign_materials || f.foreign_shapes;
-    f.background = !is_black(s.background_bottom) || !is_black(s.background_top);
+    const bool has_map = s.environment.image != nullptr;
+    f.background = !has_map && (!is_black(s.background_bottom) || !is_black(s.background_top));
 
     const auto name = [&](bool present, const char* feature) {
         if (!present) return;
@@ -83,8 +85,9 @@ void gather_features(flat::Scene& s) {
     name(textures, "texture");
     name(f.foreign_textures, "foreign-texture");
     name(f.foreign_materials, "foreign-material");
-    name(!s.lights.empty(), "light");
+    name(s.lights.size() > 0 || !s.light_sources.empty(), "light");
     name(f.background, "background");
+    name(has_map, "environment");
 }
 
 // Meshes whose vertices are all that there is of them get places, to be filled with the tree.
@@ -99,6 +102,7 @@ void reserve_places(flat::Scene& s) {
 void release_arrays(flat::Scene& s) {
     const bool fits = s.blocks.size() / 2 * flat::kMaxBlock < flat::kNothing;
     for (flat::Mesh& mesh : s.meshes) {
+        if (mesh.arrays.triangles.empty()) continue;
         if (!fits) mesh.places = {};
         if (mesh.places.empty()) continue;
         mesh.slots.assign(mesh.arrays.material_slots.begin(), mesh.arrays.material_slots.end());
@@ -153,22 +157,35 @@ std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto&... tables) {
         return (std::size_t{0} + ... + (tables.size() * sizeof(tables[0])));
     };
-    const flat::LightTable& lights = s.lights;
-    std::size_t sum = sizeof(s) + std::apply(bytes, s.rows) +
-                      bytes(s.meshes, s.instances, s.foreign, s.groups, s.ranges, s.references, s.nodes, s.blocks,
-                            s.first_of_object, s.object_of, s.medium_shapes, s.media, s.materials, s.textures, s.kept) +
-                      bytes(lights.own, lights.places, lights.refs, lights.nodes, lights.by_number,
-                            lights.strength_before, lights.guide, lights.instances) +
-                      bytes(s.list.entries, s.list.planar, s.list.round);
+    std::size_t sum = sizeof(s) + bytes(s.meshes, s.foreign, s.materials, s.kept);
+    flat::each_table(s, [&](const auto& table) { sum += bytes(table); });
     for (const flat::Mesh& mesh : s.meshes) {
         const MeshView& a = mesh.arrays;
         sum += bytes(a.vertices, a.triangles, a.normals, a.uvs, a.material_slots, mesh.materials, mesh.places);
     }
     for (const auto& image : s.images) sum += image->values().size_bytes();
+    if (s.environment.image) sum += s.environment.image->values().size_bytes();
     return sum + s.lattices.size() * sizeof(PerlinLattice);
 }
 
 }  // namespace
+
+void place_instance(flat::Instance& instance, const Transform& at_time0, const Transform& at_time1) {
+    instance.world_from_object0 = at_time0, instance.world_from_object1 = at_time1;
+    instance.moving = !(at_time0 == at_time1);
+    instance.object_from_world = instance.moving ? Transform{} : inverse(at_time0);  // or anew for each ray
+    instance.lost = instance.moving ? InverseError{} : inverse_error(at_time0);
+}
+
+void derive(flat::Scene& s) {
+    judge_memory(s);
+    place_media(s);
+    collect_lights(s);
+    gather_features(s);
+    release_arrays(s);
+    s.digest = digest_of(s);
+    s.memory_bytes = memory_of(s);
+}
 
 flat::Scene flatten(const limn::Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
@@ -177,11 +194,15 @@ flat::Scene flatten(const limn::Scene& scene) {
     RecordSink sink;
     flat::Scene out;
     for (const auto& object : scene.objects()) {
+        out.material_names.push_back(scene.material_names(out.first_of_object.size()));
         out.first_of_object.push_back(sink.primitives());
         object->lower(sink);
     }
-    out.digest = digest(sink.records(), scene.background);
+    for (const LightSource& light : scene.lights()) sink.light(record_of(light));
+    if (const auto& map = scene.environment) sink.environment({map->image(), map->world_from_map(), map->scale()});
+    out.unmoved_digest = digest_of_unmoved(sink.records(), scene.background);
     out.untagged = sink.records().untagged;
+    const EnvironmentRecord environment = sink.records().environment;
     move_tables(std::move(sink).take(), out);
     if (!out.foreign.empty())  // their records point into the described objects
         for (const auto& object : scene.objects()) out.kept.push_back(object);
@@ -190,14 +211,10 @@ flat::Scene flatten(const limn::Scene& scene) {
     out.background_top = scene.background.top;
     reserve_places(out);
     build_trees(out);
-    judge_memory(out);
     name_objects(out);
-    place_media(out);
-    collect_lights(out);
-    gather_features(out);
-    release_arrays(out);
+    tabulate(environment, out.environment);
     count_unassigned(out);
-    out.memory_bytes = memory_of(out);
+    derive(out);
     out.compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
 }

@@ -64,6 +64,10 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
     sum.table(r.materials, [&](const MaterialRecord& m) {
         sum.text(std::string(m.kind));
         sum.add(m.fresnel, m.texture, m.emission, m.parameter);
+        if (m.sides != Sides::both) sum.add(m.sides);  // as below
+        if (!m.details) return;
+        for (const double number : m.details->numbers) sum.add(number);
+        sum.add(m.details->texture, m.details->normal_map, m.details->opacity, m.details->opacity_cutoff);
     });
 }
 
@@ -78,7 +82,7 @@ void add_meshes(const SceneRecords& r, SceneChecksum& sum) {
 
 }  // namespace
 
-Hash128 digest(const SceneRecords& r, const Background& background) {
+Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
     SceneChecksum sum;
     sum.add(background.bottom, background.top);
     add_textures(r, sum);
@@ -92,8 +96,7 @@ Hash128 digest(const SceneRecords& r, const Background& background) {
                     std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
                 });
     });
-    sum.table(r.instances,
-              [&](const InstanceRecord& i) { sum.add(i.world_from_object0, i.world_from_object1, i.group, i.moving); });
+    sum.table(r.instances, [&](const InstanceRecord& i) { sum.add(i.group); });
     sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });
     sum.table(r.foreign, [&](const ForeignRecord& f) { sum.add(f.bounds); });
     sum.table(r.groups, [&](const GroupRecord& group) {
@@ -102,6 +105,26 @@ Hash128 digest(const SceneRecords& r, const Background& background) {
         });
     });
     sum.table(r.tags, [&](const std::string& tag) { sum.text(tag); });
+    // As above: nothing where there is none.
+    if (!r.lights.empty())
+        sum.table(r.lights, [&](const LightRecord& l) {
+            sum.add(l.kind, l.color, l.position, l.direction, l.cos_inner, l.cos_outer, l.one_minus_cos);
+        });
+    if (const EnvironmentRecord& map = r.environment; map.image) {
+        sum.add(map.image->width(), map.image->height(), map.world_from_map, map.scale);
+        sum.array(map.image->values());
+    }
+    return sum.digest();
+}
+
+Hash128 digest_of(const flat::Scene& scene) {
+    Checksum sum;
+    for (const std::uint64_t word : scene.unmoved_digest) sum.add(word);
+    for (const flat::Instance& i : scene.instances) {
+        sum.add(std::as_bytes(std::span(i.world_from_object0.rows)));
+        sum.add(i.moving);
+        if (i.moving) sum.add(std::as_bytes(std::span(i.world_from_object1.rows)));
+    }
     return sum.digest();
 }
 

@@ -26,7 +26,11 @@ public:
     explicit GroupTree(flat::Scene& scene) : scene_(scene) {}
 
     void build(flat::Group& group) {
+        if (&group == &scene_.groups.front())
+            scene_.below_root = {scene_.nodes.size(), scene_.blocks.size(),     scene_.references.size(),
+                                 scene_.kinds,        scene_.stored_primitives, scene_.degenerate};
         for (std::uint32_t i = 0; i < group.range_count; ++i) add(group.first_range + i);
+        measure_others();
         group.bounds = bounds_;
         group.extent = extent_;
         // Where float serves, boxes stay as they are.
@@ -52,9 +56,13 @@ private:
         boxes_.resize(references_.size());
         if (range.kind == PrimitiveKind::mesh) return measure_mesh(range, first);
         scene_.stored_primitives += range.kind == PrimitiveKind::instance ? 0 : stored;
-        for (std::size_t index = first; index < references_.size(); ++index) {
-            Candidate& other = others_.emplace_back(measure(range, references_[index]));
-            other.index = static_cast<std::uint32_t>(index);
+        for (std::size_t index = first; index < references_.size(); ++index)
+            others_.push_back({.reference = references_[index], .index = static_cast<std::uint32_t>(index)});
+    }
+
+    void measure_others() {
+        accel::for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
+        for (const Candidate& other : others_) {
             bounds_.extend(other.box);
             extent_ = std::max(extent_, accel::finite_extent(other.box));
         }
@@ -93,19 +101,20 @@ private:
         if (range.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
     }
 
-    Candidate measure(const PrimitiveRange& range, const flat::Reference& reference) const {
-        const std::uint32_t row = range.first_row + reference.element;
-        if (range.kind == PrimitiveKind::foreign) return {reference, scene_.foreign[row].bounds};
-        if (range.kind == PrimitiveKind::instance) {
+    void measure(Candidate& other) const {
+        const PrimitiveRange& range = scene_.ranges[other.reference.range];
+        const std::uint32_t row = range.first_row + other.reference.element;
+        if (range.kind == PrimitiveKind::foreign) {
+            other.box = scene_.foreign[row].bounds;
+        } else if (range.kind == PrimitiveKind::instance) {
             const flat::Instance& instance = scene_.instances[row];
-            return {reference, instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                               flat::group_at(scene_, instance.group).bounds)};
+            other.box = instance_bounds(instance.world_from_object0, instance.world_from_object1,
+                                        flat::group_at(scene_, instance.group).bounds);
+        } else {
+            primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
+                other.box = primitive.bounds(), other.packed_error = primitive.packed_error();
+            });
         }
-        Candidate measured{reference, {}};
-        primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
-            measured.box = primitive.bounds(), measured.packed_error = primitive.packed_error();
-        });
-        return measured;
     }
 
     // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.

@@ -160,8 +160,8 @@ private:
     flat::LightTable& table_;
 };
 
-// Shares of the whole; all alike if they cannot be told.
-void normalize_strengths(std::vector<LightItem>& items) {
+// Shares of the whole, which is returned; all alike if they cannot be told.
+double normalize_strengths(std::vector<LightItem>& items) {
     double total = 0;
     for (const LightItem& item : items) total += item.bounds.strength;
     const double count = static_cast<double>(items.size());
@@ -172,17 +172,20 @@ void normalize_strengths(std::vector<LightItem>& items) {
         sum += share;
     }
     for (LightItem& item : items) item.bounds.strength /= sum;
+    return total;
 }
 
 }  // namespace
 
 void build_light_tree(std::vector<LightItem> items, flat::LightTable& table) {
     if (items.empty()) return;
-    normalize_strengths(items);
-    if (items.size() > 1) Builder(items, table).build(0, items.size(), 0);
+    table.strength = normalize_strengths(items);
+    // Beside distant lights even a single one is weighed, by its node.
+    if (items.size() > 1 || !table.distant.empty()) Builder(items, table).build(0, items.size(), 0);
     double before = 0;
     for (const LightItem& item : items) {
-        table.by_number.push_back({item.number, static_cast<std::uint32_t>(table.refs.size())});
+        if (item.number != LightItem::kNoPrimitive)
+            table.by_number.push_back({item.number, static_cast<std::uint32_t>(table.refs.size())});
         table.refs.push_back(item.ref);
         table.strength_before.push_back(before);
         before += item.bounds.strength;

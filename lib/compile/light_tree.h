@@ -23,11 +23,13 @@ struct LightBounds {
 
 struct LightItem {
     flat::LightRef ref;
+    static constexpr std::uint64_t kNoPrimitive = ~std::uint64_t{0};
     std::uint64_t number = 0;  // of its primitive
     LightBounds bounds;
 };
 
-// Fills the table's ranks and nodes; places and own lights are there already. The strengths are made to add up to 1.
+// Fills the table's ranks and nodes; places, own lights and distant ones are there already. The strengths are made to
+// add up to 1.
 void build_light_tree(std::vector<LightItem> items, flat::LightTable& table);
 
 }  // namespace limn::compiler

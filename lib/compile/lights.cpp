@@ -79,10 +79,49 @@ public:
         }
         emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
         visit(GroupId::root, 0, {});
+        add_sources();
+        add_environment();
         build_light_tree(std::move(items_), scene.lights);
     }
 
 private:
+    void add_sources() {
+        for (std::size_t row = 0; row < scene_.light_sources.size(); ++row) {
+            const LightRecord& source = scene_.light_sources[row];
+            const double strength = max_component(source.color);
+            if (!(strength > 0)) continue;
+            flat::Light light;
+            light.number = row;
+            light.origin = source.position;
+            light.edge_u = -source.direction;
+            light.radius = source.one_minus_cos;
+            switch (source.kind) {
+                case LightSourceKind::point: add_point(flat::LightKind::point, light, strength); break;
+                case LightSourceKind::spot: add_point(flat::LightKind::spot, light, strength); break;
+                case LightSourceKind::directional: add_distant(flat::LightKind::directional, light, strength); break;
+                case LightSourceKind::sun: add_distant(flat::LightKind::sun, light, strength); break;
+            }
+        }
+    }
+
+    void add_point(flat::LightKind kind, flat::Light light, double strength) {
+        light.kind = kind;
+        const LightBounds bounds{flat::bounds_of(light), {{0, 0, 1}, flat::kNoNormals}, strength};
+        items_.push_back({own(light), LightItem::kNoPrimitive, bounds});
+    }
+
+    void add_distant(flat::LightKind kind, flat::Light light, double irradiance) {
+        light.kind = kind;
+        const double one_minus_cos = light.radius;
+        scene_.lights.distant.push_back({light, irradiance, std::sqrt(one_minus_cos * (2 - one_minus_cos))});
+    }
+
+    // A plane gets a quarter of what comes from all around, in the mean over its directions.
+    void add_environment() {
+        const flat::Environment& map = scene_.environment;
+        if (map.is_sampled()) add_distant(flat::LightKind::environment, {}, map.scale * map.luminance / 4);
+    }
+
     double brightness(MaterialId id) const {
         return id == MaterialId::none ? 0 : brightness_[static_cast<std::size_t>(id)];
     }
@@ -171,7 +210,7 @@ private:
     std::optional<flat::Light> flat_one(const PrimitiveRange& range, std::uint64_t element, const Seen& seen,
                                         const Transform& inv) const {
         if (range.kind == PrimitiveKind::mesh &&
-            is_degenerate(triangle_vertices(scene_.meshes[range.first_row].arrays, element)))
+            is_degenerate(triangle_of(scene_, scene_.meshes[range.first_row], element)))
             return std::nullopt;
         const flat::Light light = planar_light(scene_, range, element, seen.at0, inv);
         return length_squared(cross(light.edge_u, light.edge_v)) > 0 ? std::optional(light) : std::nullopt;
@@ -186,12 +225,14 @@ private:
         });
         const std::optional<double> scale = uniform_scale(seen.at0);
         // Texture coordinates belong to the object's own axes and side.
-        const bool plain = flat::is_plain(scene_, s.material);
+        const bool plain = flat::is_plain(scene_, scene_.materials[static_cast<std::size_t>(s.material)].emission);
         const bool own_axes = seen.at0 == Transform{} && s.radius > 0;
         if (!scale || !seen.straight || (!own_axes && !plain)) return std::nullopt;
         flat::Light light;
         light.kind = flat::LightKind::sphere;
         light.material = s.material;
+        light.side =
+            flat::side_of(scene_.materials[static_cast<std::size_t>(s.material)].sides, /*mirrored*/ s.radius < 0);
         light.textured = !plain;
         light.origin = transform_point(seen.at0, s.center0);
         light.edge_u = transform_point(seen.at1, s.center1) - light.origin;

@@ -14,7 +14,7 @@ bool list_all(flat::Scene& scene);
 // A primitive of the root, in no mesh.
 struct Candidate {
     flat::Reference reference;
-    Box box;
+    Box box{};
     double packed_error = 0;  // how far its numbers move when they are packed as float
     std::uint32_t index = 0;  // in the tree
 };

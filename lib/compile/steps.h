@@ -8,8 +8,17 @@
 
 namespace limn::compiler {
 
-// Of all that a scene's pictures depend on: the same from every compiler, instruction set and number of threads.
-Hash128 digest(const SceneRecords& records, const Background& background);
+// Of all that a scene's pictures depend on: the same from every compiler, instruction set and number of threads. The
+// first of all but where instances stand, the second of that and the scene's instances.
+Hash128 digest_of_unmoved(const SceneRecords& records, const Background& background);
+Hash128 digest_of(const flat::Scene& scene);
+
+// Sets its matrices and what follows from them.
+void place_instance(flat::Instance& instance, const Transform& at_time0, const Transform& at_time1);
+
+// What follows from the tables, the trees and where instances stand: media, lights, features, the digest. Gives up
+// arrays that the trees repeat.
+void derive(flat::Scene& scene);
 
 // Builds the tree of every group. \pre the tables and the groups' ranges are filled
 void build_trees(flat::Scene& scene);
@@ -22,9 +31,12 @@ void build_group_tree(flat::Scene& scene, flat::Group& group);
 // Lists every medium where instances put it. \pre the trees are built
 void place_media(flat::Scene& scene);
 
-// Fills scene.lights with every emitter that can be sampled: triangles, quads and spheres of a diffuse light, not under
-// a moving instance, spheres not under one that bends them, none with a foreign texture. What is left out is found by
-// scattering alone.
+// Fills the tables by which directions towards the map are drawn; none where all is black.
+void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
+
+// Fills scene.lights with every emitter that can be sampled: the sources, the environment, triangles, quads and spheres
+// of a diffuse light, not under a moving instance, spheres not under one that bends them, none with a foreign texture.
+// What is left out is found by scattering alone.
 void collect_lights(flat::Scene& scene);
 
 }  // namespace limn::compiler

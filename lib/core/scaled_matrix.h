@@ -8,6 +8,17 @@
 
 namespace limn {
 
+// std::ldexp(x, exponent) by a multiplication, which rounds alike, wherever that power of two is a double.
+class PowerOfTwo {
+public:
+    explicit PowerOfTwo(int exponent) : exponent_(exponent), factor_(std::ldexp(1.0, exponent)) {}
+    double operator*(double x) const { return std::isfinite(factor_) ? x * factor_ : std::ldexp(x, exponent_); }
+
+private:
+    int exponent_;
+    double factor_;
+};
+
 // m = matrix * 2^exponent, exactly but for entries that are too small beside the largest; translation left as it is.
 struct ScaledMatrix {
     Transform matrix;
@@ -18,8 +29,9 @@ struct ScaledMatrix {
         for (const auto& row : m.rows)
             for (std::size_t j = 0; j < 3; ++j) largest = std::max(largest, std::abs(row[j]));
         std::frexp(largest, &exponent);
+        const PowerOfTwo scale(-exponent);
         for (auto& row : matrix.rows)
-            for (std::size_t j = 0; j < 3; ++j) row[j] = std::ldexp(row[j], -exponent);
+            for (std::size_t j = 0; j < 3; ++j) row[j] = scale * row[j];
     }
 };
 

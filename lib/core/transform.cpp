@@ -88,11 +88,12 @@ Transform inverse(const Transform& m) {
     const double det = determinant(scaled.matrix);
     if (!(std::abs(det) > 0)) throw ArgumentError("inverse: the matrix is singular");
     const auto& r = scaled.matrix.rows;
+    const PowerOfTwo scale(-scaled.exponent);
     Transform inv;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
-            inv.rows[i][j] = std::ldexp((r[a][c] * r[b][d] - r[a][d] * r[b][c]) / det, -scaled.exponent);
+            inv.rows[i][j] = scale * ((r[a][c] * r[b][d] - r[a][d] * r[b][c]) / det);
         }
         inv.rows[i][3] = 0;
     }
@@ -103,9 +104,10 @@ Transform inverse(const Transform& m) {
 }
 
 bool is_finite(const Transform& m) {
-    return std::all_of(m.rows.begin(), m.rows.end(), [](const auto& row) {
-        return std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
-    });
+    bool finite = true;
+    for (const auto& row : m.rows)
+        for (const double x : row) finite &= std::isfinite(x);
+    return finite;
 }
 
 Point3 transform_point(const Transform& m, const Point3& p) {

@@ -29,17 +29,22 @@ void describe(const Scene& scene, const PrimitiveRange& range, std::uint64_t ele
     });
 }
 
-void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
+// \param mirrored whether the edges' product is opposite to the outward normal
+void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, bool mirrored, Light& light) {
     if (light.kind == LightKind::parallelogram && is_rectangle(light)) light.kind = LightKind::rectangle;
     light.material = material_of(scene, range, element);
-    light.textured = !is_plain(scene, light.material);
+    const MaterialRecord& material = scene.materials[static_cast<std::size_t>(light.material)];
+    light.textured = !is_plain(scene, material.emission);
+    light.side = side_of(material.sides, mirrored);
 }
 
 }  // namespace
 
-bool is_plain(const Scene& scene, MaterialId material) {
-    const MaterialRecord& m = scene.materials[static_cast<std::size_t>(material)];
-    const TextureId texture = m.emission != TextureId::none ? m.emission : m.texture;
+std::int8_t side_of(Sides sides, bool mirrored) {
+    return static_cast<std::int8_t>(sides == Sides::both ? 0 : (sides == Sides::front) != mirrored ? 1 : -1);
+}
+
+bool is_plain(const Scene& scene, TextureId texture) {
     return scene.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
 }
 
@@ -51,6 +56,7 @@ Box bounds_of(const Light& light) {
         return box;
     }
     box.extend(light.origin);
+    if (light.kind >= LightKind::point) return box;
     box.extend(light.origin + light.edge_u);
     box.extend(light.origin + light.edge_v);
     if (light.kind != LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
@@ -72,12 +78,13 @@ Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_
     light.edge_v = transform_vector(m, light.edge_v);
     const double reach = max_abs(light.origin) + max_abs(light.edge_u) + max_abs(light.edge_v);
     light.position_error = transformed_error(m, inverse_of_m, Point3{reach, reach, reach}, error);
-    finish(scene, range, element, light);
+    finish(scene, range, element, determinant(m) < 0, light);
     return light;
 }
 
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room) {
     const LightTable& table = scene.lights;
+    if (rank >= table.size()) return table.distant[rank - table.size()].light;
     const LightRef ref = table.refs[rank];
     if (ref.place == LightRef::kOwn) {
         const Light& own = table.own[ref.element];
@@ -92,18 +99,15 @@ const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& 
     room = {};
     if (place.instance_count > 0) {
         Transform m;
-        for (std::uint32_t i = 0; i < place.instance_count; ++i) {
-            const Instance& instance = scene.instances[table.instances[place.first_instance + i]];
-            m = m * (instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
-                                     : instance.world_from_object0);
-        }
+        for (std::uint32_t i = 0; i < place.instance_count; ++i)
+            m = m * world_from_object(scene.instances[table.instances[place.first_instance + i]], time);
         room = planar_light(scene, range, ref.element, m, inverse(m));
     } else if (place.transformed) {
         room = planar_light(scene, range, ref.element, place.world_from_object, place.object_from_world);
     } else {
         describe(scene, range, ref.element, room);
         room.position_error = planar_error(room.origin, room.edge_u, room.edge_v);
-        finish(scene, range, ref.element, room);
+        finish(scene, range, ref.element, false, room);
     }
     room.number = place.first_number + ref.element;
     return room;

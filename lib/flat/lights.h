@@ -20,19 +20,37 @@ inline constexpr double kSmallSolidAngle = 1e-5;
 // same within 3 %, and never by area takes a sixth more time per error on figure 15.
 inline constexpr double kFarSquared = 3.0 * 3.0;
 
-// A patch: a part of a parallelogram, as its primitive says.
-enum class LightKind : std::uint8_t { triangle, parallelogram, rectangle, sphere, patch };
+// A patch: a part of a parallelogram, as its primitive says. From `point` on they are rows of Scene::light_sources, and
+// from `directional` on they are infinitely far away; the last one is Scene::environment.
+enum class LightKind : std::uint8_t {
+    triangle,
+    parallelogram,
+    rectangle,
+    sphere,
+    patch,
+    point,
+    spot,
+    directional,
+    sun,
+    environment
+};
+
+// Lights without extent count as if they filled this solid angle (in steradians), so little that light sampling has all
+// the weight against scattering, which never finds them. A power of two: nothing is rounded by it.
+inline constexpr double kNoSolidAngle = 0x1p-100;
 
 // An emitter in world space.
 struct Light {
     LightKind kind = LightKind::triangle;
     PrimitiveKind primitive = PrimitiveKind::quad;
     bool textured = false;  // its radiance is not the same everywhere
+    std::int8_t side = 0;   // that shines: 1: of edge_u x edge_v, outside; -1: the other, inside; 0: both
     MaterialId material = MaterialId::none;
-    std::uint64_t number = 0;  // of its primitive
-    Point3 origin;             // a triangle's first vertex, a patch's corner, a sphere's centre at time 0
-    Vec3 edge_u, edge_v;       // of triangle and patch; of a sphere edge_u is the motion of its centre
-    double radius = 0;
+    std::uint64_t number = 0;  // of its primitive; its row in Scene::light_sources
+    Point3 origin;             // a triangle's first vertex, a patch's corner, a sphere's centre at time 0; a point
+    Vec3 edge_u, edge_v;  // of triangle and patch; of a sphere edge_u is the motion of its centre; of a directional
+                          // light or sun edge_u is the unit direction towards it
+    double radius = 0;    // of a sphere; of a sun 1 - cos of its angular radius
     double share = 1;     // of planar ones: how much of the parallelogram they are
     Vec3 position_error;  // of points computed on it
 };
@@ -74,7 +92,16 @@ struct LightNumber {
     std::uint32_t rank;
 };
 
-// Lights are known by their rank: their place in the order of the tree's leaves.
+// A light that is infinitely far away, and how much of it is expected at a receiver.
+struct DistantLight {
+    Light light;
+    double irradiance;  // of a plane across its direction; of the environment the mean over all planes
+    double spread;      // sine of its angular radius
+};
+// What stands for the number of a primitive where a ray meets the distant light [k]: this and k.
+inline constexpr std::uint64_t kFirstDistant = std::uint64_t{1} << 63;
+
+// Lights are known by their rank: their place in the order of the tree's leaves, and behind them that in `distant`.
 struct LightTable {
     std::vector<Light> own;
     std::vector<LightPlace> places;
@@ -84,15 +111,20 @@ struct LightTable {
     std::vector<std::uint32_t> guide;    // [k]: the last rank with strength_before at most k / size(), k = 0 ... size()
     std::vector<LightNode> nodes;        // none for a single light
     std::vector<LightNumber> by_number;  // ascending
+    double strength = 0;                 // of all in the tree, before it became 1: radiance times area
+    std::vector<DistantLight> distant;
 
-    std::size_t size() const { return refs.size(); }
-    bool empty() const { return refs.empty(); }
+    std::size_t size() const { return refs.size(); }  // of those in the tree
+    bool empty() const { return refs.empty() && distant.empty(); }
 };
 
 struct Scene;
 
-// Whether a material's texture is the same everywhere.
-bool is_plain(const Scene& scene, MaterialId material);
+// Light::side, of a light whose normal is the opposite of the shape's outward one if it is mirrored.
+std::int8_t side_of(Sides sides, bool mirrored);
+
+// Whether a texture is the same everywhere.
+bool is_plain(const Scene& scene, TextureId texture);
 
 // Of all that it covers while the shutter is open.
 Box bounds_of(const Light& light);
@@ -100,7 +132,7 @@ Box bounds_of(const Light& light);
 // A point of a planar one by area, as weights of the edges.
 Uv sample_area(const Light& light, double u, double v);
 
-// The light of a rank as it stands at a time: of the table, or made in `room`. \pre rank < scene.lights.size()
+// The light of a rank as it stands at a time: of the table, or made in `room`. \pre there is such a light
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);
 
 // A planar one of a place under a matrix; without edges where the primitive is not planar.

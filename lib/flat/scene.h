@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/huge_pages.h"
+#include "flat/environment.h"
 #include "flat/lights.h"
 #include "flat/list.h"
 #include "flat/tree.h"
@@ -53,6 +54,11 @@ struct Instance {
     InverseError lost{};  // by object_from_world
 };
 
+inline Transform world_from_object(const Instance& instance, double time) {
+    return instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
+                           : instance.world_from_object0;
+}
+
 // Primitives under one tree. Numbers count from 0 in each group.
 struct Group {
     Child root = kNothing;
@@ -79,7 +85,15 @@ struct Features {
     bool moving_instances = false, foreign_shapes = false;
     bool foreign_materials = false, foreign_textures = false;
     bool texture_coordinates = false;  // may be asked for by a texture or a foreign material
+    bool tangents = false;             // the same of Surface::dp_du and dp_dv
     bool background = false;
+};
+
+// What there is before the scene's own tree, the last, is built. Moving instances leaves it as it is.
+struct BelowRoot {
+    std::size_t nodes = 0, block_words = 0, references = 0;
+    unsigned kinds = 0;
+    std::uint64_t stored_primitives = 0, degenerate = 0;
 };
 
 struct Scene {
@@ -109,15 +123,21 @@ struct Scene {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    Color background_bottom, background_top;
+    std::vector<LightRecord> light_sources;
+    Color background_bottom, background_top;  // unless there is an environment
+    Environment environment;
 
+    // Of each object, or null: of the material slots of its meshes but the first.
+    std::vector<std::shared_ptr<const std::vector<std::string>>> material_names;
     std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and foreign objects
     Features features;
     unsigned kinds = 0;  // of primitives in the trees: see bit()
     std::string feature_names;
-    Hash128 digest{};       // of what was compiled
+    Hash128 digest{};  // of what was compiled, and the part of it that moving instances leaves as it is
+    Hash128 unmoved_digest{};
     bool untagged = false;  // it has user-defined objects that the digest does not know
     std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
+    BelowRoot below_root;
     std::size_t unassigned = 0;  // stored primitives without a material
     std::size_t memory_bytes = 0;
     double compile_seconds = 0;

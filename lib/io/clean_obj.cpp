@@ -47,7 +47,11 @@ private:
             material(std::string(lines_.name()));
         } else if (key == "mtllib") {
             file_.libraries.push_back({std::string(lines_.name()), lines_.number()});
-        } else if (!is_one_of(key, {"o", "g", "s", "l", "p"})) {  // known and not used
+        } else if (key == "o") {
+            object_ = lines_.name(), group_.clear();
+        } else if (key == "g") {
+            group_ = lines_.name();
+        } else if (!is_one_of(key, {"s", "l", "p"})) {  // known and not used
             return pass_over(key);
         }
         has_statement_ = true;
@@ -78,6 +82,7 @@ private:
             corner(words[i]);
         }
         text_ += '\n';
+        begin_part();
         file_.faces.push_back({lines_.number(), corners_, words.size() - 1, slot_});
         corners_ += words.size() - 1;
     }
@@ -120,6 +125,13 @@ private:
         return static_cast<int>(value);
     }
 
+    // If the next face is of another part than the last one.
+    void begin_part() {
+        const ModelPart last = model_.parts.empty() ? ModelPart{} : model_.parts.back();
+        if (object_ != last.object || group_ != last.group)
+            model_.parts.push_back({object_, group_, file_.faces.size()});
+    }
+
     void material(const std::string& name) {
         const auto [found, is_new] = slots_.try_emplace(name, static_cast<std::uint32_t>(slots_.size()) + 1);
         if (is_new) model_.materials.push_back(name);
@@ -132,6 +144,7 @@ private:
     std::string text_;
     std::map<std::string, std::uint32_t> slots_;  // of materials
     std::uint32_t slot_ = 0;
+    std::string object_, group_;  // of the faces that follow
     std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0, corners_ = 0;
     PassedOver passed_over_;
     std::string first_word_;

@@ -110,11 +110,11 @@ ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, c
     return info;
 }
 
-StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name) {
+StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name, int most) {
     const ImageInfo info = decode_info_stb(format, bytes, name);
     const Reader reader(format, bytes);
     StoredImage image;
-    image.channels = info.channels.size() < 3 ? 1 : 3;  // alpha is left out
+    image.channels = info.channels.size() < 3 ? 1 : std::min(static_cast<int>(info.channels.size()), std::max(most, 3));
     require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
     if (format == FileFormat::png) read_png_transfer(bytes, image);
     const std::string& type = info.channels.front().type;

@@ -6,8 +6,9 @@
 
 namespace limn {
 
-// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. \throws FileError naming `name`
-StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name);
+// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. Alpha is left out unless `most` is 4.
+// \throws FileError naming `name`
+StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name, int most = 3);
 
 // Reads the header alone. \throws FileError naming `name`
 ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name);

@@ -188,7 +188,12 @@ private:
         camera.camera.look_at = transform_point(m, {0, 0, -1});
         camera.camera.up = transform_vector(m, {0, 1, 0});
         if (description["type"].text_or("") == "orthographic") {
-            camera.orthographic_height = 2 * description["orthographic"]["ymag"].number();
+            const GltfValue frame = description["orthographic"];
+            const double half_width = frame["xmag"].number(), half_height = frame["ymag"].number();
+            if (!(half_width > 0 && half_height > 0)) frame.fail("its xmag and ymag are not above 0");
+            camera.camera.projection = Projection::orthographic;
+            camera.camera.view_height = 2 * half_height;
+            camera.camera.aspect_ratio = half_width / half_height;
         } else {
             const GltfValue perspective = description["perspective"], angle = perspective["yfov"];
             camera.camera.vertical_fov = angle.number() * 180 / kPi;
@@ -215,6 +220,13 @@ private:
         const GltfValue spot = description["spot"];
         light.inner_cone_angle = spot["innerConeAngle"].number_or(0) * 180 / kPi;
         light.outer_cone_angle = spot["outerConeAngle"].number_or(kPi / 4) * 180 / kPi;
+        if (!is_finite(light.intensity) || !(std::min({color[0], color[1], color[2]}) >= 0) ||
+            !(description["intensity"].number_or(1) >= 0))
+            description.fail("has an intensity or a color that is negative or infinite");
+        if (!is_finite(light.direction)) description.fail("is in a node that leaves it no direction");
+        if (!(light.inner_cone_angle >= 0 && light.inner_cone_angle <= light.outer_cone_angle &&
+              light.outer_cone_angle > 0 && light.outer_cone_angle <= 90))
+            spot.fail("does not have 0 <= innerConeAngle <= outerConeAngle <= pi / 2");
         model_.lights.push_back(light);
     }
 

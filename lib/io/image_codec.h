@@ -36,14 +36,19 @@ struct ImageHeader {
     Facts facts;  // without their prefix
 };
 
-// A picture to be written: 8-bit sRGB values for PNG, else linear ones, three channels and those of `layers`.
+// A picture to be written: 8-bit sRGB values for PNG, else linear ones; three channels, alpha, and those of `layers`.
 struct EncodeJob {
     FileFormat format = FileFormat::exr;
     int width = 0, height = 0;
     std::variant<std::span<const std::uint8_t>, std::span<const float>> values;
     bool half = false;
     const Facts& facts;
+    bool has_alpha = false;             // EXR and PNG
     std::vector<std::string> layers{};  // EXR alone
+    std::optional<PartOf> part_of{};    // EXR alone
+
+    int colours() const { return has_alpha ? 4 : 3; }
+    int channels() const { return colours() + static_cast<int>(layers.size()); }
 };
 
 bool can_encode(FileFormat format);

@@ -27,17 +27,23 @@ constexpr float kBt709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 
 
 ImageSpec spec_of(const EncodeJob& job) {
     if (job.format == FileFormat::png) {
-        ImageSpec spec(job.width, job.height, 3, TypeDesc::UINT8);
+        ImageSpec spec(job.width, job.height, job.colours(), TypeDesc::UINT8);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
         spec.attribute("oiio:ColorSpace", "sRGB");
         return spec;
     }
-    ImageSpec spec(job.width, job.height, 3 + static_cast<int>(job.layers.size()),
-                   job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
+    ImageSpec spec(job.width, job.height, job.channels(), job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
     spec.channelnames = {"R", "G", "B"};
+    if (job.has_alpha) spec.channelnames.emplace_back("A");
+    spec.alpha_channel = job.has_alpha ? 3 : -1;
     spec.channelnames.insert(spec.channelnames.end(), job.layers.begin(), job.layers.end());
     if (job.half && !job.layers.empty()) {
-        spec.channelformats.assign(3, TypeDesc::HALF);
+        spec.channelformats.assign(static_cast<std::size_t>(job.colours()), TypeDesc::HALF);
         spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
+    }
+    if (const auto& whole = job.part_of) {
+        spec.x = whole->left, spec.y = whole->top;
+        spec.full_width = whole->width, spec.full_height = whole->height;
     }
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), kBt709);
@@ -169,6 +175,8 @@ ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, c
     BoundedReader memory(bytes);
     const ImageSpec spec = open(format, memory, path)->spec();
     ImageHeader header{{.width = spec.width, .height = spec.height, .channels = {}}, read_facts(spec)};
+    const PartOf part{spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height};
+    if (format == FileFormat::exr && part != PartOf{0, 0, spec.width, spec.height}) header.info.part_of = part;
     for (int i = 0; i < spec.nchannels; ++i)
         header.info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
     return header;

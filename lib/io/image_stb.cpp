@@ -28,7 +28,9 @@ void insert(std::vector<std::byte>& bytes, std::ptrdiff_t place, const std::stri
 
 std::vector<std::byte> encode_png(const EncodeJob& job, const std::uint8_t* values) {
     std::vector<std::byte> bytes;
-    if (!stbi_write_png_to_func(append, &bytes, job.width, job.height, 3, values, 3 * job.width)) return {};
+    const int channels = job.colours();
+    if (!stbi_write_png_to_func(append, &bytes, job.width, job.height, channels, values, channels * job.width))
+        return {};
     std::string chunks = png_chunk("sRGB", std::string(1, '\0'));  // 0: perceptual
     for (const auto& [name, value] : job.facts) chunks += png_chunk("tEXt", kFactPrefix + name + '\0' + value);
     insert(bytes, kPngHeaderEnd, chunks);
@@ -84,7 +86,7 @@ bool can_encode(FileFormat format) { return format == FileFormat::png || format 
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     // stb counts bytes in int, with some room for what does not pack.
-    if (static_cast<double>(job.width) * job.height * 3 > 2e9)
+    if (static_cast<double>(job.width) * job.height * job.colours() > 2e9)
         throw FileError(path, "this build, without OpenImageIO, cannot write a picture of more than 2e9 values");
     const std::vector<std::byte> bytes =
         job.format == FileFormat::png ? encode_png(job, std::get<std::span<const std::uint8_t>>(job.values).data())
@@ -93,9 +95,9 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     return bytes;
 }
 
-StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int) {
+StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
     require_readable(format, path);
-    return decode_stb(format, bytes, path);
+    return decode_stb(format, bytes, path, most);
 }
 
 ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {

@@ -31,8 +31,13 @@ Model read_model(std::string_view bytes, const std::string& path, const ModelOpt
 }  // namespace
 
 Model load_model(const std::string& path, const ModelOptions& options) {
+    const std::string file = read_file(path);
+    return load_model_from_memory(std::as_bytes(std::span(file)), path, options);
+}
+
+Model load_model_from_memory(std::span<const std::byte> bytes, const std::string& path, const ModelOptions& options) {
     try {
-        return read_model(read_file(path), path, options);
+        return read_model(text_of(bytes), path, options);
     } catch (const Fault& fault) {
         throw FileError(path, fault.text);
     }

@@ -15,13 +15,6 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-std::string in_lower_case(std::string_view word) {
-    std::string text(word);
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 // Corners at the same position become one vertex.
 class StlMesh {
 public:

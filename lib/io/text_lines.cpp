@@ -106,6 +106,13 @@ std::optional<float> parse_float(std::string_view word) {
     return value;
 }
 
+std::string in_lower_case(std::string_view word) {
+    std::string text(word);
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
 std::string shortened(std::string_view word) {
     constexpr std::size_t kLongest = 40;
     std::string text(word.substr(0, kLongest));

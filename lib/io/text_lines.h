@@ -60,6 +60,9 @@ inline bool is_one_of(std::string_view word, std::initializer_list<std::string_v
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// ASCII letters alone.
+std::string in_lower_case(std::string_view word);
+
 // A word of a file for a message: shortened, and without control characters.
 std::string shortened(std::string_view word);
 std::string in_quotes(std::string_view word);

@@ -24,6 +24,14 @@ struct Descents {
     Row pick = {};                                          // what is left of the number, as good as a new one
 };
 
+// Of distant lights for each receiver.
+struct DistantChoices {
+    Row share = {};        // with which probability one of them is chosen at all
+    Row rank = {};         // which one then
+    Row probability = {};  // of it, the share included
+    Row pick = {};         // for the others: what is left of the number, as good as a new one
+};
+
 }  // namespace limn::lights
 #endif
 
@@ -40,6 +48,8 @@ using Indices = hn::Rebind<std::int32_t, Doubles::Tag>;
 // before the receiver. Measured in the Cornell box: with 1e4 triangles as its lamp 2 takes a third less time per error
 // than going down to the leaves, with 200 balls a twentieth; 1.5 to 5 are within 6 % of it.
 constexpr double kAlikeSquared = 2.0 * 2.0, kAlikeSpread = 0.9;
+// Beside lights nearby distant ones are chosen at least so often, and at most as much less than always.
+constexpr double kLeastShare = 0.2;
 // A number that was less than 1 stays so.
 constexpr double kLargestPick = 1 - 0x1p-53;
 
@@ -72,6 +82,11 @@ private:
 struct Receiver {
     Vector<Doubles> position, normal;
     Mask<Doubles> everywhere;  // light counts from all sides
+
+    HWY_INLINE Receiver(const Receivers& receivers, std::size_t i)
+        : position(load3<Doubles>(receivers.position, i)),
+          normal(load3<Doubles>(receivers.normal, i)),
+          everywhere((normal.x == 0.0) & (normal.y == 0.0) & (normal.z == 0.0)) {}
 };
 
 struct Importance {
@@ -121,8 +136,7 @@ HWY_INLINE void descend_by(const flat::LightTable& lights, const Receivers& rece
                            Descents& descents) {
     const hn::Rebind<std::uint32_t, Doubles::Tag> words;
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
-        const Vector<Doubles> n = load3<Doubles>(receivers.normal, i);
-        const Receiver receiver{load3<Doubles>(receivers.position, i), n, (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0)};
+        const Receiver receiver(receivers, i);
         Doubles node = 0.0, begin = 0.0, pick = load<Doubles>(wanted + i);
         Importance here = importance_of(Nodes(lights, node), receiver);
         Doubles probability = select(here.value == 0.0, 0.0, Doubles(1.0));
@@ -154,6 +168,61 @@ HWY_INLINE void descend_by(const flat::LightTable& lights, const Receivers& rece
     }
 }
 
+// What a distant light gives a receiver if nothing is in the way. Zero only if all of it is behind.
+HWY_INLINE Doubles irradiance_of(const flat::DistantLight& distant, const Receiver& receiver) {
+    if (distant.light.kind == flat::LightKind::environment) return distant.irradiance;
+    const Doubles cosine = dot(receiver.normal, broadcast<Doubles>(distant.light.edge_u)) + distant.spread;
+    return distant.irradiance * select(receiver.everywhere, 1.0, at_most_one(max(cosine, 0.0)));
+}
+
+// With which probability distant lights are chosen: as their part of all light, but for bounds, since nothing is known
+// of what is in the way.
+HWY_INLINE Doubles share_of_distant(const flat::LightTable& lights, const Receiver& receiver, Doubles distant) {
+    if (lights.nodes.empty()) return select(distant > 0.0, Doubles(1.0), 0.0);
+    const Doubles near = lights.strength * importance_of(Nodes(lights, 0.0), receiver).value;
+    const Doubles share = distant / (distant + near);
+    const Doubles bounded = select(share > kLeastShare, min(share, 1.0 - kLeastShare), kLeastShare);
+    return select(distant > 0.0, select(near > 0.0, bounded, 1.0), 0.0);
+}
+
+// One of the distant lights, in proportion to what they give: by numbers, or with which probability these ranks. The
+// numbers are made as good as new where none is chosen.
+template <bool to_ranks>
+HWY_INLINE void choose_distant_by(const flat::LightTable& lights, const Receivers& receivers, const Row& wanted,
+                                  DistantChoices& choices) {
+    const double first = static_cast<double>(lights.size());
+    for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
+        const Receiver receiver(receivers, i);
+        Doubles sum = 0.0;
+        for (const flat::DistantLight& distant : lights.distant) sum = sum + irradiance_of(distant, receiver);
+        const Doubles share = share_of_distant(lights, receiver, sum), number = load<Doubles>(wanted + i);
+        const Doubles target = number / share * sum;
+        Doubles before = 0.0, rank = first, probability = 0.0;
+        for (std::size_t k = 0; k < lights.distant.size(); ++k) {
+            const Doubles of_it = irradiance_of(lights.distant[k], receiver);
+            const Doubles its_rank = first + static_cast<double>(k);
+            const Mask<Doubles> found = to_ranks ? number == its_rank : (of_it > 0.0) & (before <= target);
+            rank = select(found, its_rank, rank);
+            probability = select(found, of_it / sum * share, probability);
+            before = before + of_it;
+        }
+        store(share, choices.share + i), store(rank, choices.rank + i), store(probability, choices.probability + i);
+        if (to_ranks) continue;
+        const Doubles rest = (number - share) / (1.0 - share);
+        store(select(number < share, 0.0, select(kLargestPick < rest, kLargestPick, rest)), choices.pick + i);
+    }
+}
+
+void choose_distant(const flat::LightTable& lights, const Receivers& receivers, const Row& pick,
+                    DistantChoices& choices) {
+    choose_distant_by<false>(lights, receivers, pick, choices);
+}
+
+void find_distant(const flat::LightTable& lights, const Receivers& receivers, const Row& rank,
+                  DistantChoices& choices) {
+    choose_distant_by<true>(lights, receivers, rank, choices);
+}
+
 void descend(const flat::LightTable& lights, const Receivers& receivers, const Row& pick, Descents& descents) {
     descend_by<false>(lights, receivers, pick, descents);
 }
@@ -170,6 +239,8 @@ namespace limn::lights {
 
 HWY_EXPORT(descend);
 HWY_EXPORT(descend_to);
+HWY_EXPORT(choose_distant);
+HWY_EXPORT(find_distant);
 
 namespace {
 
@@ -191,9 +262,8 @@ Choice choose_alike(const flat::LightTable& lights, const Descents& at, std::siz
             at.probability[i] * ((*after - *(after - 1)) / strength)};
 }
 
-}  // namespace
-
-void choose(const flat::LightTable& lights, const Receivers& receivers, const Row& pick, Choice* choices) {
+// Of the lights in the tree.
+void choose_near(const flat::LightTable& lights, const Receivers& receivers, const Row& pick, Choice* choices) {
     if (lights.nodes.empty()) {
         std::fill_n(choices, receivers.count, Choice{0, 1});
         return;
@@ -203,7 +273,8 @@ void choose(const flat::LightTable& lights, const Receivers& receivers, const Ro
     for (std::size_t i = 0; i < receivers.count; ++i) choices[i] = choose_alike(lights, descents, i);
 }
 
-void find_probability(const flat::LightTable& lights, const Receivers& receivers, const Row& rank, Row& probability) {
+void find_near_probability(const flat::LightTable& lights, const Receivers& receivers, const Row& rank,
+                           Row& probability) {
     std::fill_n(probability, receivers.count, 1.0);
     if (lights.nodes.empty()) return;
     Descents at;
@@ -215,6 +286,34 @@ void find_probability(const flat::LightTable& lights, const Receivers& receivers
         const auto light = static_cast<std::size_t>(rank[i]);
         if (end - begin > 1) probability[i] *= (before[light + 1] - before[light]) / (before[end] - before[begin]);
     }
+}
+
+}  // namespace
+
+void choose(const flat::LightTable& lights, const Receivers& receivers, const Row& pick, Choice* choices) {
+    if (lights.distant.empty()) return choose_near(lights, receivers, pick, choices);
+    DistantChoices distant;
+    HWY_DYNAMIC_DISPATCH(choose_distant)(lights, receivers, pick, distant);
+    choose_near(lights, receivers, distant.pick, choices);
+    for (std::size_t i = 0; i < receivers.count; ++i) {
+        if (pick[i] < distant.share[i] || lights.size() == 0)
+            choices[i] = {static_cast<std::size_t>(distant.rank[i]), distant.probability[i]};
+        else
+            choices[i].probability *= 1 - distant.share[i];
+    }
+}
+
+void find_probability(const flat::LightTable& lights, const Receivers& receivers, const Row& rank, Row& probability) {
+    if (lights.distant.empty()) return find_near_probability(lights, receivers, rank, probability);
+    DistantChoices distant;
+    HWY_DYNAMIC_DISPATCH(find_distant)(lights, receivers, rank, distant);
+    // Of the ranks of distant lights nothing is asked in the tree.
+    const double first = static_cast<double>(lights.size());
+    Row near;
+    for (std::size_t i = 0; i < receivers.count; ++i) near[i] = rank[i] < first ? rank[i] : 0;
+    find_near_probability(lights, receivers, near, probability);
+    for (std::size_t i = 0; i < receivers.count; ++i)
+        probability[i] = rank[i] < first ? probability[i] * (1 - distant.share[i]) : distant.probability[i];
 }
 
 }  // namespace limn::lights

@@ -1,9 +1,11 @@
 // Directions towards emitters for many receivers at once, each with its density per solid angle.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/spawn.h"
 #include "flat/scene.h"
 #include "sampling/rows.h"
 
@@ -23,12 +25,15 @@ struct LightSamples {
     const Row* numbers = nullptr;  // three, uniform: they choose a light, and a point on it
 
     // Results; nothing else counts where the pdf is 0, and no light was drawn.
-    Row pdf = {};                            // per solid angle at the receiver, the choice of the light included
+    Row pdf = {};  // per solid angle at the receiver, the choice of the light included; without extent: kNoSolidAngle
+    Row end = {};  // t of the shadow ray's end: just before 1, at the position; infinity where the light is distant
     Rows3 position, position_error, normal;  // the normal is on the receiver's side
     Rows3 direction;                         // unit, from the receiver
-    Row u = {}, v = {};                      // of planar lights: weights of the edges
+    Row u = {}, v = {};                      // of planar lights: weights of the edges; of the environment: of its map
     const flat::Light* light[kShaded] = {};
     flat::Light own[kShaded];  // those that are not kept anywhere
+
+    LightSamples() { std::fill_n(end, kShaded, 1 - kShadowEnd); }
 };
 
 // Chooses a light about in proportion to what it would give if nothing were in the way, and a point on it: uniform per
@@ -36,10 +41,10 @@ struct LightSamples {
 // less. \pre there are lights
 void sample(const flat::Scene& scene, const Receivers& receivers, LightSamples& samples);
 
-// Points on primitives.
+// Points on primitives, and distant lights.
 struct LightHits {
-    std::uint64_t primitive[kShaded] = {};  // their numbers
-    Rows3 position;
+    std::uint64_t primitive[kShaded] = {};  // their numbers; of distant lights from flat::kFirstDistant on
+    Rows3 position;                         // of distant lights the direction towards them, of any length
     // With which density `sample` would have drawn the direction from the receiver; 0 if the primitive is no light that
     // can be sampled.
     Row pdf = {};

@@ -18,8 +18,8 @@ using namespace sampling::HWY_NAMESPACE;
 // A light for each lane, spheres still.
 struct LightLanes {
     Vector<Doubles> origin, edge_u, edge_v, position_error;
-    Doubles radius, share;
-    Mask<Doubles> sphere, triangle, rectangle, parallelogram;
+    Doubles radius, share, side;
+    Mask<Doubles> sphere, triangle, rectangle, parallelogram, point;
 
     // \param lights as many as there are lanes
     HWY_INLINE explicit LightLanes(const flat::Light* const* lights) {
@@ -30,18 +30,30 @@ struct LightLanes {
             const flat::Light& l = *lights[0];
             origin = broadcast<Doubles>(l.origin), edge_u = broadcast<Doubles>(l.edge_u);
             edge_v = broadcast<Doubles>(l.edge_v), position_error = broadcast<Doubles>(l.position_error);
-            radius = l.radius, share = l.share;
+            radius = l.radius, share = l.share, side = static_cast<double>(l.side);
             set_kind(static_cast<double>(l.kind));
             return;
         }
-        HWY_ALIGN double fields[15][8];
+        HWY_ALIGN double fields[16][8];
         for (std::size_t i = 0; i < n; ++i) {
             const flat::Light& l = *lights[i];
-            const double values[] = {
-                l.origin.x,         l.origin.y,         l.origin.z, l.edge_u.x, l.edge_u.y,
-                l.edge_u.z,         l.edge_v.x,         l.edge_v.y, l.edge_v.z, l.position_error.x,
-                l.position_error.y, l.position_error.z, l.radius,   l.share,    static_cast<double>(l.kind)};
-            for (std::size_t k = 0; k < 15; ++k) fields[k][i] = values[k];
+            const double values[] = {l.origin.x,
+                                     l.origin.y,
+                                     l.origin.z,
+                                     l.edge_u.x,
+                                     l.edge_u.y,
+                                     l.edge_u.z,
+                                     l.edge_v.x,
+                                     l.edge_v.y,
+                                     l.edge_v.z,
+                                     l.position_error.x,
+                                     l.position_error.y,
+                                     l.position_error.z,
+                                     l.radius,
+                                     l.share,
+                                     static_cast<double>(l.kind),
+                                     static_cast<double>(l.side)};
+            for (std::size_t k = 0; k < 16; ++k) fields[k][i] = values[k];
         }
         const auto three = [&](std::size_t k) HWY_ATTR {
             return Vector<Doubles>{load<Doubles>(fields[k]), load<Doubles>(fields[k + 1]),
@@ -49,7 +61,7 @@ struct LightLanes {
         };
         origin = three(0), edge_u = three(3), edge_v = three(6), position_error = three(9);
         radius = load<Doubles>(fields[12]), share = load<Doubles>(fields[13]);
-        set_kind(load<Doubles>(fields[14]));
+        set_kind(load<Doubles>(fields[14])), side = load<Doubles>(fields[15]);
     }
 
 private:
@@ -57,6 +69,7 @@ private:
         const auto is = [kind](flat::LightKind k) HWY_ATTR { return kind == static_cast<double>(k); };
         sphere = is(flat::LightKind::sphere), triangle = is(flat::LightKind::triangle);
         rectangle = is(flat::LightKind::rectangle), parallelogram = is(flat::LightKind::parallelogram);
+        point = kind >= static_cast<double>(flat::LightKind::point);
     }
 };
 
@@ -92,7 +105,8 @@ HWY_INLINE Points sample_sphere(const LightLanes& light, const Vector<Doubles>& 
     const Vector<Doubles> normal = normalize(foot + select(cone.outside, -half_chord, half_chord) * s.direction);
     s.position = light.origin + light.radius * normal;
     s.normal = select(cone.outside, normal, -normal);
-    s.pdf = select(length_squared(normal) < 2.0, uniform_cone_pdf(cone.one_minus_cos), 0.0);  // else NaN
+    const Mask<Doubles> shines = select(cone.outside, light.side, -light.side) >= 0.0;
+    s.pdf = select(shines & (length_squared(normal) < 2.0), uniform_cone_pdf(cone.one_minus_cos), 0.0);  // else NaN
     return s;
 }
 
@@ -203,10 +217,11 @@ HWY_INLINE Points sample_planar(const LightLanes& light, const flat::Light* cons
     s.u = seen.point.u, s.v = seen.point.v;
     s.position = light.origin + (s.u * light.edge_u + s.v * light.edge_v);
     const Vector<Doubles> way = s.position - from, normal = cross(light.edge_u, light.edge_v);
-    s.pdf = planar_pdf(light, normal, from, way, seen.solid_angle);
+    const Doubles along = dot(normal, way);
+    s.pdf = select(light.side * along <= 0.0, planar_pdf(light, normal, from, way, seen.solid_angle), 0.0);
     s.direction = normalize(way);
     const Vector<Doubles> unit = normalize(normal);
-    s.normal = select(dot(normal, way) > 0.0, -unit, unit);
+    s.normal = select(along > 0.0, -unit, unit);
     return s;
 }
 
@@ -235,6 +250,13 @@ void sample_points(const Receivers& receivers, LightSamples& samples) {
             s.normal = select(light.sphere, round.normal, s.normal);
             s.direction = select(light.sphere, round.direction, s.direction);
             s.pdf = select(light.sphere, round.pdf, s.pdf);
+        }
+        if (any(light.point)) {
+            const Vector<Doubles> way = light.origin - from;
+            s.position = select(light.point, light.origin, s.position);
+            s.normal = select(light.point, {0.0, 0.0, 0.0}, s.normal);
+            s.direction = select(light.point, normalize(way), s.direction);
+            s.pdf = select(light.point, length_squared(way) * (1 / flat::kNoSolidAngle), s.pdf);
         }
         store3(s.position, samples.position, i), store3(light.position_error, samples.position_error, i);
         store3(s.normal, samples.normal, i), store3(s.direction, samples.direction, i);

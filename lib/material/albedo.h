@@ -1,4 +1,4 @@
-// The albedo that a material was given, checked.
+// What materials were given, checked.
 #pragma once
 
 #include <memory>
@@ -20,6 +20,12 @@ inline std::shared_ptr<const Texture> checked_albedo(std::shared_ptr<const Textu
                                                      const std::string& material) {
     require(albedo != nullptr, material + ": albedo texture must not be null");
     return albedo;
+}
+
+/// \param what it is, for the message
+inline double checked_share(double share, const std::string& what) {
+    require(share >= 0 && share <= 1, what + " must be in [0, 1]");
+    return share;
 }
 
 }  // namespace limn

@@ -64,19 +64,11 @@ LIMN_LOBE(.one_sided = true, .numbers = 3)
 
 namespace formulas = metal::HWY_NAMESPACE;
 
-namespace {
-
-double checked_fuzz(double fuzz) {
-    require(fuzz >= 0 && fuzz <= 1, "Metal: fuzz must be in [0, 1]");
-    return fuzz;
-}
-
-}  // namespace
-
-Metal::Metal(const Color& albedo, double fuzz) : albedo_(checked_albedo(albedo, "Metal")), fuzz_(checked_fuzz(fuzz)) {}
+Metal::Metal(const Color& albedo, double fuzz)
+    : albedo_(checked_albedo(albedo, "Metal")), fuzz_(checked_share(fuzz, "Metal: fuzz")) {}
 
 Metal::Metal(std::shared_ptr<const Texture> albedo, double fuzz)
-    : albedo_(checked_albedo(std::move(albedo), "Metal")), fuzz_(checked_fuzz(fuzz)) {}
+    : albedo_(checked_albedo(std::move(albedo), "Metal")), fuzz_(checked_share(fuzz, "Metal: fuzz")) {}
 
 std::optional<ScatterSample> Metal::sample(const Surface& s, const Vec3& out, const Random3& random) const {
     return formulas::sample_one<formulas::Fuzzy>(formulas::input_of(s, out, albedo_->value(s), fuzz_), random);

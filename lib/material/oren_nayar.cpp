@@ -69,20 +69,12 @@ LIMN_LOBE(.one_sided = true, .numbers = 2)
 
 namespace formulas = oren_nayar::HWY_NAMESPACE;
 
-namespace {
-
-double checked_roughness(double roughness) {
-    require(roughness >= 0 && roughness <= 1, "OrenNayar: roughness must be in [0, 1]");
-    return roughness;
-}
-
-}  // namespace
-
 OrenNayar::OrenNayar(const Color& albedo, double roughness)
-    : albedo_(checked_albedo(albedo, "OrenNayar")), roughness_(checked_roughness(roughness)) {}
+    : albedo_(checked_albedo(albedo, "OrenNayar")), roughness_(checked_share(roughness, "OrenNayar: roughness")) {}
 
 OrenNayar::OrenNayar(std::shared_ptr<const Texture> albedo, double roughness)
-    : albedo_(checked_albedo(std::move(albedo), "OrenNayar")), roughness_(checked_roughness(roughness)) {}
+    : albedo_(checked_albedo(std::move(albedo), "OrenNayar")),
+      roughness_(checked_share(roughness, "OrenNayar: roughness")) {}
 
 std::optional<ScatterSample> OrenNayar::sample(const Surface& s, const Vec3& out, const Random3& random) const {
     return formulas::sample_one<formulas::RoughDiffuse>(formulas::input_of(s, out, albedo_->value(s), roughness_),

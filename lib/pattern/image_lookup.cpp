@@ -39,10 +39,10 @@ Color mix(const Color& a, const Color& b, double weight) { return (1 - weight) *
 
 }  // namespace
 
-Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap) {
-    const double right = fold(uv.u, wrap), down = 1 - fold(uv.v, wrap);
+Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap_u, Wrap wrap_v) {
+    const double right = fold(uv.u, wrap_u), down = 1 - fold(uv.v, wrap_v);
     if (filter == Filter::nearest) return image.at(nearest(right, image.width()), nearest(down, image.height()));
-    const Neighbours x = neighbours(right, image.width(), wrap), y = neighbours(down, image.height(), wrap);
+    const Neighbours x = neighbours(right, image.width(), wrap_u), y = neighbours(down, image.height(), wrap_v);
     return mix(mix(image.at(x.first, y.first), image.at(x.second, y.first), x.weight),
                mix(image.at(x.first, y.second), image.at(x.second, y.second), x.weight), y.weight);
 }

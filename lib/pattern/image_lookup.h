@@ -11,6 +11,9 @@ namespace limn::pattern {
 /// (int(u W), int((1 - v) H)), the last column at u = 1 and the last row at v = 0. Beyond the square `wrap` counts. NaN
 /// reads as 0.
 /// \pre the image is not empty
-Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap);
+Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap_u, Wrap wrap_v);
+inline Color lookup_image(const Image& image, const Uv& uv, Filter filter, Wrap wrap) {
+    return lookup_image(image, uv, filter, wrap, wrap);
+}
 
 }  // namespace limn::pattern

@@ -50,7 +50,9 @@ InverseError inverse_error(const Transform& m) {
     return {24 * kRoundoff * (permanent / det) * norm, norm};
 }
 
-bool is_singular(const Transform& m) { return ExactInverse(m).determinant.sign() == 0; }
+bool is_singular(const Transform& m) {
+    return !std::isfinite(inverse_error(m).norm) && ExactInverse(m).determinant.sign() == 0;
+}
 
 RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
                    const InverseError& lost)

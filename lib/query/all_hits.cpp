@@ -11,15 +11,6 @@ namespace limn {
 
 namespace {
 
-void find_all(const flat::Scene& scene, const Ray& ray, std::vector<trace::Crossing>& found) {
-    trace::every_hit(scene, ray, found);
-    for (const flat::Medium& medium : scene.media) {
-        const std::size_t before = found.size();
-        trace::every_boundary(scene, medium, ray, found);
-        for (std::size_t i = before; i < found.size(); ++i) found[i].index_matched = true;
-    }
-}
-
 void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::vector<RayHit>& hits) {
     query::sort_along_ray(found);
     const auto same = [](const trace::Crossing& a, const trace::Crossing& b) {
@@ -37,7 +28,7 @@ void CompiledScene::all_hits(const Ray& ray, std::vector<RayHit>& hits) const {
     hits.clear();
     if (!query::is_fit(ray)) return;
     query::Found found;
-    find_all(*scene_, ray, *found);
+    trace::every_hit(*scene_, ray, *found);
     list(*scene_, *found, hits);
 }
 

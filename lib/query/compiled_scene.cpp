@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
 #include "query/answers.h"
 #include "query/filters.h"
+#include "query/scene_file.h"
 #include "query/surface_at.h"
 #include "query/threads.h"
+#include "shade/albedo.h"
+#include "shade/shading.h"
 #include "trace/traverse.h"
 
 namespace limn {
@@ -100,13 +104,13 @@ SceneStats stats_of(const flat::Scene& s) {
             .primitives = s.primitives,
             .stored_primitives = s.stored_primitives,
             .degenerate = s.degenerate,
-            .lights = s.lights.size(),
+            .lights = s.lights.size() + s.lights.distant.size(),
             .seconds = s.compile_seconds};
 }
 
 }  // namespace
 
-CompiledScene::CompiledScene(std::unique_ptr<const flat::Scene> scene)
+CompiledScene::CompiledScene(std::unique_ptr<flat::Scene> scene)
     : scene_(std::move(scene)), stats_(stats_of(*scene_)) {}
 CompiledScene::CompiledScene(CompiledScene&&) noexcept = default;
 CompiledScene& CompiledScene::operator=(CompiledScene&&) noexcept = default;
@@ -160,14 +164,49 @@ Surface CompiledScene::surface_at(const Ray& ray, const RayHit& hit) const {
     return query::surface_at(*scene_, ray, {{hit.t, hit.primitive}, hit.u, hit.v}).surface;
 }
 
+Color CompiledScene::albedo(const Surface& surface) const {
+    const FloatEnvironment environment;
+    return shade::albedo(*scene_, surface);
+}
+
+Color CompiledScene::emission(const Surface& surface) const {
+    const FloatEnvironment environment;
+    return shade::can_emit(*scene_, surface.material) ? shade::emitted(*scene_, surface) : Color{};
+}
+
+std::string_view CompiledScene::material_name(const RayHit& hit) const {
+    const auto& names = scene_->material_names[hit.object];
+    const flat::Place place = flat::locate(*scene_, hit.primitive);
+    const PrimitiveRange& range = scene_->ranges[place.range];
+    if (!names || range.kind != PrimitiveKind::mesh) return {};
+    const std::span slots = scene_->meshes[range.first_row].arrays.material_slots;
+    const std::size_t slot = slots.empty() ? 0 : slots[place.element];
+    return slot == 0 || slot > names->size() ? std::string_view{} : (*names)[slot - 1];
+}
+
 const std::string& CompiledScene::features() const { return scene_->feature_names; }
 const std::string& CompiledScene::name() const { return scene_->name; }
 const Hash128& CompiledScene::digest() const { return scene_->digest; }
 bool CompiledScene::has_untagged() const { return scene_->untagged; }
 
+void CompiledScene::save(const std::string& path) const { query::write_scene(*scene_, path); }
+
+CompiledScene CompiledScene::load(const std::string& path) {
+    const auto start = std::chrono::steady_clock::now();
+    auto scene = std::make_unique<flat::Scene>(query::read_scene(path));
+    scene->compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return CompiledScene(std::move(scene));
+}
+
 CompiledScene compile(const Scene& scene, const CompileSettings& /*settings*/) {
     const FloatEnvironment environment;
-    return CompiledScene(std::make_unique<const flat::Scene>(compiler::flatten(scene)));
+    return CompiledScene(std::make_unique<flat::Scene>(compiler::flatten(scene)));
+}
+
+CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved) {
+    const FloatEnvironment environment;
+    compiler::move(*scene.scene_, moved);
+    return CompiledScene(std::move(scene.scene_));
 }
 
 }  // namespace limn

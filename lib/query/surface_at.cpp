@@ -1,5 +1,7 @@
 #include "query/surface_at.h"
 
+#include <cmath>
+
 #include "predicates/hit_error.h"
 #include "predicates/mesh_triangle.h"
 
@@ -23,23 +25,58 @@ void on_foreign(const flat::Foreign& shape, Ray ray, double t, SurfaceHit& out) 
     out.index_matched = foreign.index_matched;
 }
 
+// Of what lies in a plane, where u and v are the weights of its edges.
+template <class Primitive>
+requires requires(const Primitive& p) { p.patch(); }
+void set_tangents(const Primitive& primitive, Surface& s) {
+    const primitives::Patch patch = primitive.patch();
+    s.dp_du = patch.edge_u, s.dp_dv = patch.edge_v;
+}
+
+// Of a ball: sphere_uv, differentiated, where n.x = sin(pi v) cos(phi), n.y = -cos(pi v), n.z = -sin(pi v) sin(phi) and
+// phi = 2 pi u - pi.
+template <class Primitive>
+requires requires(const Primitive& p) { p.ball(); }
+void set_tangents(const Primitive& primitive, Surface& s) {
+    const Vec3 n(s.normal);
+    const double sine = std::sqrt(n.x * n.x + n.z * n.z), radius = primitive.ball().radius;
+    s.dp_du = (2 * kPi * radius) * Vec3{n.z, 0, -n.x};
+    s.dp_dv = sine > 0 ? (kPi * radius) * Vec3{-n.y * n.x / sine, sine, -n.y * n.z / sine} : Vec3{};
+}
+
+// From the edges of a triangle, and how uv changes along them; where that is not one to one, along the edges.
+void set_mesh_tangents(const MeshView& mesh, std::size_t element, Surface& s) {
+    if (mesh.uvs.empty()) return;
+    const Index3 t = mesh.triangles[element];
+    const Float2 a = mesh.uvs[t.a], b = mesh.uvs[t.b], c = mesh.uvs[t.c];
+    const double u1 = double{b.u} - a.u, v1 = double{b.v} - a.v, u2 = double{c.u} - a.u, v2 = double{c.v} - a.v;
+    const double area = u1 * v2 - u2 * v1;
+    if (area == 0) return;
+    const Vec3 along_b = s.dp_du, along_c = s.dp_dv;
+    s.dp_du = (v2 * along_b - v1 * along_c) / area;
+    s.dp_dv = (u1 * along_c - u2 * along_b) / area;
+}
+
 // `found`: by the search, which works out u and v too.
 void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const PlanarHit& found,
-                  bool with_uv, SurfaceHit& out) {
+                  Parts parts, SurfaceHit& out) {
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind == PrimitiveKind::foreign)
         return on_foreign(scene.foreign[range.first_row + place.element], ray, found.t, out);
-    flat::with_primitive(scene, range, place.element,
-                         [&](const auto& primitive) { primitive.surface(ray, found, with_uv, out.surface); });
+    flat::with_primitive(scene, range, place.element, [&](const auto& primitive) {
+        primitive.surface(ray, found, parts.uv, out.surface);
+        if (parts.tangents) set_tangents(primitive, out.surface);
+    });
     if (range.kind != PrimitiveKind::mesh) return;
     const flat::Mesh& mesh = scene.meshes[range.first_row];
     if (!mesh.places.empty()) return;
     out.surface.shading_normal = shading_normal(mesh.arrays, place.element, found, out.surface.normal);
     out.surface.uv = texture_coordinates(mesh.arrays, place.element, found);
+    if (parts.tangents) set_mesh_tangents(mesh.arrays, place.element, out.surface);
 }
 
 // From the space of an instanced group to that around it.
-void leave_instance(const flat::Instance& instance, double time, Surface& hit) {
+void leave_instance(const flat::Instance& instance, double time, Parts parts, Surface& hit) {
     Transform m_now, inv_now;
     if (instance.moving) {
         m_now = interpolate(instance.world_from_object0, instance.world_from_object1, time);
@@ -53,6 +90,7 @@ void leave_instance(const flat::Instance& instance, double time, Surface& hit) {
     const bool flat_shaded = hit.shading_normal == hit.normal;
     hit.normal = outward(hit.normal);
     hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
+    if (parts.tangents) hit.dp_du = transform_vector(m, hit.dp_du), hit.dp_dv = transform_vector(m, hit.dp_dv);
 }
 
 // What foreign shapes need to know of a ray, and what is enough for others.
@@ -73,38 +111,38 @@ void step_inside(const flat::Instance& instance, const Ray& outside, const Visit
 // Within `level` and more of the instances around it.
 template <class RayOrFrame>
 void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayOrFrame& outside,
-                const PlanarHit& found, bool with_uv, SurfaceHit& out) {
+                const PlanarHit& found, Parts parts, SurfaceHit& out) {
     const Ray& ray = ray_of(outside);
     if (level < place.depth) {
         const flat::Instance& instance = scene.instances[place.instances[level]];
         step_inside(instance, outside,
-                    [&](const RayOrFrame& inner) { hit_within(scene, place, level + 1, inner, found, with_uv, out); });
-        leave_instance(instance, ray.time, out.surface);
+                    [&](const RayOrFrame& inner) { hit_within(scene, place, level + 1, inner, found, parts, out); });
+        leave_instance(instance, ray.time, parts, out.surface);
         return;
     }
-    on_primitive(scene, place, ray, found, with_uv, out);
+    on_primitive(scene, place, ray, found, parts, out);
     // Whether the ray meets the outward side is asked here, where the normal is not transformed.
     out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }
 
 }  // namespace
 
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, bool with_uv) {
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, Parts parts) {
     SurfaceHit out;
-    surface_at(scene, ray, hit, with_uv, out);
+    surface_at(scene, ray, hit, parts, out);
     return out;
 }
 
-void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& raw, bool with_uv, SurfaceHit& out) {
+void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& raw, Parts parts, SurfaceHit& out) {
     const flat::Place place = flat::locate(scene, raw.primitive);
     const PlanarHit found{raw.t, raw.u, raw.v};
     Surface& s = out.surface;
     out.index_matched = false;
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind == PrimitiveKind::foreign) {
-        hit_within(scene, place, 0, RayFrame(ray), found, with_uv, out);
+        hit_within(scene, place, 0, RayFrame(ray), found, parts, out);
     } else {
-        hit_within(scene, place, 0, ray, found, with_uv, out);
+        hit_within(scene, place, 0, ray, found, parts, out);
         s.material = {static_cast<std::uint32_t>(flat::material_of(scene, range, place.element)), nullptr, nullptr};
     }
     out.index_matched = out.index_matched || place.index_matched;

@@ -14,10 +14,14 @@ struct SurfaceHit {
     bool index_matched = false;  // the boundary of a medium, or a foreign shape that says so
 };
 
+// What may be left out: texture coordinates of a sphere, which cost more than the rest of it, and dp_du and dp_dv.
+struct Parts {
+    bool uv = true, tangents = true;
+};
+
 // \pre `hit` was found for `ray` in `scene`
-// \param with_uv false leaves out a sphere's texture coordinates, which cost more than the rest of it
-SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, bool with_uv = true);
+SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, Parts parts = {});
 // The same for an object that is used again, so that what is not asked for is not set either.
-void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, bool with_uv, SurfaceHit& out);
+void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, Parts parts, SurfaceHit& out);
 
 }  // namespace limn::query

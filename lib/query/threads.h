@@ -10,6 +10,8 @@
 
 namespace limn::query {
 
+using accel::with_threads;
+
 inline constexpr int kMostThreads = 1024;
 
 // As many as are worth a task.
@@ -21,7 +23,7 @@ void for_all_parts(std::size_t size, int threads, const char* who, const Work& w
     if (threads < 0 || threads > kMostThreads)
         throw ArgumentError(std::string(who) + ": threads must lie in 0 to " + std::to_string(kMostThreads));
     if (threads == 1 || size <= kPart) return work(std::size_t{0}, size);
-    accel::with_threads(threads, [&] {
+    with_threads(threads, [&] {
         accel::for_all(0, (size + kPart - 1) / kPart, 1,
                        [&](std::size_t i) { work(i * kPart, std::min(kPart, size - i * kPart)); });
     });

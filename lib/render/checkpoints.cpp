@@ -10,17 +10,13 @@
 
 namespace limn {
 
-class Checkpoints::Impl {
+class Repeated::Impl {
 public:
-    Impl(const RenderJob& job, const std::string& path, double seconds, std::function<void(const Error&)> failed)
-        : thread_([this, &job, path, seconds, failed = std::move(failed)] {
+    Impl(double seconds, std::function<void()> function)
+        : thread_([this, seconds, function = std::move(function)] {
               const std::chrono::duration<double> pause(std::min(seconds, 1e9));
               std::unique_lock lock(mutex_);
-              while (!end_wanted_.wait_for(lock, pause, [this] { return ended_; })) try {
-                      job.save(path);
-                  } catch (const Error& e) {
-                      failed(e);
-                  }
+              while (!end_wanted_.wait_for(lock, pause, [this] { return ended_; })) function();
           }) {}
     ~Impl() {
         {
@@ -38,11 +34,21 @@ private:
     std::thread thread_;  // last: it uses the others
 };
 
-Checkpoints::Checkpoints(const RenderJob& job, const std::string& path, double seconds,
-                         std::function<void(const Error&)> failed) {
-    if (!(seconds > 0)) throw ArgumentError("Checkpoints: the seconds between two must be over 0");
-    impl_ = std::make_unique<Impl>(job, path, seconds, std::move(failed));
+Repeated::Repeated(double seconds, std::function<void()> function) {
+    if (!(seconds > 0)) throw ArgumentError("Repeated: the seconds between two calls must be over 0");
+    impl_ = std::make_unique<Impl>(seconds, std::move(function));
 }
+Repeated::~Repeated() = default;
+
+Checkpoints::Checkpoints(const RenderJob& job, const std::string& path, double seconds,
+                         std::function<void(const Error&)> failed)
+    : repeated_(seconds, [&job, path, failed = std::move(failed)] {
+          try {
+              job.save(path);
+          } catch (const Error& e) {
+              failed(e);
+          }
+      }) {}
 Checkpoints::~Checkpoints() = default;
 
 }  // namespace limn

@@ -9,6 +9,8 @@ namespace {
 
 // The lights count as one ball of this share of their box's half diagonal. 1 is up to 15 % worse under quads.
 constexpr double kRadius = 0.5;
+// Of the extent of all media: a single point has none, and a ray may go through it.
+constexpr double kLeastRadius = 1e-6;
 // Light is asked for along the way where that spans at least this angle (radians) as seen from the lights: else
 // 1 / distance^2 is much the same all along. Up to this optical depth, since from behind hardly any light arrives, and
 // as long as scattering does not change by more than this factor: free flights know better how to share themselves out
@@ -38,7 +40,7 @@ double Equiangular::pdf(double t) const {
     return 1 / (angle() * height_ * (1 + slope * slope));
 }
 
-LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empty() && !scene.media.empty()) {
+LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(scene.lights.size() > 0 && !scene.media.empty()) {
     if (!any_) return;
     Vec3 half;
     if (scene.lights.nodes.empty()) {
@@ -51,7 +53,7 @@ LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(!scene.lights.empt
         pivot_ = {all.center[0], all.center[1], all.center[2]};
         half = {all.half[0], all.half[1], all.half[2]};
     }
-    radius_ = kRadius * length(half);
+    radius_ = std::max(kRadius * length(half), kLeastRadius * scene.media_extent);
 }
 
 std::optional<Equiangular> LightsAsPivot::along(const Ray& ray, const MediaAlongRay& media) const {

@@ -39,7 +39,7 @@ std::int64_t lattice_generator(std::int64_t n) {
 // Tiles lie in the order of a lattice's cosets: a run of them, as long as one, is spread evenly over the picture.
 std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
     const Shard& shard = info.shard;
-    const std::uint32_t across = tiles_along(info.width), all = Film::tile_count(info);
+    const std::uint32_t across = tiles_along(info.window().width()), all = Film::tile_count(info);
     if (shard.index < 1 || shard.index > shard.count || static_cast<std::uint32_t>(shard.count) > all)
         throw ArgumentError("render: there is no shard " + std::to_string(shard.index) + " of " +
                             std::to_string(shard.count) + " of a picture of " + std::to_string(all) + " tiles");
@@ -66,12 +66,17 @@ FilmInfo of_size(int width, int height) {
 }  // namespace
 
 Film::Film(const FilmInfo& info, std::vector<std::uint32_t> tiles)
-    : info_(info), across_(tiles_along(info_.width)), tiles_(std::move(tiles)) {
+    : info_(info),
+      width_(info.window().width()),
+      height_(info.window().height()),
+      across_(tiles_along(width_)),
+      tiles_(std::move(tiles)) {
     const std::uint32_t all = tile_count(info_);
     try {
         slots_.assign(all, static_cast<std::uint32_t>(tiles_.size()));
         for (std::uint32_t i = 0; i < tiles_.size(); ++i) slots_[tiles_[i]] = i;
         pixels_.resize((tiles_.size() + 1) * kTilePixels);
+        if (info_.transparent) clear_.resize(pixels_.size());
         counts_.resize(tiles_.size());
     } catch (const std::bad_alloc&) {
         throw too_large(info_);
@@ -92,19 +97,27 @@ bool Film::is_finished(std::span<const std::uint32_t> tiles) const {
 }
 
 std::size_t Film::memory_bytes() const {
-    return pixels_.size() * sizeof(Pixel) + counts_.size() * sizeof(Counts) +
+    return pixels_.size() * sizeof(Pixel) + clear_.size() * sizeof(double) + counts_.size() * sizeof(Counts) +
            (tiles_.size() + slots_.size()) * sizeof(std::uint32_t) + plan_.rates.size() * sizeof(float);
 }
 
-bool Film::add(int x, int y, const Color& sample) {
-    Pixel& p = pixels_[place(x, y)];
+bool Film::add(int x, int y, const Color& sample, double clear) {
+    const std::size_t i = place(x, y);
+    Pixel& p = pixels_[i];
     const std::uint32_t replicate = p.samples++ % kReplicates;
     if (!is_finite(sample)) return false;
     p.sums[replicate] += sample;
     p.squares += sample * sample;
     const double kLargest = std::numeric_limits<float>::max();
     p.largest = std::max(p.largest, static_cast<float>(std::min(luminance(sample), kLargest)));
+    if (!clear_.empty()) clear_[i] += clear;
     return true;
+}
+
+double Film::alpha(int x, int y) const {
+    const std::uint32_t count = samples(x, y);
+    if (count == 0) return 0;
+    return clear_.empty() ? 1 : 1 - clear_[place(x, y)] / count;
 }
 
 Color Film::mean(int x, int y) const {
@@ -156,6 +169,19 @@ void Film::draw(std::uint32_t number, Image& image) const {
         for (int x = t.left; x < t.right; ++x) image.set(x, y, mean(x, y));
 }
 
+std::vector<float> Film::alpha() const {
+    std::vector<float> alpha(clear_.empty() ? 0 : pixels());
+    if (!alpha.empty())
+        for (const std::uint32_t number : tiles_) draw_alpha(number, alpha);
+    return alpha;
+}
+
+void Film::draw_alpha(std::uint32_t number, std::span<float> all) const {
+    const Tile t = tile(number);
+    for (int y = t.top; y < t.bottom; ++y)
+        for (int x = t.left; x < t.right; ++x) all[index(x, y)] = static_cast<float>(alpha(x, y));
+}
+
 double Film::mean_samples() const { return static_cast<double>(all_samples()) / static_cast<double>(own_pixels()); }
 
 std::uint64_t Film::all_samples() const {
@@ -204,28 +230,35 @@ Film::Counts Film::counts() const {
 
 std::uint32_t Film::tile_count(const FilmInfo& info) {
     constexpr std::uint64_t kMost = 1 << 24;
-    const std::uint64_t count = std::uint64_t{tiles_along(info.width)} * tiles_along(info.height);
+    const PixelBounds window = info.window();
+    const std::uint64_t count = std::uint64_t{tiles_along(window.width())} * tiles_along(window.height());
     if (count > kMost) throw too_large(info);
     return static_cast<std::uint32_t>(count);
 }
 
 Film::Tile Film::tile(const FilmInfo& info, std::uint32_t number) {
-    const std::uint32_t across = tiles_along(info.width);
+    const int width = info.window().width(), height = info.window().height();
+    const std::uint32_t across = tiles_along(width);
     const int left = static_cast<int>(number % across) * kTile, top = static_cast<int>(number / across) * kTile;
-    return {left, top, std::min(left + kTile, info.width), std::min(top + kTile, info.height)};
+    return {left, top, std::min(left + kTile, width), std::min(top + kTile, height)};
 }
 
 std::vector<std::byte> Film::tile_bytes(std::uint32_t number) const {
     static_assert(std::is_trivially_copyable_v<Pixel> && kTileBytes == sizeof(Counts) + kTilePixels * sizeof(Pixel));
-    std::vector<std::byte> bytes(kTileBytes);
+    std::vector<std::byte> bytes(tile_size(info_));
+    const std::size_t place = slots_[number] * kTilePixels;
     std::memcpy(bytes.data(), &counts_[slots_[number]], sizeof(Counts));
-    std::memcpy(&bytes[sizeof(Counts)], &pixels_[slots_[number] * kTilePixels], kTilePixels * sizeof(Pixel));
+    std::memcpy(&bytes[sizeof(Counts)], &pixels_[place], kTilePixels * sizeof(Pixel));
+    if (!clear_.empty()) std::memcpy(&bytes[kTileBytes], &clear_[place], kClearBytes);
     return bytes;
 }
 
-void Film::set_tile(std::uint32_t number, std::span<const std::byte, kTileBytes> bytes) {
+void Film::set_tile(std::uint32_t number, std::span<const std::byte> bytes) {
+    if (bytes.size() != tile_size(info_)) throw ArgumentError("film: a tile of another size");
+    const std::size_t place = slots_[number] * kTilePixels;
     std::memcpy(&counts_[slots_[number]], bytes.data(), sizeof(Counts));
-    std::memcpy(&pixels_[slots_[number] * kTilePixels], &bytes[sizeof(Counts)], kTilePixels * sizeof(Pixel));
+    std::memcpy(&pixels_[place], &bytes[sizeof(Counts)], kTilePixels * sizeof(Pixel));
+    if (!clear_.empty()) std::memcpy(&clear_[place], &bytes[kTileBytes], kClearBytes);
 }
 
 }  // namespace limn

@@ -26,15 +26,24 @@ void each_field(A& a, B& b, const Function& function) {
     function("focus distance", a.camera.focus_distance, b.camera.focus_distance);
     function("shutter", a.camera.shutter_open, b.camera.shutter_open);
     function("shutter", a.camera.shutter_close, b.camera.shutter_close);
+    function("projection", a.camera.projection, b.camera.projection);
+    function("height of the view", a.camera.view_height, b.camera.view_height);
     function("depth limit", a.max_depth, b.max_depth);
     function("seed", a.seed, b.seed);
     function("antialiasing", a.antialias, b.antialias);
     function("estimator", a.estimator, b.estimator);
     function("sampler", a.sampler, b.sampler);
     function("choice of uniform sampling", a.uniform, b.uniform);
+    function("crop window", a.crop, b.crop);
+    function("choice of a transparent background", a.transparent, b.transparent);
     function("", a.shard.index, b.shard.index);
     function("", a.shard.count, b.shard.count);
 }
+
+template <class T>
+constexpr bool kIsOptional = false;
+template <class T>
+constexpr bool kIsOptional<std::optional<T>> = true;
 
 // function(part) for each part of a field that is no number.
 template <class T, class Function>
@@ -42,12 +51,14 @@ void each_part(T& value, const Function& function) {
     using Plain = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Plain, Hash128>) {
         function(value[0]), function(value[1]);
-    } else if constexpr (std::is_same_v<Plain, std::optional<double>>) {
-        // As a flag and a number.
+    } else if constexpr (kIsOptional<Plain>) {
+        // As a flag and a value.
         bool given = value.has_value();
-        double number = value.value_or(0);
-        function(given), function(number);
-        if constexpr (!std::is_const_v<T>) value = given ? std::optional(number) : std::nullopt;
+        auto content = value.value_or(typename Plain::value_type{});
+        function(given), function(content);
+        if constexpr (!std::is_const_v<T>) value = given ? std::optional(content) : std::nullopt;
+    } else if constexpr (std::is_same_v<Plain, PixelBounds>) {
+        function(value.left), function(value.top), function(value.right), function(value.bottom);
     } else {
         function(value.x), function(value.y), function(value.z);
     }

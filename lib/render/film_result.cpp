@@ -7,13 +7,14 @@ namespace limn {
 RenderResult render_result(const Film& film, std::optional<double> error) {
     RenderResult r{film.image(), {}, {}, {}};
     r.error = transport::estimate_error(film, &r.maps);
+    r.maps.alpha = film.alpha();
     r.error.target = error;
     r.error.reached = error && r.error.ci95_high <= *error;
     const FilmInfo& info = film.info();
     const Film::Counts counts = film.counts();
     r.report.scene = info.scene;
-    r.report.width = info.width;
-    r.report.height = info.height;
+    r.report.width = film.width();
+    r.report.height = film.height();
     r.report.seed = info.seed;
     r.report.max_depth = info.max_depth;
     r.report.samples_per_pixel = film.mean_samples();

@@ -49,22 +49,31 @@ Hash128 program_digest() {
 
 }  // namespace
 
+bool is_window(const FilmInfo& info) {
+    const auto [left, top, right, bottom] = info.window();
+    return 0 <= left && left < right && right <= info.width && 0 <= top && top < bottom && bottom <= info.height;
+}
+
 FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings) {
     check(scene, settings);
-    return {.scene = scene.name(),
-            .features = scene.features(),
-            .scene_digest = scene.digest(),
-            .program = scene.has_untagged() ? program_digest() : Hash128{},
-            .camera = camera,
-            .width = settings.width,
-            .height = settings.height,
-            .max_depth = settings.max_depth,
-            .seed = settings.seed,
-            .antialias = settings.antialias,
-            .estimator = settings.estimator,
-            .sampler = settings.sampler,
-            .uniform = settings.uniform,
-            .shard = settings.shard};
+    FilmInfo info = {.scene = scene.name(),
+                     .features = scene.features(),
+                     .scene_digest = scene.digest(),
+                     .program = scene.has_untagged() ? program_digest() : Hash128{},
+                     .camera = camera,
+                     .width = settings.width,
+                     .height = settings.height,
+                     .max_depth = settings.max_depth,
+                     .seed = settings.seed,
+                     .antialias = settings.antialias,
+                     .estimator = settings.estimator,
+                     .sampler = settings.sampler,
+                     .uniform = settings.uniform,
+                     .crop = settings.crop,
+                     .transparent = settings.transparent,
+                     .shard = settings.shard};
+    if (!is_window(info)) throw ArgumentError("render: the crop window must lie in the picture, and not be empty");
+    return info;
 }
 
 }  // namespace limn::transport

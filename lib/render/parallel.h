@@ -1,16 +1,15 @@
 // How limn uses threads: the one loop that it runs in parallel, and in which arena.
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 
 #include "core/float_environment.h"
+#include "query/threads.h"
 
 namespace limn::transport {
 
@@ -42,14 +41,7 @@ void for_each_row(int height, const Function& function) {
 template <class Function>
 void with_threads(int threads, const Function& function) {
     const FloatEnvironment environment;
-    if (threads == 0) return function();
-    // More threads than processors are allowed, for whoever asks for them.
-    const auto count = static_cast<std::size_t>(threads);
-    const tbb::global_control allow(
-        tbb::global_control::max_allowed_parallelism,
-        std::max(count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    tbb::task_arena arena(threads);
-    arena.execute(function);
+    query::with_threads(threads, function);
 }
 
 }  // namespace limn::transport

@@ -37,11 +37,13 @@ shade::Roulette roulette_of(const flat::Scene& scene, int max_depth, Estimator e
 
 }  // namespace
 
-PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator)
+PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator, bool transparent)
     : scene_(scene),
       max_depth_(max_depth == kUnlimitedDepth ? std::numeric_limits<std::uint32_t>::max()
                                               : static_cast<std::uint32_t>(max_depth)),
       sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
+      transparent_(transparent),
+      has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), shade::has_holes)),
       pivot_(scene),
       roulette_(roulette_of(scene, max_depth, estimator)),
       now_(std::make_unique<shade::Segments>()),
@@ -71,7 +73,7 @@ void PathTracer::begin(std::span<Path> paths) {
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
         const Ray& ray = paths[i].ray;
-        paths[i].radiance = {};
+        paths[i].radiance = {}, paths[i].clear = 0;
         if (!count(ray)) continue;
         const std::size_t row = s.count++;
         s.path[row] = i, s.vertex[row] = 1;
@@ -98,16 +100,24 @@ void PathTracer::draw(const sampling::PathRows<n>& paths, std::size_t first, std
                       std::size_t dimensions, sampling::Row* numbers) {
     std::uint32_t group[kShaded] = {};
     for (std::size_t i = 0; i < count; ++i) group[i] = Sampler::group_of(paths.vertex[first + i], use);
-    if (paths_[0].sampler.kind() == SamplerKind::sobol)
-        return sobol::draw({count, paths.base + first, paths.index + first, group}, dimensions, numbers);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto drawn = paths_[paths.path[first + i]].sampler.numbers_of(group[i]);
-        for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
-    }
+    const auto sampler_at = [&](std::size_t i) -> const Sampler& { return paths_[paths.path[first + i]].sampler; };
+    draw_numbers({count, paths.base + first, paths.index + first, group}, dimensions, sampler_at, numbers);
 }
 
 // For the next segments, from a row on.
+void PathTracer::draw_holes(std::size_t first) {
+    shade::Segments& s = *next_;
+    for (; first < s.count; first += kShaded) {
+        const std::size_t some = std::min(kShaded, s.count - first);
+        sampling::Row numbers;
+        draw(s, first, some, Use::holes, 1, &numbers);
+        std::copy(numbers, numbers + some, s.hole + first);
+    }
+}
+
+// The same.
 void PathTracer::draw_flights(std::size_t first) {
+    if (has_holes_) draw_holes(first);
     if (scene_.media.empty()) return;
     shade::Segments& s = *next_;
     for (; first < s.count; first += kShaded) {
@@ -122,7 +132,7 @@ void PathTracer::draw_flights(std::size_t first) {
 }
 
 void PathTracer::find_hits() {
-    const shade::Segments& s = *now_;
+    shade::Segments& s = *now_;
     hits_.resize(s.count), ray_list_.resize(s.count);
     for (std::size_t i = 0; i < s.count; ++i)
         ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, kInfinity, s.time[i]};
@@ -130,6 +140,8 @@ void PathTracer::find_hits() {
         const std::size_t some = std::min(trace::kMostRays, s.count - i);
         trace::closest_hits(scene_, std::span(ray_list_).subspan(i, some), &hits_[i]);
     }
+    if (!has_holes_) return;
+    for (std::size_t i = 0; i < s.count; ++i) hits_[i] = holes_.first_stop(scene_, ray_list_[i], hits_[i], s.hole[i]);
 }
 
 // To the next surface or scattering in a medium, or the background. Boundaries that do not bend light are passed.
@@ -155,32 +167,52 @@ void PathTracer::find_vertex(std::size_t row) {
         }
         depth = s.depth[row] - flown.depth;
     }
-    if (hit.primitive == flat::RawHit::kMiss) {
-        const Background background{scene_.background_bottom, scene_.background_top};
-        paths_[s.path[row]].radiance += throughput * background.radiance(ray.direction);
-        return;
-    }
-    query::surface_at(scene_, ray, hit, scene_.features.texture_coordinates, met_);
-    if (met_.index_matched) {
-        now_->throughput.set(row, throughput);
-        return pass_boundary(row, depth);
-    }
-    if (shade::can_emit(scene_, vertex.material)) add_emission(row, throughput);
+    if (hit.primitive == flat::RawHit::kMiss) return escape(row, throughput);
+    query::surface_at(scene_, ray, hit, {scene_.features.texture_coordinates, scene_.features.tangents}, met_);
+    if (met_.index_matched) return pass_boundary(row, throughput, depth);
+    if (shade::can_emit(scene_, vertex.material))
+        add_emission(row, throughput * shade::emitted(scene_, vertex), hit.primitive, vertex.position);
     add_vertex(row, throughput);
 }
 
-void PathTracer::pass_boundary(std::size_t row, double depth) {
+// Out of the scene: to the environment or the background, and the suns before it.
+void PathTracer::escape(std::size_t row, const Color& throughput) {
+    Path& path = paths_[now_->path[row]];
+    if (transparent_ && now_->vertex[row] == 1) {
+        path.clear = (throughput.r + throughput.g + throughput.b) / 3;
+        return;
+    }
+    const Vec3& direction = ray_list_[row].direction;
+    const bool has_map = scene_.environment.image != nullptr;
+    if (!has_map) {
+        const Background background{scene_.background_bottom, scene_.background_top};
+        path.radiance += throughput * background.radiance(direction);
+    }
+    const std::vector<flat::DistantLight>& distant = scene_.lights.distant;
+    for (std::size_t k = 0; k < distant.size(); ++k) {
+        const flat::Light& light = distant[k].light;
+        const std::uint64_t number = flat::kFirstDistant + k;
+        if (light.kind == flat::LightKind::environment)
+            add_emission(row, throughput * shade::environment_radiance(scene_, direction), number, direction);
+        if (light.kind != flat::LightKind::sun) continue;
+        const LightRecord& sun = scene_.light_sources[light.number];
+        if (shade::sun_covers(sun, direction))
+            add_emission(row, throughput * shade::sun_radiance(sun), number, direction);
+    }
+}
+
+void PathTracer::pass_boundary(std::size_t row, const Color& throughput, double depth) {
     const Ray beyond = leave(met_.surface, ray_list_[row].direction, now_->time[row]);
     if (!count(beyond)) return;
     const shade::Segments& s = *now_;
     shade::Segments& next = *next_;
     const std::size_t i = next.count++;
     next.copy(i, s, row);
-    next.throughput.set(i, s.throughput.get<Color>(row));
+    next.throughput.set(i, throughput);
     next.origin.set(i, beyond.origin), next.direction.set(i, beyond.direction);
     next.receiver.set(i, s.receiver.get<Vec3>(row)), next.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
     next.scatter_pdf[i] = s.scatter_pdf[row], next.light_odds[i] = s.light_odds[row];
-    next.depth[i] = depth, next.choose[i] = s.choose[row];
+    next.depth[i] = depth, next.choose[i] = s.choose[row], next.hole[i] = s.hole[row];
 }
 
 // A vertex for light that media scatter once on their way to the segment's begin. Where that is worth while the vertex
@@ -209,21 +241,22 @@ double PathTracer::want_light_on_the_way(std::size_t row, const FreeFlight& flow
     return flown.scatters && flown.t <= along->stretch().to ? along->pdf(flown.t) / flown.density : 0;
 }
 
-void PathTracer::add_emission(std::size_t row, const Color& throughput) {
+// Light that arrives: of a primitive at a position, or of a distant light from a direction.
+template <class Place>
+void PathTracer::add_emission(std::size_t row, const Color& emission, std::uint64_t primitive, const Place& place) {
     const shade::Segments& s = *now_;
-    const Color emission = shade::emitted(scene_, met_.surface);
-    if (is_black(emission) || is_black(throughput)) return;
+    if (is_black(emission)) return;
     if (!sample_lights_ || s.scatter_pdf[row] == 0) {
-        paths_[s.path[row]].radiance += throughput * emission;
+        paths_[s.path[row]].radiance += emission;
         return;
     }
     Emitters& e = emitters_;
     const std::size_t i = e.count++;
     e.paths[i] = s.path[row];
-    e.emission[i] = throughput * emission;
+    e.emission[i] = emission;
     e.receiver.set(i, s.receiver.get<Vec3>(row)), e.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
     e.time[i] = s.time[row], e.scatter_pdf[i] = s.scatter_pdf[row], e.light_odds[i] = s.light_odds[row];
-    e.hits.primitive[i] = hits_[row].primitive, e.hits.position.set(i, met_.surface.position);
+    e.hits.primitive[i] = primitive, e.hits.position.set(i, place);
     if (e.count == kShaded) add_weighed_emission();
 }
 
@@ -275,7 +308,7 @@ void PathTracer::shade(Queue& queue) {
     if (std::any_of(queue.wants_light, queue.wants_light + count, [](double odds) { return odds > 0; }))
         sample_lights(queue);
     if (!queue.for_light_alone) scatter(queue);
-    queue.vertices.count = 0;
+    queue.vertices.count = 0, queue.vertices.folds = 0;
 }
 
 void PathTracer::sample_lights(Queue& queue) {
@@ -286,7 +319,7 @@ void PathTracer::sample_lights(Queue& queue) {
     lights.numbers = queue.light_numbers;
     const sampling::Rows3& sides = queue.lobe->one_sided ? vertices.normal : kFromEverywhere;
     lights::sample(scene_, {vertices.count, vertices.position, sides, queue.paths.time}, lights);
-    queue.lobe->value(vertices, lights.direction);
+    bsdf::value(*queue.lobe, vertices, lights.direction);
     sampling::Rows3 emission;
     for (std::size_t i = 0; i < vertices.count; ++i) {
         const bool lit = queue.wants_light[i] > 0 && lights.pdf[i] > 0 && !is_black(vertices.value.get<Color>(i));
@@ -298,7 +331,7 @@ void PathTracer::sample_lights(Queue& queue) {
 void PathTracer::scatter(Queue& queue) {
     bsdf::Vertices& vertices = queue.vertices;
     draw(queue.paths, 0, vertices.count, Use::scattering, queue.lobe->numbers, vertices.numbers);
-    queue.lobe->sample(vertices);
+    bsdf::sample(*queue.lobe, vertices);
     sampling::Row survival, numbers = {};
     if (shade::scatter(roulette_, vertices, queue.paths, survival))
         draw(queue.paths, 0, vertices.count, Use::roulette, 1, &numbers);
@@ -312,14 +345,15 @@ void PathTracer::add_direct_light() {
     const shade::ShadowRays& s = shadows_;
     ray_list_.resize(s.count), occluded_.resize(s.count);
     for (std::size_t i = 0; i < s.count; ++i)
-        ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, 1 - kShadowEnd, s.time[i]};
+        ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, s.end[i], s.time[i]};
     for (std::size_t i = 0; i < s.count; i += trace::kMostRays) {
         const std::size_t some = std::min(trace::kMostRays, s.count - i);
         trace::are_occluded(scene_, std::span(ray_list_).subspan(i, some), &occluded_[i]);
     }
     for (std::size_t i = 0; i < s.count; ++i) {
-        if (occluded_[i] != 0) continue;
+        if (occluded_[i] != 0 && !has_holes_) continue;
         Color light = s.light.get<Color>(i);
+        if (occluded_[i] != 0) light = holes_.transmittance(scene_, ray_list_[i]) * light;
         if (!scene_.media.empty()) {
             media_.trace(scene_, ray_list_[i]);
             light = light * media_.transmittance();

@@ -13,6 +13,7 @@
 #include "limn/render/settings.h"
 #include "query/surface_at.h"
 #include "render/equiangular.h"
+#include "render/holes.h"
 #include "render/media.h"
 #include "render/sampler.h"
 #include "shade/stages.h"
@@ -25,6 +26,7 @@ struct Path {
     Sampler sampler;
     Ray ray{};
     Color radiance{};  // the result
+    double clear = 0;  // how much light of a background that is left out it would have brought
 };
 
 // Estimates the radiance that arrives along camera rays, of a batch of paths at a time: all go one segment on before
@@ -33,7 +35,8 @@ struct Path {
 // each thread: it counts rays and keeps its memory.
 class PathTracer {
 public:
-    PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator);
+    // \param transparent whether the camera does not see the background
+    PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator, bool transparent = false);
 
     // Unbiased but for paths longer than max_depth segments. \pre one kind of sampler
     void trace(std::span<Path> paths);
@@ -77,12 +80,15 @@ private:
     template <std::size_t n>
     void draw(const sampling::PathRows<n>& paths, std::size_t first, std::size_t count, Use use, std::size_t dimensions,
               sampling::Row* numbers);
+    void draw_holes(std::size_t first);
     void draw_flights(std::size_t first);
     void find_hits();
     void find_vertex(std::size_t row);
     double want_light_on_the_way(std::size_t row, const FreeFlight& flown);
-    void pass_boundary(std::size_t row, double depth);
-    void add_emission(std::size_t row, const Color& throughput);
+    void pass_boundary(std::size_t row, const Color& throughput, double depth);
+    void escape(std::size_t row, const Color& throughput);
+    template <class Place>
+    void add_emission(std::size_t row, const Color& emission, std::uint64_t primitive, const Place& place);
     void add_weighed_emission();
     void add_vertex(std::size_t row, const Color& throughput, double light_odds = 0);
     Queue& queue_of(const bsdf::Lobe* lobe, bool for_light_alone);
@@ -94,11 +100,13 @@ private:
 
     const flat::Scene& scene_;
     const std::uint32_t max_depth_;
-    const bool sample_lights_;
+    const bool sample_lights_, transparent_;
+    const bool has_holes_;  // in surfaces: materials with an opacity
     const LightsAsPivot pivot_;
     const shade::Roulette roulette_;
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
+    Holes holes_;
     std::span<Path> paths_;
     std::unique_ptr<shade::Segments> now_, next_;
     std::vector<Ray> ray_list_;  // as they are traced

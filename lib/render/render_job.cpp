@@ -103,6 +103,16 @@ public:
         return image;
     }
 
+    std::vector<float> alpha() const {
+        std::vector<float> alpha(film_.info().transparent ? film_.pixels() : 0);
+        if (alpha.empty()) return alpha;
+        for (const std::uint32_t number : film_.tiles()) {
+            const std::scoped_lock lock(tile_mutex(number));
+            film_.draw_alpha(number, alpha);
+        }
+        return alpha;
+    }
+
     const Film& film() const { return film_; }
 
     RenderResult result() const {
@@ -303,6 +313,7 @@ StoppedBy RenderJob::run() { return impl_->run(); }
 StoppedBy RenderJob::add_samples(int count) { return impl_->add_samples(count); }
 void RenderJob::save(const std::string& path) const { impl_->save(path); }
 Image RenderJob::image() const { return impl_->image(); }
+std::vector<float> RenderJob::alpha() const { return impl_->alpha(); }
 const Film& RenderJob::film() const { return impl_->film(); }
 RenderResult RenderJob::result() const { return impl_->result(); }
 

@@ -13,7 +13,7 @@
 namespace limn::transport {
 
 // What a vertex of a path draws numbers for.
-enum class Use : std::uint32_t { light, scattering, roulette, segment, flight };
+enum class Use : std::uint32_t { light, scattering, roulette, segment, flight, holes };
 
 // The numbers of one sample, drawn in groups. Within a group of up to five dimensions the samples of a pixel form a
 // Sobol sequence; the groups are independently scrambled and shuffled (Burley, Practical hash-based Owen scrambling,
@@ -64,5 +64,18 @@ private:
     std::uint32_t index_ = 0;
     std::uint64_t seed_, pixel_, sample_, base_ = 0;
 };
+
+// The first `dimensions` numbers of many samplers of one kind, numbers[d][i] those of sampler_at(i) for its group.
+// \param points their bases, indices and groups
+template <class SamplerAt>
+void draw_numbers(const sobol::Points& points, std::size_t dimensions, const SamplerAt& sampler_at,
+                  sampling::Row* numbers) {
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const Sampler& sampler = sampler_at(i);
+        if (sampler.kind() == SamplerKind::sobol) return sobol::draw(points, dimensions, numbers);
+        const auto drawn = sampler.numbers_of(points.group[i]);
+        for (std::size_t d = 0; d < dimensions; ++d) numbers[d][i] = drawn[d];
+    }
+}
 
 }  // namespace limn::transport

@@ -6,13 +6,10 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "flat/scene.h"
 #include "limn/render/film.h"
-#include "limn/scene/camera.h"
+#include "render/camera_samples.h"
 #include "render/path.h"
 
 namespace limn::transport {
@@ -28,13 +25,9 @@ public:
     void render(Film& film, std::uint32_t tile, std::mutex& mutex, std::atomic<std::uint64_t>& samples) const;
 
 private:
-    using Pixels = std::vector<std::pair<int, int>>;
-    void set_camera_rays(std::span<Path> paths, const Pixels& pixels) const;
-
     const flat::Scene& scene_;
     const FilmInfo& info_;
-    const CameraRays camera_;
-    const bool has_lens_or_motion_;
+    const CameraSamples camera_;
     mutable tbb::enumerable_thread_specific<PathTracer> tracers_;
 };
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "lanes/functions-inl.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
 #include "limn/core/warp.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace limn {
 
 namespace {
@@ -22,10 +24,20 @@ double tan_of_half(double degrees) {
     return degrees <= 90 ? std::tan(radians(degrees) / 2) : 1 / std::tan(radians(180 - degrees) / 2);
 }
 
+double half_height_of(const Camera& camera) {
+    const double half_angle = tan_of_half(camera.vertical_fov);
+    if (camera.projection != Projection::orthographic) return half_angle;
+    const double half =
+        camera.view_height ? *camera.view_height / 2 : length(camera.look_at - camera.look_from) * half_angle;
+    require(half > 0 && std::isfinite(half), "the height of the view must be positive and finite");
+    return half;
+}
+
 }  // namespace
 
 CameraRays::CameraRays(const Camera& camera, int width, int height)
     : eye_(camera.look_from),
+      projection_(camera.projection),
       width_(width),
       height_(height),
       shutter_open_(camera.shutter_open),
@@ -49,28 +61,38 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
 
     const double aspect = camera.aspect_ratio.value_or(width_ / height_);
     require(aspect > 0 && std::isfinite(aspect), "the aspect ratio must be positive and finite");
-    half_height_ = tan_of_half(camera.vertical_fov);
+    half_height_ = half_height_of(camera);
     half_width_ = half_height_ * aspect;
     focus_distance_ = camera.focus_distance.value_or(length(view));
     require(focus_distance_ > 0 && std::isfinite(focus_distance_), "the focus distance must be positive and finite");
     lens_radius_ = focus_distance_ * tan_of_half(camera.aperture_angle);
+    require(lens_radius_ == 0 || projection_ != Projection::panorama, "a panorama has no lens: its aperture must be 0");
     // No ray may begin or lead beyond the largest double.
-    const double reach = half_width_ + half_height_ + lens_radius_ / focus_distance_;
-    require(std::isfinite(2 * reach) && std::isfinite(max_abs(eye_) + 2 * lens_radius_),
+    const double frame = half_width_ + half_height_, reach = frame + lens_radius_ / focus_distance_;
+    require(std::isfinite(2 * reach) && std::isfinite(max_abs(eye_) + 2 * frame + 2 * lens_radius_),
             "the frame or the lens is too large");
 }
 
 Ray CameraRays::ray(double x, double y, double lens_u, double lens_v, double time_u) const {
     // (2x - w) / w rather than 2x/w - 1: exact in the numerator, so that mirrored pixels get mirrored rays.
-    const double across = (2 * x - width_) / width_ * half_width_;
-    const double upward = (height_ - 2 * y) / height_ * half_height_;
-    const Vec3 pinhole = forward_ + across * right_ + upward * up_;
+    const double across = (2 * x - width_) / width_, upward = (height_ - 2 * y) / height_;
     const double time = shutter_open_ + time_u * (shutter_close_ - shutter_open_);
-    if (lens_radius_ == 0) return {eye_, pinhole, 0, kInfinity, time};
+    if (projection_ == Projection::panorama) return {eye_, panorama_direction(across, upward), 0, kInfinity, time};
+    const Vec3 right = across * half_width_ * right_, up = upward * half_height_ * up_;
+    const bool is_perspective = projection_ == Projection::perspective;
+    const Point3 origin = is_perspective ? eye_ : eye_ + right + up;
+    const Vec3 pinhole = is_perspective ? forward_ + right + up : forward_;
+    if (lens_radius_ == 0) return {origin, pinhole, 0, kInfinity, time};
     const Vec3 on_disc = sample_uniform_disc(lens_u, lens_v);
     const Vec3 shift = lens_radius_ * (on_disc.x * right_ + on_disc.y * up_);
     // Towards the point that the pinhole ray reaches in the plane of focus.
-    return {eye_ + shift, pinhole - shift / focus_distance_, 0, kInfinity, time};
+    return {origin + shift, pinhole - shift / focus_distance_, 0, kInfinity, time};
+}
+
+Vec3 CameraRays::panorama_direction(double across, double upward) const {
+    const auto longitude = HWY_NAMESPACE::sine_cosine_of_turns(across / 2);
+    const auto latitude = HWY_NAMESPACE::sine_cosine_of_turns(upward / 4);
+    return latitude.cosine * (longitude.cosine * forward_ + longitude.sine * right_) + latitude.sine * up_;
 }
 
 Camera frame_box(const Box& box, double aspect_ratio) {
@@ -96,3 +118,4 @@ Camera frame_box(const Box& box, double aspect_ratio) {
 }
 
 }  // namespace limn
+HWY_AFTER_NAMESPACE();

@@ -1,5 +1,7 @@
 #include "limn/scene/model.h"
 
+#include <algorithm>
+
 #include "limn/core/error.h"
 
 namespace limn {
@@ -11,6 +13,11 @@ Box Model::bounds() const {
         box.extend(world_from_mesh == Transform{} ? own : transform_box(world_from_mesh, own));
     }
     return box;
+}
+
+const ModelPart* Model::part_of(std::size_t face) const {
+    const auto after = std::ranges::upper_bound(parts, face, {}, &ModelPart::first_face);
+    return after == parts.begin() ? nullptr : &*(after - 1);
 }
 
 void Model::replace_material(const std::string& name, std::shared_ptr<const Material> material) {

@@ -20,6 +20,21 @@ bool is_specular(const flat::Scene& scene, const MaterialRef& material);
 bool can_emit(const flat::Scene& scene, const MaterialRef& material);
 Color emitted(const flat::Scene& scene, const Surface& s);
 
+// Of a direction of any length. \pre there is an environment
+Color environment_radiance(const flat::Scene& scene, const Vec3& direction);
+
+// Of a sun's disc.
+Color sun_radiance(const LightRecord& sun);
+// Whether the disc covers a direction of any length.
+bool sun_covers(const LightRecord& sun, const Vec3& direction);
+
+// As a normal map bends it. \param incoming direction of the ray that came here
+Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);
+
+// Whether the material has an opacity, and how much of the light it stops at a surface that it is on.
+bool has_holes(const MaterialRecord& material);
+double opacity(const flat::Scene& scene, const Surface& s);
+
 // A sample of a light.
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);

@@ -63,13 +63,19 @@ RayCounts add_shadow_rays(const Paths& paths, const bsdf::Vertices& v, const lig
                                          ((weight / pdf) * (load3<Doubles>(v.value, i) * load3<Doubles>(emission, i)));
         const Mask<Doubles> lit = first_lanes<Doubles>(v.count - i) & (pdf > 0.0) & (odd > 0.0) & !is_black(arriving);
         if (!any(lit)) continue;
+        const Doubles end = load<Doubles>(s.end + i);
+        const Mask<Doubles> distant = end == kInfinity;
+        const Vector<Doubles> direction = load3<Doubles>(s.direction, i);
         const Vector<Doubles> from =
-            offset_along(position, load3<Doubles>(v.position_error, i), load3<Doubles>(v.normal, i), light - position);
+            offset_along(position, load3<Doubles>(v.position_error, i), load3<Doubles>(v.normal, i),
+                         select(distant, direction, light - position));
         const Vector<Doubles> to =
             offset_along(light, load3<Doubles>(s.position_error, i), load3<Doubles>(s.normal, i), from - light);
-        const Mask<Doubles> leaves = usable(from, to - from, lit, counts);
+        const Vector<Doubles> way = select(distant, direction, to - from);
+        const Mask<Doubles> leaves = usable(from, way, lit, counts);
         compress3(from, leaves, shadows.origin, shadows.count);
-        compress3(to - from, leaves, shadows.direction, shadows.count);
+        compress3(way, leaves, shadows.direction, shadows.count);
+        hn::CompressStore(end.v, leaves.m, Doubles::Tag(), shadows.end + shadows.count);
         compress3(arriving, leaves, shadows.light, shadows.count);
         for (std::uint32_t rest = bits(leaves); rest != 0; rest &= rest - 1) {
             const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(rest));

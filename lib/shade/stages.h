@@ -22,15 +22,16 @@ struct Segments : sampling::PathRows<kBatch + kSlack> {
     double light_odds[kRows] = {};   // how much more densely that vertex was drawn for lights than for scattering
     double depth[kRows] = {};        // optical, in scattering, to where media scatter the path
     double choose[kRows] = {};       // the medium that does
+    double hole[kRows] = {};         // uniform: whether surfaces with an opacity stop the path
 };
 
-// Up to just before t = 1.
 struct ShadowRays {
     static constexpr std::size_t kRows = 2 * kBatch + kSlack;
 
     std::size_t count = 0;
     std::uint32_t path[kRows] = {};
     double time[kRows] = {};
+    double end[kRows] = {};  // t_max
     sampling::Rows3Of<kRows> origin, direction;
     sampling::Rows3Of<kRows> light;  // that arrives if nothing is in the way
 };

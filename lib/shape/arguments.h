@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "limn/core/error.h"
 #include "limn/core/transform.h"
@@ -10,7 +11,7 @@
 namespace limn {
 
 template <class T>
-void require_finite(const T& value, const char* shape, const char* argument) {
+void require_finite(const T& value, std::string_view shape, const char* argument) {
     if (!is_finite(value)) throw ArgumentError(std::string(shape) + ": " + argument + " must be finite");
 }
 
@@ -18,5 +19,8 @@ template <class T>
 void require_not_null(const T& pointer, const char* shape, const char* argument) {
     if (!pointer) throw ArgumentError(std::string(shape) + ": " + argument + " must not be null");
 }
+
+// Where an Instance may stand.
+void require_placement(const Transform& at_time0, const Transform& at_time1, std::string_view who);
 
 }  // namespace limn

@@ -42,6 +42,21 @@ bool has_root(const Cubic& c, double rounding = 0, int halvings = 20) {
 
 }  // namespace
 
+void require_placement(const Transform& at_time0, const Transform& at_time1, std::string_view who) {
+    require_finite(at_time0, who, "the transform");
+    require_finite(at_time1, who, "the transform at time 1");
+    const FloatEnvironment environment;
+    const auto require_inverse = [&](const Transform& m) {
+        if (is_singular(m)) throw ArgumentError(std::string(who) + ": the matrix is singular");
+        inverse(m);  // throws if double cannot hold it
+    };
+    require_inverse(at_time0);
+    if (at_time0 == at_time1) return;
+    require_inverse(at_time1);
+    if (has_root(determinant_over_time(at_time0, at_time1)))
+        throw ArgumentError(std::string(who) + ": the moving transform is singular at some time of the shutter");
+}
+
 Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& world_from_object)
     : Instance(std::move(object), world_from_object, world_from_object) {}
 
@@ -51,15 +66,7 @@ Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& at_t
       world_from_object1_(at_time1),
       moving_(!(at_time0 == at_time1)) {
     require_not_null(object_, "Instance", "the object");
-    require_finite(at_time0, "Instance", "the transform");
-    require_finite(at_time1, "Instance", "the transform at time 1");
-    const FloatEnvironment environment;
-    for (const Transform& m : {at_time0, at_time1}) {
-        if (is_singular(m)) throw ArgumentError("Instance: the matrix is singular");
-        inverse(m);  // throws if double cannot hold it
-    }
-    if (moving_ && has_root(determinant_over_time(at_time0, at_time1)))
-        throw ArgumentError("Instance: the moving transform is singular at some time of the shutter");
+    require_placement(at_time0, at_time1, "Instance");
 }
 
 Box Instance::bounds() const { return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds()); }

@@ -68,8 +68,7 @@ private:
     }
 
     TriangleVertices corners_of(std::size_t i) const {
-        const Index3& t = data_.triangles[i];
-        return {to_point(data_.vertices[t.a]), to_point(data_.vertices[t.b]), to_point(data_.vertices[t.c])};
+        return triangle_vertices({data_.vertices, data_.triangles, {}, {}, {}}, i);
     }
 
     void join_across_edges() {

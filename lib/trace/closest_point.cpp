@@ -17,8 +17,7 @@ namespace {
 constexpr double kLess = 1 - 0x1p-40, kSlack = 0x1p-45;
 
 Transform placed(const flat::Instance& instance, const Transform* outer, double time) {
-    const Transform m = instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
-                                        : instance.world_from_object0;
+    const Transform m = flat::world_from_object(instance, time);
     return outer != nullptr ? *outer * m : m;
 }
 

@@ -11,26 +11,27 @@
 #include "trace/queries.h"
 #include "trace/traverse.h"
 
+// The searches of one ray: X(name, Query) for each.
+#undef LIMN_FOR_EACH_SEARCH
+#define LIMN_FOR_EACH_SEARCH(X)                   \
+    X(search_closest, Closest)                    \
+    X(search_any, Any)                            \
+    X(search_every, Every)                        \
+    X(search_passages, Passages)                  \
+    X(search_filtered_closest, Filtered<Closest>) \
+    X(search_filtered_any, Filtered<Any>)         \
+    X(search_filtered_every, Filtered<Every>)     \
+    X(search_filtered_passages, Filtered<Passages>)
+
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
 // A group of primitives, numbered from `first` on, against a ray.
-void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                    Closest& query);
-void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                Any& query);
-void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                  Every& query);
-void search_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                     Passages& query);
-void search_filtered_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                             std::uint64_t first, Filtered<Closest>& query);
-void search_filtered_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                         std::uint64_t first, Filtered<Any>& query);
-void search_filtered_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                           std::uint64_t first, Filtered<Every>& query);
-void search_filtered_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                              std::uint64_t first, Filtered<Passages>& query);
+#define LIMN_DECLARE_SEARCH(name, Query)                                                                        \
+    void name(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+              Query& query);
+LIMN_FOR_EACH_SEARCH(LIMN_DECLARE_SEARCH)
+#undef LIMN_DECLARE_SEARCH
 
 // The whole scene against up to kMostRays rays.
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries);

@@ -209,38 +209,13 @@ void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t c
     search_many(scene, rays, count, queries, nullptr);
 }
 
-void search_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                    Closest& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                Any& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                  Every& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first,
-                     Passages& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_filtered_closest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                             std::uint64_t first, Filtered<Closest>& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_filtered_any(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                         std::uint64_t first, Filtered<Any>& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_filtered_every(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                           std::uint64_t first, Filtered<Every>& query) {
-    search(scene, id, ray, frame, first, query);
-}
-void search_filtered_passages(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame,
-                              std::uint64_t first, Filtered<Passages>& query) {
-    search(scene, id, ray, frame, first, query);
-}
+#define LIMN_DEFINE_SEARCH(name, Query)                                                                         \
+    void name(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+              Query& query) {                                                                                   \
+        search(scene, id, ray, frame, first, query);                                                            \
+    }
+LIMN_FOR_EACH_SEARCH(LIMN_DEFINE_SEARCH)
+#undef LIMN_DEFINE_SEARCH
 
 }  // namespace limn::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -19,20 +19,21 @@ namespace limn::trace {
 
 namespace {
 
-HWY_EXPORT(search_closest);
-HWY_EXPORT(search_any);
-HWY_EXPORT(search_every);
-HWY_EXPORT(search_passages);
-HWY_EXPORT(search_filtered_closest);
-HWY_EXPORT(search_filtered_any);
-HWY_EXPORT(search_filtered_every);
-HWY_EXPORT(search_filtered_passages);
+// search(scene, id, ray, frame, first, query) by the kind of query.
+#define LIMN_EXPORT_SEARCH(name, Query)                                                                           \
+    HWY_EXPORT(name);                                                                                             \
+    void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+                Query& query) {                                                                                   \
+        HWY_DYNAMIC_DISPATCH(name)(scene, id, ray, frame, first, query);                                          \
+    }
+LIMN_FOR_EACH_SEARCH(LIMN_EXPORT_SEARCH)
+#undef LIMN_EXPORT_SEARCH
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
 Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
     Closest query{frame.ray.t_max};
-    HWY_DYNAMIC_DISPATCH(search_closest)(scene, id, ray, frame, first_number, query);
+    search(scene, id, ray, frame, first_number, query);
     return query.best;
 }
 
@@ -61,9 +62,8 @@ GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
 }
 
 // A search of the scene, then of all boundaries of media, which are flagged where they are listed in `out`.
-template <class Search, class Query>
-void search_all(const flat::Scene& scene, const Ray& ray, const Search& search, Query& query,
-                std::vector<Crossing>* out) {
+template <class Query>
+void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vector<Crossing>* out) {
     search(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     const std::size_t before = out != nullptr ? out->size() : 0;
     for (const flat::Medium& medium : scene.media) {
@@ -88,7 +88,7 @@ Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any query{ray.t_max};
-    HWY_DYNAMIC_DISPATCH(search_any)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+    search(scene, GroupId::root, ray, RayFrame(ray), 0, query);
     return query.found;
 }
 
@@ -124,45 +124,28 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
         if (slabs.meets(scene.media[i].bounds, ray.t_max, near)) media.push_back(i);
 }
 
-void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
-    Every query{ray.t_max, out};
-    HWY_DYNAMIC_DISPATCH(search_every)(scene, GroupId::root, ray, RayFrame(ray), 0, query);
-}
-
-void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
+    out.clear();
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
         Every query{ray.t_max, out};
-        HWY_DYNAMIC_DISPATCH(search_every)
-        (scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+        search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
 }
 
-void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
-    out.clear();
-    every_boundary(scene, medium, ray, out);
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
+    Every query{ray.t_max, out};
+    search_all(scene, ray, query, &out);
 }
 
 PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out) {
     Passages query{{}, ray.t_max, out, asks_origin};
-    search_all(
-        scene, ray,
-        [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(search_passages)
-            (of...);
-        },
-        query, out);
+    search_all(scene, ray, query, out);
     return query;
 }
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Closest> query{{ray.t_max}, &filter};
-    search_all(
-        scene, ray,
-        [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(search_filtered_closest)
-            (of...);
-        },
-        query, nullptr);
+    search_all(scene, ray, query, nullptr);
     Hit& best = query.best;
     if (!scene.media.empty() && best.primitive != flat::RawHit::kMiss)
         best.index_matched = best.index_matched || flat::locate(scene, best.primitive).index_matched;
@@ -171,36 +154,18 @@ Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) 
 
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Any> query{{ray.t_max}, &filter};
-    search_all(
-        scene, ray,
-        [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(search_filtered_any)
-            (of...);
-        },
-        query, nullptr);
+    search_all(scene, ray, query, nullptr);
     return query.found;
 }
 
 void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out) {
     Filtered<Every> query{{ray.t_max, out}, &filter};
-    search_all(
-        scene, ray,
-        [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(search_filtered_every)
-            (of...);
-        },
-        query, &out);
+    search_all(scene, ray, query, &out);
 }
 
 PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out) {
     Filtered<Passages> query{{{}, ray.t_max, out}, &filter};
-    search_all(
-        scene, ray,
-        [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(search_filtered_passages)
-            (of...);
-        },
-        query, out);
+    search_all(scene, ray, query, out);
     return query;
 }
 

@@ -43,11 +43,10 @@ struct Crossing {
 // The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
 void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
 
-// Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`. \pre is_usable(ray)
+// Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`; of boundaries of media too,
+// which are flagged. \pre is_usable(ray)
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
-// The same for the boundary of a medium.
-void every_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
-// The same, replacing what is in `out`.
+// The same for the boundary of a medium alone, replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
 // What a ray passes over.
@@ -63,7 +62,7 @@ struct Filter {
     bool accepts(std::uint64_t number, bool inward) const { return (inward ? front : back) && accepts(number); }
 };
 
-// closest_hit, any_hit and every_hit, of boundaries of media too. every_hit flags those.
+// closest_hit, any_hit and every_hit, all of boundaries of media too.
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out);

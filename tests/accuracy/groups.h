@@ -18,5 +18,6 @@ Group leaving_group(const Effort& effort);
 Group furnace_group(const Effort& effort);
 Group bad_ray_group(const Effort& effort);
 Group far_origin_group(const Effort& effort);
+Group query_group(const Effort& effort);
 
 }  // namespace limn::accuracy

@@ -19,10 +19,10 @@ struct NamedGroup {
     Group (*measure)(const Effort&);
 };
 const NamedGroup kGroups[] = {
-    {"spheres", sphere_group},     {"triangles", triangle_group},    {"leaks", leak_group},
-    {"quads", quad_group},         {"quad-leaks", quad_leak_group},  {"slabs", slab_group},
-    {"instances", instance_group}, {"leaving", leaving_group},       {"furnace", furnace_group},
-    {"bad-rays", bad_ray_group},   {"far-origins", far_origin_group}};
+    {"spheres", sphere_group},     {"triangles", triangle_group},     {"leaks", leak_group},
+    {"quads", quad_group},         {"quad-leaks", quad_leak_group},   {"slabs", slab_group},
+    {"instances", instance_group}, {"leaving", leaving_group},        {"furnace", furnace_group},
+    {"bad-rays", bad_ray_group},   {"far-origins", far_origin_group}, {"queries", query_group}};
 
 // Null where there is none.
 Json embree_version() {

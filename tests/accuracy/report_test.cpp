@@ -30,8 +30,8 @@ Json sum(const Json& group, std::size_t column, const std::string& what) {
 }  // namespace
 
 TEST_CASE("Accuracy: every row of every table judges each of its rays, for every column", "[accuracy]") {
-    for (const char* name :
-         {"spheres", "triangles", "leaks", "quads", "quad-leaks", "slabs", "instances", "leaving", "far-origins"}) {
+    for (const char* name : {"spheres", "triangles", "leaks", "quads", "quad-leaks", "slabs", "instances", "leaving",
+                             "far-origins", "queries"}) {
         for (const Json& group : groups({name})) {
             CHECK(group["rows"].size() >= 6);
             for (const Json& row : group["rows"]) {
@@ -53,6 +53,13 @@ TEST_CASE("Accuracy: every row of every table judges each of its rays, for every
             }
         }
     }
+}
+
+TEST_CASE("Accuracy: who counts hits as crossings is wrong where limn is not", "[accuracy]") {
+    const Json group = groups({"queries"})[0];
+    REQUIRE(group["columns"].back() == "hits counted");
+    CHECK(sum(group, 4, "false_hits") > 100);
+    for (const std::size_t column : {0u, 1u, 2u, 3u}) CHECK(sum(group, column, "false_hits") == 0);
 }
 
 TEST_CASE("Accuracy: the textbook's triangles leak where limn does not", "[accuracy]") {

@@ -7,7 +7,7 @@
 #include "catch.h"
 #include "house.h"
 #include "limn/io/image_io.h"
-#include "limn/render/settings.h"
+#include "limn/render/film.h"
 #include "process.h"
 #include "support/folder.h"
 #include "support/text.h"
@@ -94,11 +94,12 @@ TEST_CASE("limn: no line of --help is wider than 100 columns", "[cli]") {
 
 TEST_CASE("limn: the defaults in --help are those of the library, and of a figure its own", "[cli]") {
     const std::string render = limn({"render", "--help"}).out, figure = run(TINY_FIGURE_PROGRAM, {"--help"}).out;
-    CHECK(line_of(render, "--spp N").ends_with("(default: 64; 1048576 with --error or --time-limit)"));
+    CHECK(line_of(render, "--spp N").ends_with("(default: 8; 1048576 with --error or --time-limit)"));
     CHECK(RenderSettings{}.samples_per_pixel == 64);
+    CHECK(SamplePlan::kFirstPass == 8);  // from so many on the error is known
     CHECK(line_of(render, "--size WxH").ends_with("(default: 400x400)"));
     CHECK(line_of(render, "--max-depth N|unlimited").ends_with("(default: 10)"));
-    CHECK(line_of(render, "--vfov DEG").ends_with("(default: 30)"));  // that of frame_box
+    CHECK(line_of(render, "--vfov DEG").ends_with("(default: 30)"));
     CHECK(line_of(figure, "--spp N").ends_with("(default: 4; 1048576 with --error or --time-limit)"));
     CHECK(line_of(figure, "--size WxH").ends_with("(default: 6x4)"));
     CHECK(line_of(figure, "--max-depth N|unlimited").ends_with("(default: 3)"));
@@ -127,7 +128,24 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"render", model, "-o", out, "--error", "0"}, "--error 0: must be over 0"},
         {{"render", model, "-o", out, "--time-limit", "nan"}, "--time-limit nan"},
         {{"render", model, "-o", out, "--sampler", "halton"}, "--sampler halton: must be sobol or independent"},
-        {{"render", model, "-o", out, "--channels", "error,depth"}, "--channels error,depth"},
+        {{"render", model, "-o", out, "--channels", "error,colour"}, "--channels error,colour"},
+        {{"render", model, "-o", out, "--crop", "1,2,3"}, "--crop 1,2,3: is not of the form X0,Y0,X1,Y1"},
+        {{"render", model, "-o", out, "--crop", "1,2,3,x"}, "--crop 1,2,3,x: must be whole numbers"},
+        {{"render", model, "-o", out, "--crop", "5,2,5,9"}, "--crop 5,2,5,9: holds no pixel"},
+        {{"render", model, "-o", out, "--size", "8x8", "--crop", "0,0,9,8"}, "crop window must lie in the picture"},
+        {{"render", model, "-o", out, "--projection", "fisheye"}, "--projection fisheye: must be perspective"},
+        {{"render", model, "-o", out, "--height", "2"}, "--height: only --projection orthographic has one"},
+        {{"render", model, "-o", out, "--projection", "panorama", "--vfov", "20"}, "--vfov: only --projection"},
+        {{"render", model, "-o", out, "--projection", "panorama", "--aperture-angle", "1"}, "a panorama has no lens"},
+        {{"render", model, "-o", out, "--background", "1,2"}, "--background 1,2"},
+        {{"render", model, "-o", out, "--background", "1,2,-1"}, "--background 1,2,-1: must not be negative"},
+        {{"render", model, "-o", out, "--ground", "grass"}, "--ground grass: must be none"},
+        {{"render", model, "-o", out, "--smooth", "181"}, "--smooth 181: must lie in 0 .. 180"},
+        {{"render", model, "-o", out, "--preview", "0"}, "--preview 0: must be over 0"},
+        {{"render", model, "--film", folder.path("a.film"), "--preview", "1"}, "--preview: there is no -o"},
+        {{"render", model, "-o", out, "--exposure", "bright"}, "--exposure bright"},
+        {{"merge", model, "-o", out, "--channels", "albedo"}, "--channels: a film knows error and samples alone"},
+        {{"trace", "-"}, "MODEL -: standard input cannot be the rays too"},
         {{"render", model, "-o", folder.path("out.png"), "--channels", "error"}, "--channels: only an EXR"},
         {{"render", model, "-o", out, "--resume"}, "--resume"},
         {{"render", model, "-o", out, "--report", ""}, "--report '': is not the name of a file"},

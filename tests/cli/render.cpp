@@ -161,7 +161,8 @@ TEST_CASE("limn render: the default view shows the whole model, lit and shaded",
     folder.write("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
     const std::string model = folder.write("house.obj", "mtllib red.mtl\nusemtl red\n" + house_obj());
     const auto render = [&](const std::string& name, const Words& camera) {
-        Words words = {"render", model, "-o", folder.path(name), "--size", "48x32", "--spp", "16", "--quiet"};
+        Words words = {"render", model, "-o",      folder.path(name), "--size", "48x32",
+                       "--spp",  "16",  "--quiet", "--ground",        "none"};
         words.insert(words.end(), camera.begin(), camera.end());
         REQUIRE(limn(words).status == 0);
         return load_image(folder.path(name));
@@ -196,7 +197,9 @@ TEST_CASE("limn render: the default view shows the whole model in a tall picture
     folder.write("red.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
     const std::string model = folder.write("house.obj", "mtllib red.mtl\nusemtl red\n" + house_obj());
     const std::string picture = folder.path("a.exr");
-    REQUIRE(limn({"render", model, "-o", picture, "--size", "16x48", "--spp", "4", "--quiet"}).status == 0);
+    REQUIRE(
+        limn({"render", model, "-o", picture, "--size", "16x48", "--spp", "4", "--quiet", "--ground", "none"}).status ==
+        0);
     const Image view = load_image(picture);
     const auto is_sky = [&](int x, int y) { return view.at(x, y).b > view.at(x, y).r; };
     for (int y = 0; y < 48; ++y) CHECK((is_sky(0, y) && is_sky(15, y)));

@@ -7,6 +7,9 @@
 #include "limn/material/dielectric.h"
 #include "limn/material/isotropic.h"
 #include "limn/material/metal.h"
+#include "limn/material/plastic.h"
+#include "limn/material/rough_conductor.h"
+#include "limn/material/rough_dielectric.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
@@ -119,7 +122,22 @@ TEST_CASE("Digests: the same scene has the same, at whatever addresses and in wh
     CHECK_FALSE(scene.has_untagged());
     // Whoever changes what is added up raises the version of films' format or samples: those of before would be refused
     // as of another scene.
-    CHECK(scene.digest() == Hash128{0x2a85e6fa75034900, 0x28b2f682a0fa3a61});
+    CHECK(scene.digest() == Hash128{0xa06ff4e5353b4d54, 0x2ff0d6e88f79ecb2});
+}
+
+TEST_CASE("Digests: each detail of a material changes it", "[compile][digest]") {
+    const auto of = [](const MaterialPtr& material) {
+        return compile_with(sky(1), {sphere({0, 0, 0}, 1, material)}).digest();
+    };
+    const Color grey{.5, .5, .5};
+    const std::set<Hash128> digests = {of(std::make_shared<RoughConductor>(grey, 0.5)),
+                                       of(std::make_shared<RoughConductor>(grey, 0.4)),
+                                       of(std::make_shared<RoughConductor>(grey, Roughness{0.5, 0.4})),
+                                       of(std::make_shared<RoughConductor>(grey, 0.5, grey)),
+                                       of(std::make_shared<RoughDielectric>(1.5, 0.5)),
+                                       of(std::make_shared<Plastic>(grey, 0.5)),
+                                       of(std::make_shared<Plastic>(grey, 0.5, 1.5, grey))};
+    CHECK(digests.size() == 7);
 }
 
 TEST_CASE("Digests: user-defined objects are in it by their tags", "[compile][digest]") {

@@ -120,7 +120,7 @@ TEST_CASE("RecordSink: a material that describes others in the middle of its own
 
 TEST_CASE("RecordSink: what records point to lives as long as they do", "[compile][records]") {
     std::weak_ptr<const void> seen[4];
-    SceneRecords records;
+    auto records = std::make_unique<SceneRecords>();
     {
         std::shared_ptr<const void> owners[4];
         for (std::size_t i = 0; i < 4; ++i) seen[i] = owners[i] = something();
@@ -129,10 +129,10 @@ TEST_CASE("RecordSink: what records point to lives as long as they do", "[compil
         sink.texture(owners[1], [] { return TextureRecord{}; });
         sink.mesh({}, owners[2]);
         sink.group(owners[3], [](RecordSink&) {});
-        records = std::move(sink).take();
+        *records = std::move(sink).take();
     }
     for (const auto& object : seen) CHECK_FALSE(object.expired());
-    records = {};
+    records.reset();
     for (const auto& object : seen) CHECK(object.expired());
 }
 

@@ -177,6 +177,50 @@ TEST_CASE("surface_at: a mesh gives its own normals, texture coordinates and mat
     }
 }
 
+// Also as instances, and whatever scales u and v.
+TEST_CASE("surface_at: dp_du and dp_dv are how the position moves with the texture coordinates", "[compile][surface]") {
+    Random random(77);
+    MeshData data = icosphere(1);
+    for (std::size_t i = 0; i < data.vertices.size(); ++i) {
+        const Vec3 uv = random.in_cube(3);
+        data.uvs.push_back({static_cast<float>(uv.x), static_cast<float>(uv.y)});
+    }
+    const std::vector<Object> shapes = {ball({1, 2, 3}, 2),
+                                        ball({0, 0, 1}, -0.5),
+                                        std::make_shared<Quad>(Point3{}, Vec3{1, 2, 3}, Vec3{-2, 1, 1}, nullptr),
+                                        std::make_shared<Triangle>(Point3{}, Point3{1, 2, 3}, Point3{0, 1, 4}, nullptr),
+                                        std::make_shared<Mesh>(data, nullptr),
+                                        std::make_shared<Mesh>(icosphere(1), nullptr)};
+    for (std::size_t k = 0; k < 2 * shapes.size(); ++k) {
+        const Object& shape = shapes[k / 2];
+        const Transform pose = random_pose(random);
+        const ZooScene zoo = zoo_of("shape", {k % 2 == 0 ? shape : std::make_shared<Instance>(shape, pose)});
+        const CompiledScene compiled = compile(zoo.scene);
+        int judged = 0;
+        for (int i = 0; i < 4000 && judged < 100; ++i) {
+            const Ray ray = random_ray(random, zoo.targets);
+            const auto hit = compiled.closest_hit(ray);
+            if (!hit) continue;
+            const Surface s = compiled.surface_at(ray, *hit);
+            // A ray beside it, to the same primitive.
+            const double reach = 1e-5 * length(zoo.targets.region.diagonal());
+            Ray beside = ray;
+            beside.origin = s.position + Vec3(s.normal) + reach * random.unit();
+            beside.direction = -Vec3(s.normal), beside.t_max = 2, beside.t_min = 0;
+            const auto near = compiled.closest_hit(beside);
+            if (!near || near->primitive != hit->primitive) continue;
+            const Surface n = compiled.surface_at(beside, *near);
+            const double du = n.uv.u - s.uv.u, dv = n.uv.v - s.uv.v;
+            if (std::abs(du) > 0.1 || std::min(s.uv.v, 1 - s.uv.v) < 0.05) continue;  // seams and poles of balls
+            ++judged;
+            const Vec3 moved = n.position - s.position;
+            CAPTURE(k, s.uv.u, s.uv.v, du, dv);
+            CHECK(length(du * s.dp_du + dv * s.dp_dv - moved) < 0.02 * length(moved) + 1e-9);
+        }
+        CHECK(judged >= 20);
+    }
+}
+
 TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, material and error as hit() does",
           "[compile][surface]") {
     class Plane final : public Hittable {

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays, half an hour if not
-# told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next
+# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_scene, load_stl or
+# read_rays, half an hour if not told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next
 # time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 data=$here/../io/data
-target=${1:?TARGET: load_film, load_gltf, load_image, load_obj, load_ply, load_stl or read_rays}
+target=${1:?TARGET: load_film, load_gltf, load_image, load_obj, load_ply, load_scene, load_stl or read_rays}
 seconds=${2:-1800}
 
 launcher=()
@@ -41,6 +41,10 @@ case $target in
     load_film)
         cp "$here"/seeds/*.film "$seeds"
         largest=25000  # a tile has 20504
+        ;;
+    load_scene)
+        head -c 64 /dev/zero >"$seeds/nothing"  # changed
+        largest=2048
         ;;
     read_rays)
         printf '0 0 5 0 0 -1\n# a comment\n\n1e-3 +2. .5 0 1 0 0 inf\n' >"$seeds/rays.txt"

@@ -1,11 +1,9 @@
-// The truth about a mesh, and meshes that are hard on it.
+// The truth about a mesh.
 #pragma once
-
-#include <map>
-#include <utility>
 
 #include "hard/hard.h"
 #include "hard/shapes.h"
+#include "support/closed_meshes.h"
 
 namespace limn::test {
 
@@ -56,68 +54,6 @@ inline void judge_mesh(Tally& tally, const BothWorlds& world, const ExactMesh& e
     if (!answer) return;
     const std::string fault = detail::fault_of(exact.hit_of(answer->element, ray), answer, {});
     if (!fault.empty()) tally.fault(ray, "element " + std::to_string(answer->element) + ": " + fault);
-}
-
-/// A sphere cut from an icosahedron in `rounds` rounds, each of which halves about half of the edges: triangles of all
-/// shapes, closed, without T-junctions; its vertices are moved in and out by up to `bumps` of the radius.
-inline MeshData bumpy_sphere(Random& random, int rounds, double bumps, double radius, const Point3& center) {
-    const MeshData start = icosphere(0);
-    std::vector<Vec3> points;
-    for (const Float3& p : start.vertices) points.push_back(normalize(Vec3{p.x, p.y, p.z}));
-    std::vector<Index3> faces = start.triangles;
-    for (; rounds > 0; --rounds) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<std::uint32_t>> middles;
-        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [place, is_new] = middles.try_emplace(std::minmax(a, b));
-            if (is_new && random.chance(0.5)) {
-                place->second = static_cast<std::uint32_t>(points.size());
-                const double s = random.uniform(0.2, 0.8);
-                points.push_back(normalize(s * points[a] + (1 - s) * points[b]));
-            }
-            return place->second;
-        };
-        std::vector<Index3> finer;
-        for (Index3 f : faces) {
-            auto ab = middle(f.a, f.b), bc = middle(f.b, f.c), ca = middle(f.c, f.a);
-            const auto turn = [&] {
-                f = {f.b, f.c, f.a};
-                const auto first = ab;
-                ab = bc, bc = ca, ca = first;
-            };
-            const int cuts = ab.has_value() + bc.has_value() + ca.has_value();
-            if (cuts == 0) finer.push_back(f);
-            if (cuts == 1) {
-                while (!ab) turn();
-                finer.insert(finer.end(), {{f.a, *ab, f.c}, {*ab, f.b, f.c}});
-            }
-            if (cuts == 2) {
-                while (ca) turn();
-                finer.insert(finer.end(), {{*ab, f.b, *bc}, {f.a, *ab, *bc}, {f.a, *bc, f.c}});
-            }
-            if (cuts == 3)
-                finer.insert(finer.end(), {{f.a, *ab, *ca}, {f.b, *bc, *ab}, {f.c, *ca, *bc}, {*ab, *bc, *ca}});
-        }
-        faces = std::move(finer);
-    }
-    MeshData mesh;
-    for (const Vec3& p : points)
-        mesh.vertices.push_back(to_float3((center - Point3{}) + radius * (1 + bumps * random.uniform(-1, 1)) * p));
-    mesh.triangles = std::move(faces);
-    return mesh;
-}
-
-/// Two cones back to back over a ring of `count` points: fans of `count` triangles at both tips.
-inline MeshData double_cone(std::uint32_t count, double radius, const Point3& center) {
-    MeshData mesh;
-    for (const double z : {radius, -radius}) mesh.vertices.push_back(to_float3((center - Point3{}) + Vec3{0, 0, z}));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double angle = 2 * kPi * i / count;
-        const std::uint32_t here = 2 + i, next = 2 + (i + 1) % count;
-        mesh.vertices.push_back(to_float3((center - Point3{}) + radius * Vec3{std::cos(angle), std::sin(angle), 0}));
-        mesh.triangles.push_back({0, here, next});
-        mesh.triangles.push_back({1, next, here});
-    }
-    return mesh;
 }
 
 }  // namespace limn::test

@@ -8,7 +8,7 @@ using namespace limn::test;
 
 namespace {
 
-struct Sides {
+struct Parallelogram {
     Point3 corner;
     Vec3 u, v;
 
@@ -16,13 +16,13 @@ struct Sides {
     Point3 at(double s, double t) const { return corner + s * u + t * v; }
 };
 
-void judge_quad(Tally& tally, const BothWorlds& world, const Sides& s, const Ray& ray) {
+void judge_quad(Tally& tally, const BothWorlds& world, const Parallelogram& s, const Ray& ray) {
     test::judge_quad(tally, world, s.corner, s.u, s.v, ray);
 }
 
 bool parallel(const Vec3& u, const Vec3& v) { return exactly_flat({}, Point3{} + u, Point3{} + v); }
 
-Sides scaled(const Sides& s, int size) {
+Parallelogram scaled(const Parallelogram& s, int size) {
     return {test::scaled(s.corner, size), test::scaled(s.u, size), test::scaled(s.v, size)};
 }
 
@@ -36,15 +36,16 @@ std::pair<double, double> border(Random& random) {
 
 TEST_CASE("Quad: random rays, half of them degenerate, are decided exactly", "[hard][quad]") {
     Random random(560);
-    const Sides fixed[] = {{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
-                           {{213, 554, 227}, {130, 0, 0}, {0, 0, 105}},
-                           {{1e5, -1, 3}, {0, 2, 0}, {0, 0, 1}},
-                           {{2, 1, 0}, {1e4, 0, 3}, {0, 1, 1}}};
+    const Parallelogram fixed[] = {{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
+                                   {{213, 554, 227}, {130, 0, 0}, {0, 0, 105}},
+                                   {{1e5, -1, 3}, {0, 2, 0}, {0, 0, 1}},
+                                   {{2, 1, 0}, {1e4, 0, 3}, {0, 1, 1}}};
     Tally tally;
     for (int i = 0; i < count(4e3); ++i) {
         const double size = random.log_uniform(1e-12, 1e12);
-        const Sides s =
-            i < 4 ? fixed[i] : Sides{Point3{} + random.in_cube(size), random.in_cube(size), random.in_cube(size)};
+        const Parallelogram s =
+            i < 4 ? fixed[i]
+                  : Parallelogram{Point3{} + random.in_cube(size), random.in_cube(size), random.in_cube(size)};
         const Targets targets{
             s.quad()->bounds(),
             {s.corner, s.at(1, 0), s.at(0, 1), s.at(1, 1), s.at(0.5, 0), s.at(1, 0.25), s.at(0.5, 0.5)}};
@@ -56,7 +57,7 @@ TEST_CASE("Quad: random rays, half of them degenerate, are decided exactly", "[h
 }
 
 TEST_CASE("Quad: whatever the length of the direction, t times it is the same", "[hard][quad]") {
-    const Sides s{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}};
+    const Parallelogram s{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}};
     const BothWorlds world(s.quad());
     Tally tally;
     for (int k = -300; k <= 300; ++k) {
@@ -77,7 +78,7 @@ TEST_CASE("Quad: it is refused exactly where its edges are exactly parallel, zer
             return random.sign() * static_cast<double>(random.index(std::size_t{1} << 40)) *
                    std::ldexp(1.0, static_cast<int>(random.index(1900)) - 1000);
         };
-        Sides s{{0, 0, 0}, wide() * Vec3{3, 5, 7}, wide() * Vec3{3, 5, 7}};
+        Parallelogram s{{0, 0, 0}, wide() * Vec3{3, 5, 7}, wide() * Vec3{3, 5, 7}};
         if (i % 2) {
             double& one = (random.chance(0.5) ? s.u : s.v)[random.index(3)];
             one = std::nextafter(one, random.sign() * kInfinity);
@@ -107,7 +108,8 @@ TEST_CASE("Quad: edges of 1e4 to 1 at a tenth of a degree, down to 1e-14 of a tu
         Tally tally;
         for (int i = 0; i < count(2e3); ++i) {
             const Vec3 along = random.unit(), across = normalize(cross(along, random.unit()));
-            Sides s{Point3{} + random.in_cube(3), 1e4 * along, std::cos(angle) * along + std::sin(angle) * across};
+            Parallelogram s{Point3{} + random.in_cube(3), 1e4 * along,
+                            std::cos(angle) * along + std::sin(angle) * across};
             if (parallel(s.u, s.v)) s.v = across;
             const BothWorlds world(s.quad(), company_near(random, s.corner, 1));
             for (int n = 0; n < 100; ++n) {
@@ -126,7 +128,7 @@ TEST_CASE("Quad: a flat box far from the origin is never missed", "[hard][quad]"
     Random random(563);
     for (const double shift : {1e5, 1e7, 0.1}) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            Sides s{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+            Parallelogram s{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
             s.corner[axis] = shift;
             s.u[(axis + 1) % 3] = 1, s.v[(axis + 2) % 3] = 1;
             const BothWorlds world(s.quad(), company_near(random, s.corner, 1));
@@ -159,13 +161,13 @@ TEST_CASE("Quad: rays exactly through corners and edges hit, one double beside t
     Tally tally;
     for (int i = 0; i < count(2e5); ++i) {
         const double m = 1 + static_cast<double>(random.index(30)), t = 1 + static_cast<double>(random.index(99));
-        const Sides plain{Point3{} + whole(100), m * whole(9), m * whole(9)};
+        const Parallelogram plain{Point3{} + whole(100), m * whole(9), m * whole(9)};
         const Vec3 d = whole(50);
         ++tally.rays, ++tally.judged;
         if (dot(cross(plain.u, plain.v), d) == 0) continue;
         const int size = static_cast<int>(random.index(1900)) - 1000,
                   speed = static_cast<int>(random.index(1900)) - 1000;
-        const Sides s = scaled(plain, size);
+        const Parallelogram s = scaled(plain, size);
         const BothWorlds world(s.quad());
         const double j = static_cast<double>(random.index(static_cast<std::size_t>(m) + 1)) / m;
         const auto edge = [&](double a, double b) {  // whole again
@@ -197,7 +199,7 @@ TEST_CASE("Quad: rays 1e-7 to 1e-17 beside its border, and ends of the interval 
     for (double offset = 1e-7; offset > 0.5e-17; offset /= 10) {
         Tally tally;
         for (int i = 0; i < count(1e3); ++i) {
-            const Sides s{Point3{} + random.in_cube(5), random.in_cube(2), random.in_cube(2)};
+            const Parallelogram s{Point3{} + random.in_cube(5), random.in_cube(2), random.in_cube(2)};
             const BothWorlds world(s.quad(), company_near(random, s.corner, 1));
             for (int n = 0; n < 100; ++n) {
                 const auto [u, v] = border(random);
@@ -224,8 +226,8 @@ TEST_CASE("Quad: coordinates and directions at the ends of double are decided ex
     for (const int size : {-1074, -1060, -1030, -1000, -700, -530, -360, -200, 200, 360, 500, 530, 700, 1000, 1015}) {
         Tally tally;
         for (int i = 0; i < count(3e4); ++i) {
-            const Sides plain{Point3{} + random.in_cube(20), random.in_cube(20), random.in_cube(20)};
-            const Sides s = scaled(plain, size);
+            const Parallelogram plain{Point3{} + random.in_cube(20), random.in_cube(20), random.in_cube(20)};
+            const Parallelogram s = scaled(plain, size);
             ++tally.rays, ++tally.judged;
             if (parallel(s.u, s.v)) continue;
             const BothWorlds world(s.quad());
@@ -244,7 +246,7 @@ TEST_CASE("Quad: coordinates and directions at the ends of double are decided ex
         return random.sign() * std::ldexp(random.uniform(1, 2), static_cast<int>(random.index(1900)) - 950);
     };
     for (int i = 0; i < count(2e5); ++i) {
-        const Sides s{{wild(), wild(), wild()}, {wild(), wild(), wild()}, {wild(), wild(), wild()}};
+        const Parallelogram s{{wild(), wild(), wild()}, {wild(), wild(), wild()}, {wild(), wild(), wild()}};
         const Point3 origin{wild(), wild(), wild()};
         const BothWorlds world(s.quad());
         for (const Vec3 d : {Vec3{wild(), wild(), wild()}, s.at(0.3, 0.6) - origin, s.at(1, 0.5) - origin})

@@ -153,7 +153,7 @@ TEST_CASE("glTF: nodes place meshes, cameras and lights", "[io][gltf]") {
     CHECK(length(camera.camera.up - Vec3{-1, 0, 0}) < 1e-12);
     CHECK(camera.camera.vertical_fov == Approx(180 / kPi));
     CHECK(camera.camera.aspect_ratio == 1.5);
-    CHECK_FALSE(camera.orthographic_height);
+    CHECK(camera.camera.projection == Projection::perspective);
 
     REQUIRE(model.lights.size() == 1);
     const ModelLight& light = model.lights[0];
@@ -168,7 +168,9 @@ TEST_CASE("glTF: an orthographic camera keeps its height", "[io][gltf]") {
     const Model model = load(with(R"("nodes": [{"mesh": 0,)", R"("cameras": [{"type": "orthographic", "name": "plan",
 "orthographic": {"xmag": 2, "ymag": 1.5, "zfar": 9, "znear": 0}}], "nodes": [{"mesh": 0, "camera": 0,)"));
     REQUIRE(model.cameras.size() == 1);
-    CHECK(model.cameras[0].orthographic_height == 3.0);
+    CHECK(model.cameras[0].camera.projection == Projection::orthographic);
+    CHECK(model.cameras[0].camera.view_height == 3.0);
+    CHECK(model.cameras[0].camera.aspect_ratio == Approx(4.0 / 3));
     CHECK(model.cameras[0].name == "square");
 }
 

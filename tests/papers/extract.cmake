@@ -1,5 +1,5 @@
-# Takes the code blocks out of a paper. A block says its language after the fence: cpp, cmake, sh, or text for what is
-# no code. What becomes of C++:
+# Takes the code blocks out of a paper. A block says its language after the fence: cpp, cmake, python, sh, or text for
+# what is no code. What becomes of C++:
 #   a first line "// include/...", "// lib/..." or "// tests/..."   that file, in a tree of the papers' own
 #   an #include somewhere                                           a program
 #   neither                                                         the body of a function that sees all of limn
@@ -16,7 +16,8 @@ function(write_if_different path content)
 endfunction()
 
 # extract_blocks(PAPER FOLDER): writes the blocks of PAPER below FOLDER. Appends their paths to the caller's lists
-# sources (with a path of their own), programs, fragments, cmake_blocks and sh_blocks, and to faults what is wrong.
+# sources (with a path of their own), programs, fragments, cmake_blocks, python_blocks and sh_blocks, and to faults what
+# is wrong.
 function(extract_blocks paper folder)
     cmake_path(GET paper STEM stem)
     file(READ "${paper}" rest)
@@ -72,6 +73,9 @@ function(extract_blocks paper folder)
         elseif(language STREQUAL "cmake")
             write_if_different("${file}.cmake" "${body}")
             list(APPEND cmake_blocks "${file}.cmake")
+        elseif(language STREQUAL "python")
+            write_if_different("${file}.py" "${body}")
+            list(APPEND python_blocks "${file}.py")
         elseif(language STREQUAL "sh")
             write_if_different("${file}.sh" "${body}")
             list(APPEND sh_blocks "${file}.sh")
@@ -79,7 +83,7 @@ function(extract_blocks paper folder)
             list(APPEND faults "${stem}:${first}: unknown language '${language}'")
         endif()
     endwhile()
-    foreach(list sources programs fragments cmake_blocks sh_blocks faults)
+    foreach(list sources programs fragments cmake_blocks python_blocks sh_blocks faults)
         set(${list} "${${list}}" PARENT_SCOPE)
     endforeach()
 endfunction()

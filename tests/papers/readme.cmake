@@ -1,11 +1,13 @@
-# The README at ROOT: its parts in their order, and its programs to the letter those of examples/minimal.cpp and rays.cpp.
+# The README at ROOT: its parts in their order, and its programs to the letter those of examples/minimal.cpp, rays.cpp and rays.py.
 
 cmake_policy(VERSION 3.21)
 file(READ "${ROOT}/README.md" readme)
 file(READ "${ROOT}/examples/minimal.cpp" minimal)
 file(READ "${ROOT}/examples/rays.cpp" rays)
+file(READ "${ROOT}/examples/rays.py" rays_py)
 set(parts "# limn\n" "\n!" "\n| exactness |" "\n| memory |" "\n| time to an error |" "\n```sh\n./build.sh figures "
-    "\n## Two programs\n" "\n```cpp\n${minimal}```\n" "\n```cpp\n${rays}```\n" "\n## Linking it\n" "\n## The command line\n"
+    "\n## Three programs\n" "\n```cpp\n${minimal}```\n" "\n```cpp\n${rays}```\n"
+    "\n```python\n${rays_py}```\n" "\n## Linking it\n" "\n## The command line\n"
     "\n## The figures\n" "\n## Credits\n" "\n## Where things are\n" "\n## Limits\n")
 set(past -1)
 foreach(part IN LISTS parts)
@@ -23,7 +25,7 @@ endif()
 if(NOT readme MATCHES "^# limn\n\n[^.]+\\.\n\n!\\[")
     message(FATAL_ERROR "README.md does not begin with one sentence and a picture")
 endif()
-foreach(program minimal rays)
+foreach(program minimal rays rays_py)
     string(REGEX MATCHALL "\n" lines "${${program}}")
     list(LENGTH lines count)
     if(count GREATER 25)

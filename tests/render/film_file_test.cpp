@@ -251,8 +251,7 @@ TEST_CASE("Merging: the tiles of all files, in any order, make the film that has
         FilmInfo info = whole.info();
         info.shard = {i, 5};
         Film part(info);
-        for (const std::uint32_t tile : part.tiles())
-            part.set_tile(tile, std::span<const std::byte, Film::kTileBytes>(whole.tile_bytes(tile)));
+        for (const std::uint32_t tile : part.tiles()) part.set_tile(tile, whole.tile_bytes(tile));
         part.plan() = whole.plan();
         part.set_seconds(0.5);
         part.save(folder.path(std::to_string(i) + ".film"));

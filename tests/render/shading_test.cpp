@@ -1,6 +1,11 @@
 // A packed material or texture answers as the described object does, bit for bit.
+#include "limn/material/alpha_mask.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
+#include "limn/material/normal_map.h"
+#include "limn/material/plastic.h"
+#include "limn/material/rough_conductor.h"
+#include "limn/material/rough_dielectric.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
@@ -63,6 +68,18 @@ std::vector<MaterialPtr> materials() {
             std::make_shared<Dielectric>(1.3, Fresnel::schlick),
             std::make_shared<DiffuseLight>(checker),
             std::make_shared<Isotropic>(checker),
+            std::make_shared<RoughConductor>(checker, 0, Color{.2, .7, 1}),
+            std::make_shared<RoughConductor>(checker, 0.5),
+            std::make_shared<RoughConductor>(Color{1, .5, 0}, Roughness{.2, .9}, Color{.2, .7, 1}),
+            std::make_shared<RoughDielectric>(1.5, 0.4),
+            std::make_shared<RoughDielectric>(0.7, Roughness{.2, .9}),
+            std::make_shared<Plastic>(checker, 0, 1.3),
+            std::make_shared<Plastic>(checker, Roughness{.2, .9}, 1.5, checker),
+            std::make_shared<NormalMap>(std::make_shared<RoughConductor>(checker, 0.5), checker),
+            std::make_shared<NormalMap>(std::make_shared<Plastic>(checker, 0), checker),
+            std::make_shared<NormalMap>(std::make_shared<Dielectric>(1.5), checker),
+            std::make_shared<NormalMap>(std::make_shared<Echo>(), checker),
+            std::make_shared<AlphaMask>(std::make_shared<Lambertian>(checker), checker),
             std::make_shared<Echo>()};
 }
 
@@ -74,6 +91,7 @@ Surface random_surface(Random& random) {
     s.shading_normal = random.chance(0.5) ? s.normal : Normal3(bent);
     s.uv = {random.uniform(-1, 2), random.uniform(-1, 2)};
     s.front_face = random.chance(0.5);
+    if (random.chance(0.7)) s.dp_du = random.in_cube(3), s.dp_dv = random.in_cube(3);
     return s;
 }
 
@@ -150,7 +168,9 @@ TEST_CASE("Shading: a packed material emits, samples and scatters as the describ
 
 TEST_CASE("Shading: lights are sampled for what scatters into more than a direction", "[render][shading]") {
     const Packed packed(materials());
-    const bool specular[] = {false, true, false, false, true, true, false, false, false};
+    const bool specular[] = {false, true,  false, false, true,  true,  false, false, true,  false, false,
+                             false, false, false, false, false, false, true,  false, false, false};
+    REQUIRE(std::size(specular) == packed.rows.size());
     for (std::size_t i = 0; i < packed.rows.size(); ++i) {
         CAPTURE(i);
         CHECK(shade::is_specular(packed.scene.flat(), packed.rows[i]) == specular[i]);

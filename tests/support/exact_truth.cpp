@@ -205,6 +205,25 @@ bool exact_box_hit(const Box& box, const Ray& ray) {
     return true;
 }
 
+namespace {
+
+// Each coordinate less than any decision between these numbers notices, and than what the one before it changes. All
+// numbers are multiples of 2^least and below 2^most. The determinants are multiples of its cube and linear in the move,
+// with slopes that are multiples of its square and below 2^(2 most + 5).
+Vector least_move(std::initializer_list<Vec3> numbers) {
+    int least = 0, most = 0;
+    for (const Vec3& v : numbers)
+        for (const double x : {v.x, v.y, v.z}) {
+            if (x == 0) continue;
+            most = std::max(most, std::ilogb(x) + 1);
+            least = std::min(least, Dyadic(x).exponent);
+        }
+    const int slope = 2 * most + 6, first = slope - 3 * least, further = slope - 2 * least;
+    return {Dyadic(1, -first), Dyadic(1, -first - further), Dyadic(1, -first - 2 * further)};
+}
+
+}  // namespace
+
 int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const Point3& origin,
                         const Vec3& direction) {
     const auto passage = [](const auto& to_a, const auto& to_b, const auto& to_c, const auto& d, const auto& sign) {
@@ -220,7 +239,8 @@ int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const
                bound = Real(1e-29) * size * size * size;
     const int told = passage(to_a, to_b, to_c, d, [&](Real x) { return x > bound ? 1 : x < -bound ? -1 : 0; });
     if (told != 2) return told;
-    const Vector moved = Vector(origin) + Vector(Dyadic(1, -4000), Dyadic(1, -9000), Dyadic(1, -14000));
+    const Vector moved =
+        Vector(origin) + least_move({a - Point3{}, b - Point3{}, c - Point3{}, origin - Point3{}, direction});
     const int exact = passage(Vector(a) - moved, Vector(b) - moved, Vector(c) - moved, Vector(direction),
                               [](const Dyadic& x) { return x.sign(); });
     return exact == 2 ? 0 : exact;  // a plane along the ray

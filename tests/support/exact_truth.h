@@ -34,7 +34,7 @@ bool exact_box_hit(const Box& box, const Ray& ray);
 bool exactly_flat(const Point3& a, const Point3& b, const Point3& c);
 
 /// Whether a ray passes through a triangle after its origin: 1 along the normal, -1 against it, 0 not at all. It starts
-/// at the origin moved by (2^-4000, 2^-9000, 2^-14000), less than any decision of usual scenes notices.
+/// at the origin moved by (e, e^2, e^3) with e > 0 less than any number.
 int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const Point3& origin, const Vec3& direction);
 
 /// Whether a point lies on the closed triangle, whose area is not zero.

@@ -114,7 +114,7 @@ inline std::optional<ScatterSample> sample_material(const flat::Scene& scene, co
     v.count = 1;
     shade::set_vertex(scene, s, -out, v, 0);
     v.numbers[0][0] = random.x, v.numbers[1][0] = random.y, v.numbers[2][0] = random.z;
-    lobe->sample(v);
+    bsdf::sample(*lobe, v);
     if (is_black(v.weight.get<Color>(0))) return std::nullopt;
     return ScatterSample{v.direction.get<Vec3>(0), v.weight.get<Color>(0), v.pdf[0]};
 }
@@ -127,7 +127,7 @@ inline ScatterValue material_value(const flat::Scene& scene, const Surface& s, c
     shade::set_vertex(scene, s, -out, v, 0);
     sampling::Rows3 directions;
     directions.set(0, in);
-    lobe->value(v, directions);
+    bsdf::value(*lobe, v, directions);
     return {v.value.get<Color>(0), v.value_pdf[0]};
 }
 

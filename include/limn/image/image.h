@@ -4,11 +4,24 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "limn/core/color.h"
 
 namespace limn {
+
+/// Pixels of a picture: columns [left, right) of rows [top, bottom), counted from its upper left corner.
+struct PixelBounds {
+    /// As said above.
+    ///@{
+    int left = 0, top = 0, right = 0, bottom = 0;
+    ///@}
+
+    int width() const { return right - left; }            ///< in pixels
+    int height() const { return bottom - top; }           ///< in pixels
+    bool operator==(const PixelBounds&) const = default;  ///< the same pixels
+};
 
 /// An owning image of linear RGB float32, rows from the top, pixels from the left. Values are not clamped. Reading is
 /// thread-safe, and so is setting different pixels.
@@ -47,6 +60,12 @@ private:
     }
     int width_ = 0, height_ = 0;
     std::vector<float> values_;
+};
+
+/// A number for each pixel beside its colour.
+struct ImageLayer {
+    std::string name;           ///< of the channel: 1 to 70 printable characters, not R, G, B or A
+    std::vector<float> values;  ///< row by row from the top left pixel
 };
 
 }  // namespace limn

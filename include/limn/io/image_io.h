@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,10 +19,14 @@ namespace limn {
 /// formats and linear for floating point. `srgb` decodes the sRGB transfer, `raw` takes the values as they are.
 enum class Encoding { automatic, srgb, raw };
 
-/// A number for each pixel beside its colour.
-struct ImageLayer {
-    std::string name;           ///< of the channel: 1 to 70 printable characters, not R, G, B or A
-    std::vector<float> values;  ///< row by row from the top left pixel
+/// Where a picture lies in a larger one, of which it is a part.
+struct PartOf {
+    /// In pixels: of the picture's upper left corner from that of the whole, and of the whole.
+    ///@{
+    int left = 0, top = 0, width = 0, height = 0;
+    ///@}
+
+    bool operator==(const PartOf&) const = default;  ///< the same place
 };
 
 /// What a picture is written with.
@@ -32,6 +37,12 @@ struct SaveOptions {
     std::vector<std::pair<std::string, std::string>> facts{};
     /// EXR: further channels, float in any case. Other formats have no place for them and leave them out.
     std::vector<ImageLayer> layers{};
+    /// EXR and PNG: empty, or a value for each pixel, row by row, by which its colour is multiplied. EXR keeps colours
+    /// so, PNG has them divided by it.
+    std::vector<float> alpha{};
+    double exposure = 0;  ///< in stops, of what is not linear: PNG shows colours multiplied by 2^exposure
+    /// EXR: the data window is the picture's, the display window that of the whole.
+    std::optional<PartOf> part_of{};
 };
 
 /// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
@@ -42,7 +53,8 @@ struct SaveOptions {
 ///
 /// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
 ///
-/// \throws ArgumentError if a fact's or a layer's name cannot be written, or a layer is not of the picture's size
+/// \throws ArgumentError if a fact's or a layer's name cannot be written, alpha or a layer is not of the picture's
+/// size, the picture does not lie in the whole, or the exposure is not finite
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
 /// \throws FileError where save_image would throw it for the name alone: an unknown suffix
@@ -78,6 +90,7 @@ struct ImageInfo {
     int width = 0;                       ///< in pixels
     int height = 0;                      ///< in pixels
     std::vector<ImageChannel> channels;  ///< in the order of the file
+    std::optional<PartOf> part_of{};     ///< of an EXR whose data window is not its display window
 };
 
 /// Reads size and channels, all of them, and decodes no pixels.

@@ -2,8 +2,10 @@
 /// Models from files.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "limn/scene/model.h"
@@ -30,5 +32,10 @@ struct ModelOptions {
 ///
 /// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_model(const std::string& path, const ModelOptions& options = {});
+
+/// The same from the bytes of a file, which messages call `path`; what it names is beside that, so with a name alone in
+/// the current folder.
+Model load_model_from_memory(std::span<const std::byte> bytes, const std::string& path,
+                             const ModelOptions& options = {});
 
 }  // namespace limn

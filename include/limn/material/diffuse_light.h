@@ -3,18 +3,19 @@
 #pragma once
 
 #include "limn/material/material.h"
+#include "limn/records.h"
 
 namespace limn {
 
-/// Emits the same radiance in every direction, on both sides, and scatters nothing. On a sphere, triangle, quad, disk
-/// or mesh it is sampled as a light, unless the texture is user-defined (docs/architecture.md, "One path", also for
-/// instanced spheres). Elsewhere paths find it by scattering.
+/// Emits the same radiance in every direction, on both sides or one, and scatters nothing. On a sphere, triangle, quad,
+/// disk or mesh it is sampled as a light, unless the texture is user-defined (docs/architecture.md, "One path", also
+/// for instanced spheres). Elsewhere paths find it by scattering.
 class DiffuseLight final : public Material {
 public:
     /// \throws ArgumentError if a component is negative or not finite; if the texture is null
     ///@{
-    explicit DiffuseLight(const Color& radiance);
-    explicit DiffuseLight(std::shared_ptr<const Texture> radiance);
+    explicit DiffuseLight(const Color& radiance, Sides sides = Sides::both);
+    explicit DiffuseLight(std::shared_ptr<const Texture> radiance, Sides sides = Sides::both);
     ///@}
     Color emitted(const Surface& s) const override;
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
@@ -22,6 +23,7 @@ public:
 
 private:
     std::shared_ptr<const Texture> radiance_;
+    Sides sides_;
 };
 
 }  // namespace limn

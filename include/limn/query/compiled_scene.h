@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limn/core/hash128.h"
@@ -29,7 +30,7 @@ struct SceneStats {
     std::uint64_t stored_primitives = 0;  ///< instanced ones counted once
     std::uint64_t degenerate = 0;         ///< stored triangles of exactly zero area, which nothing can hit
     std::uint64_t lights = 0;             ///< emitters that can be sampled
-    double seconds = 0;                   ///< that compiling took
+    double seconds = 0;                   ///< that compiling, or loading, took
 };
 
 /// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
@@ -37,7 +38,7 @@ struct SceneStats {
 /// to or destroyed.
 class CompiledScene {
 public:
-    explicit CompiledScene(std::unique_ptr<const flat::Scene> scene);  ///< for `compile`
+    explicit CompiledScene(std::unique_ptr<flat::Scene> scene);  ///< for `compile`
     /// Moves in constant time.
     ///@{
     CompiledScene(CompiledScene&&) noexcept;
@@ -134,6 +135,20 @@ public:
     /// All about the point that `ray` hits. \pre hit was found for this ray in this scene, by closest_hit or all_hits;
     /// of a user-defined shape, by closest_hit
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
+    /// How much light a surface that is seen straight on scatters, the mean over a few fixed directions: the albedo of
+    /// a diffuse material, white for glass, black where there is no material.
+    Color albedo(const Surface& surface) const;
+    Color emission(const Surface& surface) const;  ///< radiance towards the viewer
+    /// What the model calls the material of the surface that is hit (Model::materials), also where another has replaced
+    /// it; empty for what is of no model or no material of it. Valid as long as the scene. \pre as for surface_at
+    std::string_view material_name(const RayHit& hit) const;
+
+    /// Writes the scene to a file, whole or not at all. \throws ArgumentError, which names the kind, if it has
+    /// user-defined objects; FileError
+    void save(const std::string& path) const;
+    /// The scene in a file that `save` wrote, in about the time that reading takes.
+    /// \throws FileError if there is none, it is damaged or cut short, or of another version of limn
+    static CompiledScene load(const std::string& path);
 
     const SceneStats& stats() const { return stats_; }  ///< counts and sizes
     /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
@@ -147,7 +162,9 @@ public:
     const flat::Scene& flat() const { return *scene_; }  ///< for limn's own rooms
 
 private:
-    std::unique_ptr<const flat::Scene> scene_;
+    friend CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
+
+    std::unique_ptr<flat::Scene> scene_;
     SceneStats stats_;
 };
 
@@ -163,5 +180,12 @@ struct CompileSettings {
 /// tables. \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
 /// contains a medium, there are too many primitives, or the background is negative or not finite
 CompiledScene compile(const Scene& scene, const CompileSettings& settings = {});
+
+/// Makes of a compiled scene what `compile` makes of its description with some Instances elsewhere. The trees of what
+/// is instanced stay; that over the objects, the lights and the media are made anew. So what a program moves often
+/// belongs into Instances, and large still meshes too. Renders and queries of the scene must have ended.
+/// \throws ArgumentError, and leaves the scene as it is, if there is no such object, it is no Instance or one without
+/// primitives, it is moved twice, or its matrices are none for an Instance
+CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn

@@ -36,8 +36,13 @@ struct FilmInfo {
     Estimator estimator = Estimator::path;
     SamplerKind sampler = SamplerKind::sobol;
     bool uniform = false;
+    std::optional<PixelBounds> crop{};
+    bool transparent = false;
     Shard shard{};
     ///@}
+
+    /// The pixels that the film has, of a picture of width x height.
+    PixelBounds window() const { return crop.value_or(PixelBounds{0, 0, width, height}); }
 };
 
 /// Why a film is not of the same render as another: "its seed is 2, not 1"; empty if it is.
@@ -98,8 +103,11 @@ public:
     void save(const std::string& path) const;
 
     const FilmInfo& info() const { return info_; }  ///< what it is a film of
-    int width() const { return info_.width; }       ///< in pixels
-    int height() const { return info_.height; }     ///< in pixels
+    /// In pixels, of FilmInfo::window. Rows and columns below are counted within it.
+    ///@{
+    int width() const { return width_; }
+    int height() const { return height_; }
+    ///@}
     /// Whether it has all tiles of the picture.
     bool is_whole() const { return tiles_.size() == slots_.size(); }
     /// Whether each of its pixels has the samples that the plan wants.
@@ -108,13 +116,16 @@ public:
     std::size_t memory_bytes() const;                              ///< of all that it holds
 
     /// A sample that is not finite counts as black; the result says whether it was finite.
+    /// \param clear of the sample's light, how much came by from behind the scene; counts in a transparent film
     /// \pre it has the pixel's tile
-    bool add(int x, int y, const Color& sample);
+    bool add(int x, int y, const Color& sample, double clear = 0);
 
     /// Of the pixel in row y, column x; black, without samples, where the film lacks the tile.
     ///@{
     std::uint32_t samples(int x, int y) const { return at(x, y).samples; }
     Color mean(int x, int y) const;  ///< of all samples, black if there is none yet
+    /// The part of its samples that met something; 0 if there is none yet, 1 in a film that is not transparent.
+    double alpha(int x, int y) const;
     /// Samples in replicate r, and their mean. \pre there is one
     ///@{
     std::uint32_t replicate_samples(int x, int y, std::uint32_t r) const;
@@ -133,6 +144,8 @@ public:
     Image image() const;  ///< of the means
     /// The part of `image` that is a tile's. \pre the image has the film's size, and the film the tile
     void draw(std::uint32_t tile, Image& image) const;
+    void draw_alpha(std::uint32_t tile, std::span<float> alpha) const;  ///< the same of `alpha`
+    std::vector<float> alpha() const;      ///< row by row; empty in a film that is not transparent
     double mean_samples() const;           ///< a pixel that it has
     std::uint64_t all_samples() const;     ///< of all pixels that it has
     std::size_t own_pixels() const;        ///< that it has
@@ -141,9 +154,9 @@ public:
     /// Of a pixel in tables that go row by row, and how many there are.
     ///@{
     std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(info_.width) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    std::size_t pixels() const { return index(0, info_.height); }
+    std::size_t pixels() const { return index(0, height_); }
     ///@}
     /// The same in tables that go tile by tile, over those that it has, 256 places for each.
     ///@{
@@ -171,26 +184,20 @@ public:
         std::uint64_t nonfinite = 0;              ///< samples
         Counts& operator+=(const Counts& other);  ///< the sums
     };
-    /// The pixels of a tile: columns [left, right) of rows [top, bottom).
-    struct Tile {
-        /// In pixels from the upper left corner of the picture.
-        ///@{
-        int left, top, right, bottom;
-        ///@}
-    };
+    using Tile = PixelBounds;                                                              ///< of the film
     static Tile tile(const FilmInfo& info, std::uint32_t number);                          ///< by its index, row by row
     Tile tile(std::uint32_t number) const { return tile(info_, number); }                  ///< the same
-    static std::uint32_t tile_count(const FilmInfo& info);                                 ///< of the whole picture
+    static std::uint32_t tile_count(const FilmInfo& info);                                 ///< of all its window
     std::span<const std::uint32_t> tiles() const { return tiles_; }                        ///< that it has, ascending
     bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }            ///< whether it has the tile
     void count(std::uint32_t tile, const Counts& more) { counts_[slots_[tile]] += more; }  ///< \pre it has the tile
     Counts counts() const;                                                                 ///< of all its tiles
 
-    /// A tile as a file holds it, kTileBytes long. `set_tile` takes what `tile_bytes` gave. \pre it has the tile
+    /// A tile as a file holds it, and how long that is. `set_tile` takes what `tile_bytes` gave. \pre it has the tile
     ///@{
-    static constexpr std::size_t kTileBytes = 24 + 80 * kTile * kTile;
+    static std::size_t tile_size(const FilmInfo& info) { return kTileBytes + (info.transparent ? kClearBytes : 0); }
     std::vector<std::byte> tile_bytes(std::uint32_t tile) const;
-    void set_tile(std::uint32_t tile, std::span<const std::byte, kTileBytes> bytes);
+    void set_tile(std::uint32_t tile, std::span<const std::byte> bytes);
     ///@}
 
 private:
@@ -201,12 +208,15 @@ private:
         std::uint32_t samples = 0;
     };
     const Pixel& at(int x, int y) const { return pixels_[place(x, y)]; }
+    static constexpr std::size_t kTileBytes = 24 + 80 * kTilePixels, kClearBytes = 8 * kTilePixels;
 
     FilmInfo info_;
+    int width_ = 0, height_ = 0;        // of the window
     std::size_t across_ = 0;            // tiles in a row
     std::vector<std::uint32_t> tiles_;  // that it has, ascending
     std::vector<std::uint32_t> slots_;  // of each tile of the picture: its place in tiles_, or tiles_.size()
     std::vector<Pixel> pixels_;         // tile by tile, and one that stays black
+    std::vector<double> clear_;         // of a transparent film, as pixels_: what was not met by its samples
     std::vector<Counts> counts_;        // tile by tile
     SamplePlan plan_;
     double seconds_ = 0;

@@ -63,6 +63,11 @@ struct PixelMaps {
     /// The pixel's own estimated relMSE, of which ErrorEstimate::estimate is the mean; empty where there is none.
     std::vector<float> error;
     std::vector<float> samples;  ///< that the pixel has
+    /// Of a transparent picture, otherwise empty: how much of the pixel is not background, 0 to 1. That is the part of
+    /// the camera's paths that met something; a path that media weakened, and nothing else, counts by the mean of its
+    /// channels. Colours are multiplied by it (associated alpha): image + (1 - alpha) background is the picture with
+    /// a background of one colour.
+    std::vector<float> alpha;
 };
 
 /// A picture and what is known of it.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limn/core/error.h"
 #include "limn/render/film.h"
@@ -45,11 +46,34 @@ public:
     /// Writes the film to a file, which appears whole or not at all. By any thread, at any time: while the job runs,
     /// the film is that of some moment of it. \throws FileError
     void save(const std::string& path) const;
-    /// The picture so far. By any thread, at any time.
+    /// The picture so far, and its alpha as in PixelMaps. By any thread, at any time.
+    ///@{
     Image image() const;
+    std::vector<float> alpha() const;
+    ///@}
 
     const Film& film() const;     ///< not while it runs
     RenderResult result() const;  ///< not while it runs
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Calls a function regularly, in a thread of its own, as long as this object lives: to show or save what a job has so
+/// far.
+/// \code
+/// const Repeated preview(5, [&] { save_image(job.image(), "a.png"); });
+/// job.run();
+/// \endcode
+class Repeated {
+public:
+    /// Every `seconds`, over 0. What the function throws ends the program.
+    Repeated(double seconds, std::function<void()> function);
+    /// Waits for a call that runs, and makes no more.
+    ~Repeated();
+    Repeated(const Repeated&) = delete;
+    Repeated& operator=(const Repeated&) = delete;
 
 private:
     class Impl;
@@ -69,8 +93,7 @@ public:
     Checkpoints& operator=(const Checkpoints&) = delete;
 
 private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
+    Repeated repeated_;
 };
 
 /// If the error of the film's picture, as `render_result` estimates it, is over its target: writes to `path` how many

@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "limn/image/image.h"
+
 namespace limn {
 
 /// How far a render has come.
@@ -60,6 +62,12 @@ struct RenderSettings {
     /// With `error` or `time_limit`, after 8 samples in each pixel, those whose surroundings are noisier get more, and
     /// none less than a quarter of the mean; the picture stays unbiased. True: all get as many.
     bool uniform = false;
+    /// The pixels to render, of a picture of `width` x `height`, in which they must lie; not empty. By default all.
+    /// With as many samples they are those of the whole picture, bit for bit; where `error` or `time_limit` lets
+    /// samples differ, the pixels of the crop window alone decide how many each gets.
+    std::optional<PixelBounds> crop{};
+    /// Leaves the background out of what the camera sees, but not out of the light: PixelMaps::alpha says where it was.
+    bool transparent = false;
     Shard shard{};  ///< the part to render, of a picture whose error is then unknown; the rest stays black
     /// Called at the start, at the end, and at most every 50 ms in between, by any thread but never by two at once;
     /// return false to stop with what has been done.

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,13 @@ struct ModelInstance {
 
 /// A camera that the file describes.
 struct ModelCamera {
-    std::string name;                             ///< may be empty
-    Camera camera;                                ///< of an orthographic view: eye, direction and up alone
-    std::optional<double> orthographic_height{};  ///< of the picture in world units; none for a perspective
+    std::string name;  ///< may be empty
+    Camera camera;     ///< with an aspect ratio where the file states one
 };
 
-/// A light without a size, as glTF's KHR_lights_punctual has them. So far no scene has such lights.
+/// A light without a size, as glTF's KHR_lights_punctual has them. Scene::add makes a PointLight, SpotLight or
+/// DirectionalLight of it, whose watts are lumens / 683: so do Blender's importer and exporter, which leave the
+/// radiance of emissive materials as it is, so that lamps and emissive surfaces of a file keep their proportion.
 struct ModelLight {
     enum class Kind { point, spot, directional };
     std::string name;              ///< may be empty
@@ -40,6 +40,13 @@ struct ModelLight {
     double outer_cone_angle = 45;  ///< from here on none
 };
 
+/// A run of faces of an OBJ, up to the next: those behind its lines `o` and `g`.
+struct ModelPart {
+    std::string object;          ///< behind the last `o`; empty before the first
+    std::string group;           ///< behind the last `g` since; empty if there is none
+    std::size_t first_face = 0;  ///< counted as Mesh::face does
+};
+
 /// What was read from a model file.
 struct Model {
     /// An OBJ, PLY or STL gives one. `Mesh::face` numbers the faces of the file, in its order. Material slot 0 is for
@@ -49,6 +56,7 @@ struct Model {
     std::vector<std::string> materials;    ///< their names, in the order of the file; of an OBJ, of their first use
     std::vector<ModelCamera> cameras;      ///< in the order of the file
     std::vector<ModelLight> lights;        ///< in the order of the file
+    std::vector<ModelPart> parts;          ///< of an OBJ that names some, in the order of the file, none without faces
 
     std::size_t vertices = 0;              ///< positions in the file; of an STL those that differ
     std::size_t faces = 0;                 ///< in the file
@@ -60,6 +68,8 @@ struct Model {
     std::vector<std::string> files;  ///< that were read, or tried: the model, what it names, textures
 
     Box bounds() const;  ///< around all instances
+    /// The part that a face belongs to; null if it belongs to none.
+    const ModelPart* part_of(std::size_t face) const;
     /// Gives what has the material of that name, or of those names, another one.
     ///
     /// \throws ArgumentError if no material has the name

@@ -1,0 +1,16 @@
+#include "model_input.h"
+
+#include <iostream>
+#include <iterator>
+
+namespace limn::app {
+
+Model read_model(const std::string& path, const ModelOptions& options) {
+    if (path != kStandardInput) return load_model(path, options);
+    const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
+    return load_model_from_memory(std::as_bytes(std::span(bytes)), "standard input", options);
+}
+
+std::string input_file(const std::string& path) { return path == kStandardInput ? "" : path; }
+
+}  // namespace limn::app

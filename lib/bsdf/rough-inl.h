@@ -1,0 +1,87 @@
+// What lobes of microfacets have in common beside the microsurface. Per-target include guard, as Highway has it.
+#if defined(LIMN_BSDF_ROUGH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIMN_BSDF_ROUGH_INL_H
+#undef LIMN_BSDF_ROUGH_INL_H
+#else
+#define LIMN_BSDF_ROUGH_INL_H
+#endif
+
+#include "bsdf/albedo_table.h"
+#include "bsdf/fresnel-inl.h"
+#include "bsdf/lobe-inl.h"
+#include "bsdf/microfacet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::bsdf::HWY_NAMESPACE {
+
+// Around the shading normal, x along dp_du; where that is none, along anything.
+template <class N>
+struct ShadingFrame {
+    Vector<N> x, y, z, out;
+
+    HWY_INLINE explicit ShadingFrame(const LobeInput<N>& s) : z(s.shading_normal) {
+        const Vector<N> along = s.dp_du - dot(s.dp_du, z) * z;
+        const N squared = length_squared(along);
+        const Mask<N> is_tangent = squared > 1e-12 * length_squared(s.dp_du);
+        x = select(is_tangent, along / sqrt(squared), Basis<N>(z).x);
+        y = cross(z, x);
+        // A surface that is seen around its interpolated normal's horizon looks as it does at the horizon.
+        out = to_local(s.out);
+        out.z = max(out.z, 1e-4);
+        out = normalize(out);
+    }
+    HWY_INLINE Vector<N> to_local(const Vector<N>& w) const { return {dot(w, x), dot(w, y), dot(w, z)}; }
+    HWY_INLINE Vector<N> to_world(const Vector<N>& w) const { return w.x * x + w.y * y + w.z * z; }
+};
+
+// What a table says of a direction in this frame. \param row see AlbedoTable
+HWY_INLINE double albedo_at(const AlbedoTable* table, double row, double cosine) { return table->at(row, cosine); }
+HWY_INLINE double mean_albedo(const AlbedoTable* table, double row) { return table->mean_at(row); }
+
+template <class D, class Function>
+HWY_INLINE Wide<D> of_each_lane(Wide<D> a, Wide<D> b, const Function& function) {
+    HWY_ALIGN double first[hn::MaxLanes(D())], second[hn::MaxLanes(D())], result[hn::MaxLanes(D())];
+    store(a, first), store(b, second);
+    for (std::size_t i = 0; i < hn::MaxLanes(D()); ++i) result[i] = function(i, first[i], second[i]);
+    return load<Wide<D>>(result);
+}
+template <class D>
+HWY_INLINE Wide<D> albedo_at(const AlbedoTable* const* tables, Wide<D> row, Wide<D> cosine) {
+    return of_each_lane(row, cosine,
+                        [&](std::size_t i, double r, double c) { return tables[i] ? tables[i]->at(r, c) : 0; });
+}
+template <class D>
+HWY_INLINE Wide<D> mean_albedo(const AlbedoTable* const* tables, Wide<D> row) {
+    return of_each_lane(row, row,
+                        [&](std::size_t i, double r, double) { return tables[i] ? tables[i]->mean_at(r) : 0; });
+}
+
+// A vertex on microfacets, whose alphas are the details 3 and 4, both 0 of a smooth surface.
+template <class N>
+struct Facets {
+    const LobeInput<N>& s;
+    Mask<N> smooth;
+    Microsurface<N> surface;
+    ShadingFrame<N> frame;
+
+    HWY_INLINE explicit Facets(const LobeInput<N>& input)
+        : s(input),
+          smooth(input.details[3] == 0.0),
+          surface{select(smooth, 1.0, input.details[3]), select(smooth, 1.0, input.details[4])},
+          frame(input) {}
+
+    // In the table: of a brushed surface, the azimuth between the axes.
+    HWY_INLINE N row_of(const Vector<N>& w) const {
+        if (!any(s.details[3] != s.details[4])) return 0.0;
+        return angle_of<N>({abs(w.y), max(abs(w.x), 1e-12)}) / (kPi / 2);
+    }
+    HWY_INLINE N albedo(const Vector<N>& w) const {
+        return albedo_at(s.albedo_table, row_of(w), min(max(w.z, 0.0), 1.0));
+    }
+    HWY_INLINE N mean_albedo() const { return bsdf::HWY_NAMESPACE::mean_albedo(s.albedo_table, N(0.0)); }
+};
+
+}  // namespace limn::bsdf::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,64 @@
+// What is drawn from a map, by rows and then along them: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed.,
+// sections A.5.3 and 12.5.2. Ours: the density is interpolated like the map, and the height is the cosine, so that no
+// sine is needed and no direction is drawn with a density of less than its share.
+#include <algorithm>
+#include <cmath>
+
+#include "accel/parallel.h"
+#include "compile/steps.h"
+#include "limn/core/math.h"
+
+namespace limn::compiler {
+
+namespace {
+
+constexpr std::size_t kRowsAtOnce = 16;
+
+// Sums between the centres of neighbours, and the sum of all, rounded to shares of it.
+double tabulate_row(const Image& image, int y, std::int32_t* before) {
+    const int width = image.width();
+    double all = 0;
+    for (int x = 0; x < width; ++x) all += luminance(image.at(x, y));
+    double sum = 0, here = luminance(image.at(0, y));
+    for (int x = 0; x < width; ++x) {
+        before[x] = all > 0 ? static_cast<std::int32_t>(std::min(sum / all, 1.0) * flat::Environment::kWhole) : 0;
+        const double next = luminance(image.at((x + 1) % width, y));
+        sum += (here + next) / 2;
+        here = next;
+    }
+    before[width] = all > 0 ? flat::Environment::kWhole : 0;
+    return all;
+}
+
+}  // namespace
+
+void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
+    if (!record.image) return;
+    e.image = record.image;
+    e.axes = pattern::axes_of(record.world_from_map);
+    e.scale = record.scale;
+    const Image& image = *e.image;
+    const auto height = static_cast<std::size_t>(image.height()), width = static_cast<std::size_t>(image.width());
+    e.row_luminance.resize(height);
+    e.column_before.resize(height * (width + 1));
+    accel::for_all(0, height, kRowsAtOnce, [&](std::size_t y) {
+        e.row_luminance[y] = tabulate_row(image, static_cast<int>(y), &e.column_before[y * (width + 1)]);
+    });
+    double sum = 0;
+    for (std::size_t band = 0; band <= height; ++band) {
+        const double upper = band == 0 ? 0 : (static_cast<double>(band) - 0.5) / static_cast<double>(height);
+        const double lower = band == height ? 1 : (static_cast<double>(band) + 0.5) / static_cast<double>(height);
+        e.band_cosine.push_back(std::cos(kPi * upper));
+        e.band_before.push_back(sum);
+        const double rows = e.row_luminance[band == 0 ? 0 : band - 1] + e.row_luminance[std::min(band, height - 1)];
+        // cos a - cos b, which does not cancel
+        sum += 2 * std::sin(kPi / 2 * (lower + upper)) * std::sin(kPi / 2 * (lower - upper)) * rows / 2;
+    }
+    e.band_cosine.push_back(-1);
+    e.band_before.push_back(sum);
+    e.luminance = 2 * kPi / static_cast<double>(width) * sum;
+    if (e.luminance > 0 && e.scale > 0) return;
+    e.row_luminance = {}, e.band_cosine = {}, e.band_before = {}, e.column_before = {};
+}
+
+}  // namespace limn::compiler

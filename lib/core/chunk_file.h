@@ -1,0 +1,88 @@
+// Files of chunks, for films and compiled scenes.
+//
+// Numbers are little endian. A file is eight letters that say what it is, and versions; then chunks, each with its
+// length before and its checksum behind; then the length of all this and the eight letters of the end.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/replace_file.h"
+
+namespace limn {
+
+struct ChunkFormat {
+    const char* name;             // "film"
+    std::string_view begin, end;  // eight letters each
+};
+
+// Whether a file begins as those of the format do.
+bool is_chunk_file(const std::string& path, const ChunkFormat& format);
+
+// Writes one, whole or not at all. \throws FileError
+class ChunkWriter {
+public:
+    ChunkWriter(const std::string& path, const ChunkFormat& format, std::span<const std::uint32_t> versions);
+    void chunk(std::span<const std::byte> bytes);
+    void finish();
+
+private:
+    void write(std::span<const std::byte> bytes);
+
+    FileReplacement file_;
+    const ChunkFormat& format_;
+    std::uint64_t length_ = 0;
+};
+
+// Reads one, in the same order. \throws FileError
+class ChunkReader {
+public:
+    // Reads as many versions as there is room for.
+    ChunkReader(const std::string& path, const ChunkFormat& format, std::span<std::uint32_t> versions);
+
+    const std::string& path() const { return path_; }
+
+    // `what`: for the message, "its header". Of as many bytes as there are, from `least` to `most`.
+    std::vector<std::byte> chunk(const char* what, std::uint64_t least = 0,
+                                 std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+    // The same into a vector of values that are nothing but their bytes.
+    template <class Table>
+    void table(const char* what, Table& values) {
+        using Value = typename Table::value_type;
+        constexpr std::size_t kSize = sizeof(Value);
+        const std::uint64_t length = chunk_length();
+        if (length % kSize != 0) fail_damaged(what);
+        require(length);
+        values.resize(static_cast<std::size_t>(length / kSize), std::bit_cast<Value>(std::array<std::byte, kSize>{}));
+        read_chunk(what, std::as_writable_bytes(std::span(values)));
+    }
+    // After the last chunk.
+    void finish();
+
+    static constexpr std::uint64_t kLeastChunk = 16;          // bytes: its length and its checksum
+    std::uint64_t left() const { return size_ - position_; }  // in bytes
+
+    [[noreturn]] void fail(const std::string& problem) const;
+    [[noreturn]] void fail_damaged(const std::string& what) const { fail("is damaged: " + what); }
+
+private:
+    std::uint64_t chunk_length();
+    void require(std::uint64_t length) const;  // so many bytes are left
+    void read_chunk(const char* what, std::span<std::byte> to);
+    void read(std::span<std::byte> to);
+
+    std::string path_;
+    const ChunkFormat& format_;
+    std::ifstream file_;
+    std::uint64_t size_ = 0, position_ = 0;
+};
+
+}  // namespace limn

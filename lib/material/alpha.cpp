@@ -1,0 +1,23 @@
+#include "material/alpha.h"
+
+#include <algorithm>
+
+#include "bsdf/albedo_table.h"
+#include "material/albedo.h"
+
+namespace limn {
+
+using bsdf::kLeastAlpha;
+
+Alphas checked_alphas(const Roughness& r, const std::string& material) {
+    const double u = checked_share(r.u, material + ": roughness"), v = checked_share(r.v, material + ": roughness");
+    if (u * u < kLeastAlpha && v * v < kLeastAlpha) return {0, 0};
+    return {std::max(u * u, kLeastAlpha), std::max(v * v, kLeastAlpha)};
+}
+
+std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(const Alphas& alpha, double eta) {
+    return std::make_shared<const bsdf::AlbedoTable>(
+        bsdf::albedo_of(std::max(alpha.x, kLeastAlpha), std::max(alpha.y, kLeastAlpha), eta));
+}
+
+}  // namespace limn

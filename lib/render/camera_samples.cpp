@@ -1,0 +1,59 @@
+#include "render/camera_samples.h"
+
+#include <algorithm>
+
+#include "render/sampler.h"
+
+namespace limn::transport {
+
+namespace {
+
+// The camera's numbers: those of the first group.
+void draw_first(std::span<Path> paths, std::size_t dimensions, sampling::Row* numbers) {
+    std::uint64_t base[sampling::kShaded] = {};
+    std::uint32_t index[sampling::kShaded] = {}, group[sampling::kShaded] = {};
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        base[i] = paths[i].sampler.base(), index[i] = paths[i].sampler.index();
+    const auto sampler_at = [&](std::size_t i) -> const Sampler& { return paths[i].sampler; };
+    draw_numbers({paths.size(), base, index, group}, dimensions, sampler_at, numbers);
+}
+
+}  // namespace
+
+CameraSamples::CameraSamples(const flat::Scene& scene, const FilmInfo& info)
+    : info_(info),
+      camera_(info.camera, info.width, info.height),
+      window_(info.window()),
+      has_lens_or_motion_(info.camera.aperture_angle > 0 ||
+                          (scene.kinds & flat::bit(PrimitiveKind::moving_sphere)) != 0 ||
+                          scene.features.moving_instances || scene.features.foreign_shapes) {}
+
+// A pixel's numbers go by its place in the whole picture.
+Path CameraSamples::path(int x, int y, std::uint32_t sample) const {
+    const auto column = static_cast<std::uint64_t>(window_.left + x), row = static_cast<std::uint64_t>(window_.top + y);
+    const std::uint64_t pixel = row * static_cast<std::uint64_t>(info_.width) + column;
+    return {Sampler(info_.seed, pixel, sample, info_.sampler)};
+}
+
+void CameraSamples::set_rays(std::span<Path> paths, const Pixels& pixels) const {
+    // In the pixel, on the lens, in time.
+    const std::size_t dimensions = has_lens_or_motion_ ? 5 : 2;
+    sampling::Row numbers[5] = {};
+    for (std::size_t first = 0; first < paths.size(); first += sampling::kShaded) {
+        const std::span some = paths.subspan(first, std::min(sampling::kShaded, paths.size() - first));
+        draw_first(some, dimensions, numbers);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const auto [x, y] = pixels[first + i];
+            const double dx = info_.antialias ? numbers[0][i] : 0.5;
+            const double dy = info_.antialias ? numbers[1][i] : 0.5;
+            some[i].ray =
+                camera_.ray(window_.left + x + dx, window_.top + y + dy, numbers[2][i], numbers[3][i], numbers[4][i]);
+        }
+    }
+}
+
+Ray CameraSamples::middle_ray(int x, int y) const {
+    return camera_.ray(window_.left + x + 0.5, window_.top + y + 0.5, 0.5, 0.5, 0.5);
+}
+
+}  // namespace limn::transport

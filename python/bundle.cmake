@@ -1,0 +1,30 @@
+# limn_bundle(TARGET): the shared library of an imported target goes into the wheel, beside the module, under a name of
+# limn's own: a process that has loaded another version for another module does not give it to limn.
+
+find_program(LIMN_PATCHELF patchelf REQUIRED)
+
+function(limn_bundle target)
+    foreach(config "_RELEASE" "_NONE" "_RELWITHDEBINFO" "")
+        get_target_property(library ${target} IMPORTED_LOCATION${config})
+        if(library)
+            break()
+        endif()
+    endforeach()
+    get_target_property(kind ${target} TYPE)
+    if(kind STREQUAL "STATIC_LIBRARY")
+        return()
+    endif()
+    if(NOT library)
+        message(FATAL_ERROR "limn: no shared library of ${target}")
+    endif()
+    string(REGEX REPLACE ".*::" "" name ${target})
+    set(copy "${CMAKE_CURRENT_BINARY_DIR}/liblimn_${name}.so")
+    file(REAL_PATH "${library}" original)
+    file(COPY_FILE "${original}" "${copy}")
+    execute_process(COMMAND "${LIMN_PATCHELF}" --set-soname liblimn_${name}.so "${copy}" COMMAND_ERROR_IS_FATAL ANY)
+    foreach(config "_RELEASE" "_NONE" "_RELWITHDEBINFO" "")
+        set_target_properties(${target} PROPERTIES
+            IMPORTED_LOCATION${config} "${copy}" IMPORTED_SONAME${config} "liblimn_${name}.so")
+    endforeach()
+    install(FILES "${copy}" DESTINATION limn PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+endfunction()

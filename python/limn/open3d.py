@@ -1,0 +1,283 @@
+"""The interface of Open3D's `RaycastingScene`, with exact answers.
+
+    import limn.open3d as o3d                      # in place of `import open3d as o3d`
+    from limn.open3d import RaycastingScene        # or by itself; Open3D need not be there
+
+Only `t.geometry.RaycastingScene` is limn's; everything else that `limn.open3d` is asked for is Open3D's, if that is
+installed. Tensors of Open3D are answered with tensors of Open3D. Arrays of numpy, lists, and arrays that speak DLPack are
+answered with `Tensor`, an array of numpy that has `.numpy()`. Numbers are float32, ids uint32, as there.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._limn import INVALID_ID, CompiledScene, Scene
+
+__all__ = ["RaycastingScene", "Tensor", "t"]
+
+
+class Tensor(np.ndarray):
+    """An array of numpy with what programs ask of Open3D's tensors."""
+
+    def numpy(self) -> np.ndarray:
+        """The same memory as a plain array."""
+        return self.view(np.ndarray)
+
+    def cpu(self) -> Tensor:
+        return self
+
+    def clone(self) -> Tensor:
+        return self.copy()
+
+    def isfinite(self) -> Tensor:
+        return np.isfinite(self)
+
+    def isnan(self) -> Tensor:
+        return np.isnan(self)
+
+    def isinf(self) -> Tensor:
+        return np.isinf(self)
+
+
+def _is_open3d(value: Any) -> bool:
+    return type(value).__module__.startswith("open3d.") and hasattr(value, "numpy")
+
+
+def _array(value: Any, name: str, types: tuple[type, ...], otherwise: type) -> np.ndarray:
+    """A contiguous array of one of the types; lists become `otherwise`."""
+    if _is_open3d(value):
+        array = value.cpu().numpy()
+    elif isinstance(value, np.ndarray):
+        array = value
+    elif hasattr(value, "__dlpack__"):
+        array = np.from_dlpack(value)
+    elif isinstance(value, (list, tuple)):
+        try:
+            array = np.asarray(value, otherwise)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise TypeError(f"{name}: {error}") from None
+    else:
+        raise TypeError(f"{name}: must be an array or a tensor, not {type(value).__name__}")
+    if array.dtype not in types:
+        wanted = " or ".join(np.dtype(one).name for one in types)
+        raise TypeError(f"{name}: must be of {wanted}, not {array.dtype}")
+    return np.ascontiguousarray(array)
+
+
+def _numbers(value: Any, name: str, width: int) -> np.ndarray:
+    """Rows of `width` numbers along the last axis."""
+    array = _array(value, name, (np.float32, np.float64), np.float32)
+    if array.ndim < 2 or array.shape[-1] != width:
+        raise ValueError(f"{name}: must have shape (..., {width}) with at least two axes, not {array.shape}")
+    return array
+
+
+def _like(value: Any, array: np.ndarray) -> Any:
+    """The answer to `value`."""
+    return type(value).from_numpy(np.ascontiguousarray(array)) if _is_open3d(value) else array.view(Tensor)
+
+
+def _odd(nsamples: int) -> None:
+    """One ray is enough, whatever it meets; the argument is only checked."""
+    if nsamples < 1 or nsamples % 2 == 0:
+        raise ValueError(f"nsamples: must be an odd number, not {nsamples}")
+
+
+def _mesh_arrays(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Of Open3D's tensor mesh, or of its older one, whose float64 vertices are rounded to float32."""
+    if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):
+        return mesh.vertex["positions"], mesh.triangle["indices"]
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):
+        return np.asarray(mesh.vertices).astype(np.float32), np.asarray(mesh.triangles)
+    raise TypeError(f"mesh: must be a TriangleMesh, not {type(mesh).__name__}")
+
+
+class RaycastingScene:
+    """Open3D's class; see there. Differences:
+
+    - t_hit counts hits with 0 < t: a ray that starts exactly on a triangle does not hit it.
+    - count_intersections counts passages through surfaces, one also at an edge or a vertex; so it is even outside of closed
+      meshes. list_intersections lists each triangle that a ray meets there, by t.
+    - compute_occupancy and the sign of compute_signed_distance are those of winding numbers, exactly, for meshes that
+      overlap too; points exactly on a surface are inside. nsamples is checked and not needed.
+    - Rays and points may be float64 too. A ray with a NaN misses.
+    - Errors are a TypeError or a ValueError that names the argument.
+    """
+
+    INVALID_ID = INVALID_ID
+
+    def __init__(self, nthreads: int = 0, device: Any = None) -> None:
+        """nthreads: for building, which uses all in any case. device: the CPU."""
+        if device is not None and not str(device).upper().startswith("CPU"):
+            raise ValueError(f"device: must be the CPU, not {device}")
+        self._scene = Scene()
+        self._compiled: CompiledScene | None = None
+
+    def add_triangles(self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None,
+                      vertices: Any = None, triangles: Any = None) -> int:
+        """add_triangles(vertex_positions, triangle_indices) or add_triangles(mesh). Returns the geometry's id."""
+        positions = vertex_positions if vertex_positions is not None else vertices
+        indices = triangle_indices if triangle_indices is not None else triangles
+        if indices is None:
+            positions, indices = _mesh_arrays(positions if mesh is None else mesh)
+        number = self._scene.add_triangles(
+            _array(positions, "vertex_positions", (np.float32,), np.float32),
+            _array(indices, "triangle_indices", (np.uint32, np.int32, np.int64, np.uint64), np.int64))
+        self._compiled = None
+        return number
+
+    def cast_rays(self, rays: Any, nthreads: int = 0) -> dict[str, Any]:
+        """The nearest hit of each ray: t_hit, geometry_ids, primitive_ids, primitive_uvs, primitive_normals."""
+        array = _numbers(rays, "rays", 6)
+        shape = array.shape[:-1]
+        if not array.size:
+            return {name: _like(rays, np.zeros(shape + columns, kind)) for name, columns, kind in (
+                ("t_hit", (), np.float32), ("geometry_ids", (), np.uint32), ("primitive_ids", (), np.uint32),
+                ("primitive_uvs", (2,), np.float32), ("primitive_normals", (3,), np.float32))}
+        return self._answers(rays, self._ready().cast_rays(array, nthreads, dtype="float32"))
+
+    def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = math.inf, nthreads: int = 0) -> Any:
+        """Whether each ray hits anything with tnear < t <= tfar: bool."""
+        array = _numbers(rays, "rays", 6)
+        if not array.size:
+            return _like(rays, np.zeros(array.shape[:-1], bool))
+        return _like(rays, self._ready().test_occlusions(array, nthreads, t_min=tnear, t_max=tfar))
+
+    def count_intersections(self, rays: Any, nthreads: int = 0) -> Any:
+        """How many surfaces each ray passes through: int32."""
+        array = _numbers(rays, "rays", 6)
+        if not array.size:
+            return _like(rays, np.zeros(array.shape[:-1], np.int32))
+        return _like(rays, self._ready().count_intersections(array, nthreads).astype(np.int32))
+
+    def list_intersections(self, rays: Any, nthreads: int = 0) -> dict[str, Any]:
+        """All hits: ray_splits, ray_ids, t_hit, geometry_ids, primitive_ids, primitive_uvs."""
+        array = _numbers(rays, "rays", 6)
+        if not array.size:
+            empty = {name: np.zeros(0, np.uint32) for name in ("ray_ids", "geometry_ids", "primitive_ids")}
+            answer = {"ray_splits": np.zeros(1, np.uint32), "t_hit": np.zeros(0, np.float32),
+                      "primitive_uvs": np.zeros((0, 2), np.float32)} | empty
+        else:
+            answer = self._ready().list_intersections(array, nthreads, dtype="float32")
+            for name in ("ray_splits", "ray_ids"):
+                answer[name] = answer[name].astype(np.uint32)
+        return self._answers(rays, answer)
+
+    def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> dict[str, Any]:
+        """The nearest point to each: points, geometry_ids, primitive_ids, primitive_uvs, primitive_normals."""
+        array = _numbers(query_points, "query_points", 3)
+        shape = array.shape[:-1]
+        if not array.size:
+            return {name: _like(query_points, np.zeros(shape + columns, kind)) for name, columns, kind in (
+                ("points", (3,), np.float32), ("geometry_ids", (), np.uint32), ("primitive_ids", (), np.uint32),
+                ("primitive_uvs", (2,), np.float32), ("primitive_normals", (3,), np.float32))}
+        return self._answers(query_points, self._ready().compute_closest_points(array, nthreads, dtype="float32"))
+
+    def compute_distance(self, query_points: Any, nthreads: int = 0) -> Any:
+        """How far each point is from the nearest surface: float32."""
+        array = _numbers(query_points, "query_points", 3)
+        if not array.size:
+            return _like(query_points, np.zeros(array.shape[:-1], np.float32))
+        return _like(query_points, self._ready().compute_distance(array, nthreads, dtype="float32"))
+
+    def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Any:
+        """compute_distance, negative inside: float32."""
+        _odd(nsamples)
+        array = _numbers(query_points, "query_points", 3)
+        if not array.size:
+            return _like(query_points, np.zeros(array.shape[:-1], np.float32))
+        return _like(query_points, self._ready().compute_signed_distance(array, nthreads, dtype="float32"))
+
+    def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Any:
+        """1 inside, 0 outside: float32."""
+        _odd(nsamples)
+        array = _numbers(query_points, "query_points", 3)
+        if not array.size:
+            return _like(query_points, np.zeros(array.shape[:-1], np.float32))
+        return _like(query_points, self._ready().contains(array, nthreads).astype(np.float32))
+
+    @staticmethod
+    def create_rays_pinhole(*args: Any, **kwargs: Any) -> Any:
+        """create_rays_pinhole(intrinsic_matrix, extrinsic_matrix, width_px, height_px), or
+        create_rays_pinhole(fov_deg, center, eye, up, width_px, height_px), fov_deg being the horizontal angle.
+        With a view the picture is turned by half a turn, as Open3D's is.
+
+        Rays through the centres of the pixels, shape (height_px, width_px, 6), float32; directions of depth 1.
+        """
+        if len(args) + len(kwargs) == 4:
+            return _rays_of_matrices(*args, **kwargs)
+        return _rays_of_view(*args, **kwargs)
+
+    def _ready(self) -> CompiledScene:
+        if self._compiled is None:
+            self._compiled = self._scene.compile()
+        return self._compiled
+
+    @staticmethod
+    def _answers(asked: Any, answer: dict[str, np.ndarray]) -> dict[str, Any]:
+        return {name: _like(asked, array) for name, array in answer.items()}
+
+
+def _double(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
+    array = np.asarray(value.cpu().numpy() if _is_open3d(value) else value, np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name}: must have shape {shape}, not {array.shape}")
+    return array
+
+
+def _pinhole(intrinsic: np.ndarray, rotation: np.ndarray, eye: np.ndarray, width: int, height: int) -> np.ndarray:
+    for name, side in (("width_px", width), ("height_px", height)):
+        if side < 1:
+            raise ValueError(f"{name}: must be at least 1, not {side}")
+    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    pixels = np.stack([x, y, np.ones_like(x)], axis=-1)
+    directions = pixels @ np.linalg.inv(intrinsic).T @ rotation
+    return np.concatenate([np.broadcast_to(eye, directions.shape), directions], axis=-1).astype(np.float32)
+
+
+def _rays_of_matrices(intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: int, height_px: int) -> Any:
+    intrinsic = _double(intrinsic_matrix, "intrinsic_matrix", (3, 3))
+    extrinsic = _double(extrinsic_matrix, "extrinsic_matrix", (4, 4))
+    rotation = extrinsic[:3, :3]
+    return _like(intrinsic_matrix, _pinhole(intrinsic, rotation, -rotation.T @ extrinsic[:3, 3], width_px, height_px))
+
+
+def _rays_of_view(fov_deg: float, center: Any, eye: Any, up: Any, width_px: int, height_px: int) -> Any:
+    start = _double(eye, "eye", (3,))
+    forward = _double(center, "center", (3,)) - start
+    right = np.cross(forward, _double(up, "up", (3,)))
+    if not (np.linalg.norm(forward) > 0 and np.linalg.norm(right) > 0):
+        raise ValueError("up: must not be along the view, nor center equal to eye")
+    forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
+    focal = 0.5 * width_px / math.tan(0.5 * math.radians(fov_deg))
+    intrinsic = np.array([[focal, 0, 0.5 * width_px], [0, focal, 0.5 * height_px], [0, 0, 1]])
+    rotation = np.stack([-right, np.cross(right, forward), forward])  # upside down, as Open3D's
+    return _like(center, _pinhole(intrinsic, rotation, start, width_px, height_px))
+
+
+class _Namespace:
+    """A module of Open3D, some names of which are limn's."""
+
+    def __init__(self, module: str, **own: Any) -> None:
+        self.__dict__ |= {"_module": module} | own
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(importlib.import_module(self._module), name)
+
+
+t = _Namespace("open3d.t", geometry=_Namespace("open3d.t.geometry", RaycastingScene=RaycastingScene))
+
+
+def __getattr__(name: str) -> Any:
+    if name.startswith("__"):
+        raise AttributeError(name)
+    try:
+        return getattr(importlib.import_module("open3d"), name)
+    except ModuleNotFoundError:
+        raise AttributeError(f"limn.open3d has no '{name}', and Open3D, which may have it, is not installed") from None

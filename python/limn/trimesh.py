@@ -1,0 +1,118 @@
+"""The interface of trimesh's `RayMeshIntersector`, with exact answers.
+
+    from limn.trimesh import RayMeshIntersector   # in place of trimesh.ray.ray_pyembree
+
+Rays and points may be any array of three columns, or lists; they are taken as float64. Vertices are rounded once, to
+float32: the answers are exactly those of the rounded mesh. Trimesh itself is not needed: a mesh is what has `vertices`
+and `faces`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._limn import INVALID_ID, CompiledScene, Scene
+
+Locations = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]
+
+
+def _rows(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+    """(n, 3) float64, contiguous."""
+    try:
+        rows = np.ascontiguousarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: must be an array of numbers, shape (n, 3)") from None
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise ValueError(f"{name}: must have shape (n, 3), not {rows.shape}")
+    return rows
+
+
+def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """(n, 6) float64."""
+    starts, ways = _rows(origins, "ray_origins"), _rows(directions, "ray_directions")
+    if starts.shape != ways.shape:
+        raise ValueError(f"ray_directions: must have shape {starts.shape} as ray_origins, not {ways.shape}")
+    return np.concatenate([starts, ways], axis=1)
+
+
+class RayMeshIntersector:
+    """Rays and points against one mesh.
+
+    Args:
+        geometry: a trimesh.Trimesh, or what has vertices (n, 3) and faces (m, 3).
+        scale_to_box: taken and not used; answers do not depend on the size of a mesh.
+        threads: on how many threads to ask; 0 on all.
+    """
+
+    def __init__(self, geometry: Any, scale_to_box: bool = True, threads: int = 0) -> None:
+        self.mesh = geometry
+        self.threads = threads
+        self._compiled: tuple[int, CompiledScene] | None = None
+
+    def _scene(self) -> CompiledScene:
+        """The mesh as it is now: trimesh tells by its hash whether it has changed."""
+        key = hash(self.mesh)
+        if self._compiled is None or self._compiled[0] != key:
+            scene = Scene()
+            scene.add_triangles(np.ascontiguousarray(self.mesh.vertices, np.float32),
+                                np.ascontiguousarray(self.mesh.faces))
+            self._compiled = key, scene.compile()
+        return self._compiled[1]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_compiled": None}
+
+    def intersects_location(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike,
+                            multiple_hits: bool = True) -> Locations:
+        """Where rays meet the mesh: locations (m, 3), index_ray (m,), index_tri (m,)."""
+        index_tri, index_ray, locations = self.intersects_id(ray_origins, ray_directions, multiple_hits,
+                                                             return_locations=True)
+        return locations, index_ray, index_tri
+
+    def intersects_id(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, multiple_hits: bool = True,
+                      max_hits: int = 100, return_locations: bool = False) -> Any:
+        """Which triangles rays meet: index_tri (m,), index_ray (m,), and locations (m, 3) if they are asked for.
+
+        Ray after ray, by distance; at an edge or a vertex each triangle that the ray meets. At most max_hits of a ray.
+        """
+        rays = _rays(ray_origins, ray_directions)
+        index_ray, index_tri, t = self._all(rays, max_hits) if multiple_hits else self._nearest(rays)
+        if not return_locations:
+            return index_tri, index_ray
+        return index_tri, index_ray, rays[index_ray, :3] + t[:, None] * rays[index_ray, 3:]
+
+    def intersects_first(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
+        """The first triangle that each ray meets, (n,); -1 where it misses."""
+        rays = _rays(ray_origins, ray_directions)
+        index_ray, index_tri, _ = self._nearest(rays)
+        first = np.full(len(rays), -1, np.int64)
+        first[index_ray] = index_tri
+        return first
+
+    def intersects_any(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Whether each ray meets the mesh, (n,)."""
+        rays = _rays(ray_origins, ray_directions)
+        return self._scene().test_occlusions(rays, self.threads) if len(rays) else np.zeros(0, bool)
+
+    def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Whether each point is inside of the mesh or exactly on it, (n,)."""
+        rows = _rows(points, "points")
+        return self._scene().contains(rows, self.threads) if len(rows) else np.zeros(0, bool)
+
+    def _all(self, rays: npt.NDArray[np.float64], max_hits: int) -> tuple[Any, Any, Any]:
+        if not len(rays):
+            return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)
+        hits = self._scene().list_intersections(rays, self.threads)
+        ray_ids = hits["ray_ids"]
+        kept = np.arange(len(ray_ids)) - hits["ray_splits"][ray_ids] < max_hits
+        return ray_ids[kept], hits["primitive_ids"][kept].astype(np.int64), hits["t_hit"][kept]
+
+    def _nearest(self, rays: npt.NDArray[np.float64]) -> tuple[Any, Any, Any]:
+        if not len(rays):
+            return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)
+        hits = self._scene().cast_rays(rays, self.threads)
+        index_ray = np.flatnonzero(hits["primitive_ids"] != INVALID_ID)
+        return index_ray, hits["primitive_ids"][index_ray].astype(np.int64), hits["t_hit"][index_ray]

@@ -1,0 +1,90 @@
+// Scenes, and what they are compiled to.
+#include "limn/scene/scene.h"
+
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include "bindings.h"
+#include "limn/query/compiled_scene.h"
+#include "queries.h"
+#include "shapes.h"
+
+namespace limn::python {
+
+namespace {
+
+std::size_t add_triangles(Scene& scene, ArrayArgument vertices, ArrayArgument faces, MaterialArgument material) {
+    return scene.add(make_mesh(mesh_data(vertices, faces), {material_or_none(material, "material")}));
+}
+
+void bind_background(nb::module_& module) {
+    nb::class_<Background>(module, "Background", "Radiance that arrives from infinitely far away, linear.")
+        .def_static(
+            "black", [] { return Background::black(); }, "None.")
+        .def_static(
+            "constant", [](TripleArgument value) { return Background::constant(color(value.object, "color")); },
+            given("color"), "The same from everywhere.")
+        .def_static(
+            "gradient",
+            [](TripleArgument bottom, TripleArgument top) {
+                return Background::gradient(color(bottom.object, "bottom"), color(top.object, "top"));
+            },
+            given("bottom"), given("top"), "From straight below to straight above, linear in y.");
+}
+
+void bind_description(nb::module_& module) {
+    nb::class_<Scene>(module, "Scene", "Objects and a background. Compile it to trace rays or to render.")
+        .def(nb::init<>())
+        .def_rw("background", &Scene::background)
+        .def_rw("name", &Scene::name)
+        .def("__len__", [](const Scene& scene) { return scene.objects().size(); })
+        .def_prop_ro(
+            "bounds", [](const Scene& scene) { return corners(scene.bounds()); },
+            nb::sig("def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
+            "The lowest and the highest corner of a box around all objects.")
+        .def(
+            "add", [](Scene& scene, ShapeArgument object) { return scene.add(shape_of(object.object, "object")); },
+            given("object"), "Adds a shape. Returns its number, counted from 0, which is geometry_ids of hits.")
+        .def("add_triangles", &add_triangles, given("vertices"), given("faces"), given("material") = nb::none(),
+             R"(Adds a mesh of copied arrays.
+
+Args:
+    vertices: shape (n, 3), float32, in world units, finite.
+    faces: shape (m, 3), uint32 or other whole numbers: rows of vertices, counter-clockwise seen from outside.
+    material: for render; queries need none.
+
+Returns:
+    The mesh's number, counted from 0, which is geometry_ids of hits.)")
+        .def(
+            "compile",
+            [](const Scene& scene) {
+                const Scene copy = scene;  // another thread may add to the scene meanwhile
+                const nb::gil_scoped_release release;
+                return compile(copy);
+            },
+            "Builds what queries and render need, on all threads. Later changes of the scene are not in it.");
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& module) {
+    bind_background(module);
+    nb::class_<CompiledScene> compiled(module, "CompiledScene",
+                                       "A scene ready to be traced. Immutable; any number of threads may ask it.");
+    compiled
+        .def_prop_ro(
+            "primitives", [](const CompiledScene& scene) { return scene.stats().primitives; },
+            "How many there are, instanced ones counted once an instance.")
+        .def_prop_ro(
+            "memory_bytes", [](const CompiledScene& scene) { return scene.stats().memory_bytes; },
+            "Of its tables, and of arrays that it shares with the description.")
+        .def_prop_ro(
+            "name", [](const CompiledScene& scene) { return scene.name(); }, "Scene.name.")
+        .def("open_edges", &CompiledScene::open_edges, nb::call_guard<nb::gil_scoped_release>(),
+             "How many edges are used more often one way than the other; 0: all surfaces are closed.");
+    bind_ray_queries(compiled);
+    bind_point_queries(compiled);
+    bind_description(module);
+}
+
+}  // namespace limn::python

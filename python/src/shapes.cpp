@@ -1,0 +1,142 @@
+// What rays can hit.
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "limn/material/material.h"
+#include "limn/shape/constant_medium.h"
+#include "limn/shape/disk.h"
+#include "limn/shape/hittable_list.h"
+#include "limn/shape/instance.h"
+#include "limn/shape/quad.h"
+#include "limn/shape/sphere.h"
+#include "limn/shape/triangle.h"
+#include "limn/texture/texture.h"
+#include "shapes.h"
+
+namespace limn::python {
+
+std::shared_ptr<const Material> material_or_none(MaterialArgument argument, const char* name) {
+    if (argument.object.is_none()) return nullptr;
+    return shared<Material>(argument.object, name, "a Material or None");
+}
+
+std::shared_ptr<const Hittable> shape_of(nb::handle object, const char* name) {
+    return shared<Hittable>(object, name, "a shape");
+}
+
+nb::tuple corners(const Box& box) {
+    return nb::make_tuple(nb::make_tuple(box.lower.x, box.lower.y, box.lower.z),
+                          nb::make_tuple(box.upper.x, box.upper.y, box.upper.z));
+}
+
+namespace {
+
+void bind_flat_shapes(nb::module_& module) {
+    nb::class_<Triangle, Hittable>(module, "Triangle", "A flat triangle in double.")
+        .def(
+            "__init__",
+            [](Triangle* self, TripleArgument a, TripleArgument b, TripleArgument c, MaterialArgument material) {
+                new (self)
+                    Triangle(point(a, "a"), point(b, "b"), point(c, "c"), material_or_none(material, "material"));
+            },
+            given("a"), given("b"), given("c"), given("material") = nb::none(),
+            "The outward normal is (b - a) x (c - a).");
+    nb::class_<Quad, Hittable>(module, "Quad", "A parallelogram.")
+        .def(
+            "__init__",
+            [](Quad* self, TripleArgument corner, TripleArgument u, TripleArgument v, MaterialArgument material) {
+                new (self) Quad(point(corner, "corner"), vector(u, "edge_u"), vector(v, "edge_v"),
+                                material_or_none(material, "material"));
+            },
+            given("corner"), given("edge_u"), given("edge_v"), given("material") = nb::none(),
+            "corner + u edge_u + v edge_v, u and v in [0, 1]. The outward normal is edge_u x edge_v.");
+    nb::class_<Disk, Hittable>(module, "Disk", "A disk, the rim included.")
+        .def(
+            "__init__",
+            [](Disk* self, TripleArgument center, TripleArgument normal, NumberArgument radius,
+               MaterialArgument material) {
+                new (self) Disk(point(center, "center"), vector(normal, "normal"), number(radius, "radius"),
+                                material_or_none(material, "material"));
+            },
+            given("center"), given("normal"), given("radius"), given("material") = nb::none(),
+            "normal: outward, of any length. radius: in world units, over 0.");
+}
+
+void bind_groups(nb::module_& module) {
+    nb::class_<HittableList, Hittable>(module, "HittableList", "Objects in a row, as one.")
+        .def(
+            "__init__",
+            [](HittableList* self, nb::typed<nb::sequence, Hittable> objects) {
+                std::vector<std::shared_ptr<const Hittable>> shapes;
+                for (const nb::handle object : objects) shapes.push_back(shape_of(object, "objects"));
+                new (self) HittableList(std::move(shapes));
+            },
+            given("objects"));
+    module.def(
+        "make_box",
+        [](TripleArgument corner, TripleArgument opposite, MaterialArgument material) {
+            return make_box(point(corner, "corner"), point(opposite, "opposite"),
+                            material_or_none(material, "material"));
+        },
+        given("corner"), given("opposite"), given("material") = nb::none(),
+        "The six quads of an axis-aligned box, normals outward.");
+    nb::class_<Instance, Hittable>(module, "Instance", "An object placed, turned, scaled, or moving.")
+        .def(
+            "__init__",
+            [](Instance* self, ShapeArgument object, MatrixArgument at_time0, MatrixArgument at_time1) {
+                const std::shared_ptr<const Hittable> shape = shape_of(object.object, "object");
+                const Transform first = matrix(at_time0, "world_from_object");
+                if (at_time1.object.is_none())
+                    new (self) Instance(shape, first);
+                else
+                    new (self) Instance(shape, first, matrix(at_time1, "at_time1"));
+            },
+            given("object"), given("world_from_object"), given("at_time1") = nb::none(),
+            "world_from_object: shape (3, 4) or (4, 4), rows, not singular. at_time1: the matrix at the end of the "
+            "shutter, "
+            "if the object moves.");
+    nb::class_<ConstantMedium, Hittable>(module, "ConstantMedium", "Fog, smoke, milk inside of a closed boundary.")
+        .def(
+            "__init__",
+            [](ConstantMedium* self, ShapeArgument boundary, NumberArgument density, ColorArgument albedo) {
+                const std::shared_ptr<const Hittable> shape = shape_of(boundary.object, "boundary");
+                std::shared_ptr<Texture> texture;
+                const double extinction = number(density, "density");
+                if (!albedo.object.is_none() && nb::try_cast(albedo.object, texture))
+                    new (self) ConstantMedium(shape, extinction, std::shared_ptr<const Texture>(std::move(texture)));
+                else
+                    new (self) ConstantMedium(shape, extinction, color(albedo.object, "albedo"));
+            },
+            given("boundary"), given("density"), given("albedo"),
+            "density: extinction per world unit of length. albedo: the share that scatters, in [0, 1], or a texture.");
+}
+
+}  // namespace
+
+void bind_shapes(nb::module_& module) {
+    nb::class_<Hittable>(module, "Hittable", "What a ray can hit.")
+        .def_prop_ro(
+            "bounds", [](const Hittable& shape) { return corners(shape.bounds()); },
+            nb::sig("def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
+            "The lowest and the highest corner of a box around it, over the whole shutter.");
+    nb::class_<Sphere, Hittable>(module, "Sphere", "A sphere, still or moving.")
+        .def(
+            "__init__",
+            [](Sphere* self, TripleArgument center, NumberArgument radius, MaterialArgument material,
+               TripleArgument center1) {
+                const Point3 first = point(center, "center");
+                const Point3 last = center1.object.is_none() ? first : point(center1, "center1");
+                new (self) Sphere(first, last, number(radius, "radius"), material_or_none(material, "material"));
+            },
+            given("center"), given("radius"), given("material") = nb::none(), nb::kw_only(),
+            given("center1") = nb::none(),
+            "radius: in world units, not 0; a negative one turns the normal inward. center1: the centre at the end of "
+            "the "
+            "shutter, if the sphere moves.");
+    bind_flat_shapes(module);
+    bind_groups(module);
+}
+
+}  // namespace limn::python

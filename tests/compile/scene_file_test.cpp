@@ -1,0 +1,210 @@
+// Compiled scenes in files: what is written is read again; whatever is damaged, or of another version, is refused.
+#include <cstring>
+
+#include "catch.h"
+#include "flat/tables.h"
+#include "limn/core/error.h"
+#include "limn/material/dielectric.h"
+#include "limn/material/metal.h"
+#include "limn/material/oren_nayar.h"
+#include "limn/material/plastic.h"
+#include "limn/material/rough_conductor.h"
+#include "limn/material/rough_dielectric.h"
+#include "limn/query/compiled_scene.h"
+#include "limn/shape/disk.h"
+#include "limn/texture/checker.h"
+#include "limn/texture/image_texture.h"
+#include "limn/texture/perlin.h"
+#include "support/folder.h"
+#include "support/pictures.h"
+
+using namespace limn;
+using namespace limn::test;
+
+namespace {
+
+// Every kind of table has a row.
+CompiledScene scene_of_everything() {
+    const auto picture = std::make_shared<ImageTexture>(std::make_shared<Image>(2, 3, Color{0.25, 0.5, 1}));
+    const auto checker = std::make_shared<Checker>(1, Color{}, Color{1, 1, 1});
+    const auto marble = std::make_shared<Lambertian>(std::make_shared<Marble>(2, 7));
+    const auto metal = std::make_shared<Metal>(checker, 0.25);
+    const auto glass = std::make_shared<Dielectric>(1.5);
+    MeshData data = cube_mesh();
+    data.material_slots.assign(data.triangles.size(), 0);
+    data.material_slots[3] = 1;
+    const auto mesh = std::make_shared<Mesh>(data, std::vector<MaterialPtr>{marble, lamp(3)});
+    data.uvs.assign(data.vertices.size(), Float2{0.5f, 0.25f});
+    const auto textured = std::make_shared<Mesh>(data, std::vector<MaterialPtr>{grey(0.5), metal});
+    return compile_with(
+        Background::gradient({0, 0, 0.5}, {1, 1, 1}),
+        {mesh, textured, std::make_shared<Instance>(textured, Transform::translate({3, 0, 0})),
+         std::make_shared<Instance>(mesh, Transform::translate({0, 3, 0}), Transform::translate({0, 4, 0})),
+         std::make_shared<ConstantMedium>(sphere({5, 5, 5}, 1, nullptr), 1, Color{1, 1, 1}),
+         sphere({0, 0, -3}, 1, std::make_shared<OrenNayar>(picture, 0.5)), quad({9, 0, 0}, {1, 0, 0}, {0, 1, 0}, metal),
+         std::make_shared<Sphere>(Point3{0, 0, 6}, Point3{0, 1, 6}, 0.5, glass),
+         std::make_shared<Disk>(Point3{0, 9, 0}, Vec3{0, -1, 0}, 1, lamp(2)),
+         sphere({0, -3, 0}, 1, std::make_shared<RoughConductor>(Color{0.9, 0.5, 0.2}, Roughness{0.25, 0.5})),
+         sphere({3, -3, 0}, 1, std::make_shared<RoughDielectric>(1.5, 0.25)),
+         sphere({6, -3, 0}, 1, std::make_shared<Plastic>(Color{0.5, 0.25, 0.5}, 0.25)),
+         std::make_shared<Triangle>(Point3{7, 0, 0}, Point3{8, 0, 0}, Point3{7, 1, 0}, grey(0.25))});
+}
+
+template <class Table>
+std::string bytes_of(const Table& table) {
+    return std::string(reinterpret_cast<const char*>(table.data()), table.size() * sizeof(table[0]));
+}
+
+void check_same(const CompiledScene& a, const CompiledScene& b) {
+    std::vector<std::string> tables[2];
+    for (const bool second : {false, true})
+        flat::each_table((second ? b : a).flat(), [&](const auto& t) { tables[second].push_back(bytes_of(t)); });
+    CHECK((tables[0] == tables[1]));
+    CHECK(a.digest() == b.digest());
+    CHECK(a.name() == b.name());
+    CHECK(a.features() == b.features());
+    CHECK(a.stats().stored_primitives == b.stats().stored_primitives);
+    CHECK(a.stats().memory_bytes == b.stats().memory_bytes);
+}
+
+std::string fault_of(const std::string& path) {
+    try {
+        CompiledScene::load(path);
+        return "none";
+    } catch (const FileError& error) {
+        const std::string message = error.what();
+        REQUIRE(message.find(path + ": ") == 0);
+        return message.substr(path.size() + 2);
+    }
+}
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("Scene files: a scene that was read is the one that was written, and gives the same picture",
+          "[compile][scene-file]") {
+    const Folder folder;
+    const std::string path = folder.path("a.scene");
+    const CompiledScene scene = scene_of_everything();
+    scene.save(path);
+    const CompiledScene again = CompiledScene::load(path);
+    check_same(scene, again);
+    const Camera camera = camera_at({12, 8, 15}, {3, 2, 0}, 40);
+    CHECK(render(scene, camera, square(32, 8, 8)).image == render(again, camera, square(32, 8, 8)).image);
+    again.save(folder.path("b.scene"));
+    CHECK(content(folder.path("b.scene")) == content(path));
+}
+
+TEST_CASE("Scene files: lights that are no shapes, and the environment", "[compile][scene-file]") {
+    const Folder folder;
+    Scene described;
+    auto map = std::make_shared<Image>(4, 2, Color{0.25, 0.5, 1});
+    map->set(1, 0, {50, 40, 30});
+    described.environment = std::make_shared<EnvironmentMap>(map);
+    described.add(PointLight{.position = {0, 5, 0}, .intensity = {10, 10, 10}});
+    described.add(floor_of(grey(0.5)));
+    Model model;
+    MeshData data = cube_mesh();
+    data.material_slots.assign(data.triangles.size(), 1);
+    model.meshes = {std::make_shared<Mesh>(data, std::vector<MaterialPtr>{grey(0.5), grey(0.25)})};
+    model.instances = {{.mesh = 0}, {.mesh = 0, .world_from_mesh = Transform::translate({3, 0, 0})}};
+    model.materials = {"clay"};
+    described.add(model);
+    const CompiledScene scene = compile(described);
+    scene.save(folder.path("a.scene"));
+    const CompiledScene again = CompiledScene::load(folder.path("a.scene"));
+    check_same(scene, again);
+    const auto hit = again.closest_hit({{0.5, 0.5, 9}, {0, 0, -1}});
+    REQUIRE(hit);
+    CHECK(again.material_name(*hit) == "clay");
+    const Camera camera = camera_at({0, 8, 15}, {0, 0, 0}, 40);
+    CHECK(render(scene, camera, square(16, 8, 4)).image == render(again, camera, square(16, 8, 4)).image);
+}
+
+TEST_CASE("Scene files: random scenes answer as before, and can be moved", "[compile][scene-file]") {
+    const Folder folder;
+    int judged = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        std::vector<Object> objects{random_instance(random, random_shape(random, seed % 5))};
+        for (std::size_t i = 0; i < seed % 10; ++i) objects.push_back(random_object(random, 2));
+        ZooScene zoo = zoo_of("zoo", objects);
+        CompiledScene scene = compile(zoo.scene);
+        if (scene.features().find("foreign") != std::string::npos) continue;
+        ++judged;
+        scene.save(folder.path("zoo.scene"));
+        CompiledScene again = CompiledScene::load(folder.path("zoo.scene"));
+        check_same(scene, again);
+        const std::vector<MovedObject> moved{{0, random_pose(random)}};
+        scene = recompile(std::move(scene), moved), again = recompile(std::move(again), moved);
+        check_same(scene, again);
+        for (int i = 0; i < 100; ++i) {
+            const Ray ray = random_ray(random, zoo.targets);
+            const auto a = scene.closest_hit(ray), b = again.closest_hit(ray);
+            REQUIRE(a.has_value() == b.has_value());
+            if (a) CHECK((a->t == b->t && a->primitive == b->primitive));
+        }
+    }
+    CHECK(judged > 5);
+}
+
+TEST_CASE("Scene files: damaged at any byte, or cut short anywhere, they are refused", "[compile][scene-file]") {
+    const Folder folder;
+    const std::string path = folder.path("a.scene");
+    scene_of_everything().save(path);
+    const std::string bytes = content(path);
+    Random random(1);
+    // In place, which is sooner done than writing it anew.
+    const auto put = [&](std::size_t place, char byte) {
+        std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
+            .seekp(static_cast<std::streamoff>(place))
+            .put(byte);
+    };
+    for (std::size_t place = 0; place < bytes.size(); ++place) {
+        put(place, static_cast<char>(bytes[place] ^ 1 << random.index(8)));
+        const std::string fault = fault_of(path);
+        put(place, bytes[place]);
+        CAPTURE(place);
+        if (place < 8)
+            REQUIRE(fault == "is not a compiled scene");
+        else if (place < 12)
+            REQUIRE(fault.find("is a compiled scene of format ") == 0);
+        else if (place < 16)
+            REQUIRE(fault == "is a compiled scene of another version of limn");
+        else
+            REQUIRE((fault.find("is damaged: ") == 0 || fault == "is cut short"));
+    }
+    for (std::size_t length = 0; length < bytes.size(); length += 1 + random.index(200)) {
+        CAPTURE(length);
+        REQUIRE(fault_of(folder.write("cut.scene", bytes.substr(0, length))) ==
+                (length == 0 ? "is not a compiled scene" : "is cut short"));
+    }
+    CHECK(fault_of(folder.write("long.scene", bytes + "x")) == "is damaged: its end");
+    CHECK_THROWS_AS(CompiledScene::load(folder.path("none")), FileError);
+    CHECK_THROWS_AS(CompiledScene::load(folder.path()), FileError);
+}
+
+TEST_CASE("Scene files: user-defined objects are refused by their kind, and nothing is written",
+          "[compile][scene-file]") {
+    struct OwnTexture final : Texture {
+        Color value(const Surface&) const override { return {}; }
+    };
+    struct OwnMaterial final : Material {
+        std::optional<ScatterSample> sample(const Surface&, const Vec3&, const Random3&) const override { return {}; }
+        ScatterValue value(const Surface&, const Vec3&, const Vec3&) const override { return {}; }
+    };
+    const Folder folder;
+    const auto refused = [&](const Object& object, const std::string& what) {
+        CHECK_THROWS_WITH(compile_with(sky(1), {object}).save(folder.path("own.scene")),
+                          "CompiledScene::save: the scene has user-defined " + what);
+        CHECK_FALSE(std::filesystem::exists(folder.path("own.scene")));
+    };
+    refused(std::make_shared<Stranger>(ball({0, 0, 0}, 1)), "shapes");
+    refused(sphere({0, 0, 0}, 1, std::make_shared<OwnMaterial>()), "materials");
+    refused(sphere({0, 0, 0}, 1, std::make_shared<Lambertian>(std::make_shared<OwnTexture>())), "textures");
+    CHECK_THROWS_AS(scene_of_everything().save(folder.path("none/a.scene")), FileError);
+}
