@@ -16,7 +16,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
-  gallery      the figures in the README, with their seconds and errors
+  gallery      the pictures and figures of docs/gallery.md, with their seconds and errors
   convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md
   promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
   accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
@@ -169,7 +169,8 @@ case $command in
         /usr/bin/python3 apps/bench/promise.py
         ;;
     gallery)
-        install_missing python3 git
+        build
+        install_missing git
         /usr/bin/python3 apps/bench/gallery.py
         ;;
     release)

@@ -1,9 +1,12 @@
 #include "bench/describe_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "limn/core/error.h"
+#include "limn/material/rough_conductor.h"
 #include "limn/record_sink.h"
 
 namespace limn::bench {
@@ -17,6 +20,27 @@ using app::Json;
 Json triple(const Point3& p) { return {p.x, p.y, p.z}; }
 Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json triple(const Color& c) { return {c.r, c.g, c.b}; }
+
+// Row by row from the top, linear.
+Json picture(const Image& image, double scale = 1) {
+    std::vector<double> values;
+    for (const float v : image.values()) values.push_back(scale * static_cast<double>(v));
+    return {{"width", image.width()}, {"height", image.height()}, {"values", values}};
+}
+
+// The index of refraction whose reflectance and edge tint a RoughConductor keeps: see there.
+ComplexIndex index_of(const Color& reflectance, const std::array<double, MaterialDetails::kNumbers>& tint) {
+    ComplexIndex index;
+    const auto component = [](double r, double g, double& eta, double& k) {
+        const double root = std::sqrt(r);
+        eta = g * (1 - r) / (1 + r) + (1 - g) * (1 + root) / (1 - root);
+        k = std::sqrt(std::max(0.0, (r * (eta + 1) * (eta + 1) - (eta - 1) * (eta - 1)) / (1 - r)));
+    };
+    component(reflectance.r, tint[0], index.eta.r, index.k.r);
+    component(reflectance.g, tint[1], index.eta.g, index.k.g);
+    component(reflectance.b, tint[2], index.eta.b, index.k.b);
+    return index;
+}
 
 class Description {
 public:
@@ -67,11 +91,19 @@ private:
     }
 
     Json mesh(const MeshRecord& m, const Transform& place) const {
-        if (!m.arrays.normals.empty() || !m.arrays.material_slots.empty()) refuse("smooth or many-coloured meshes");
-        Json vertices = Json::array(), triangles = Json::array();
+        if (!m.arrays.material_slots.empty()) refuse("many-coloured meshes");
+        Json vertices = Json::array(), triangles = Json::array(), normals = Json::array(), uvs = Json::array();
+        const Transform object_from_world = limn::inverse(place);
+        for (const Float3& n : m.arrays.normals)
+            normals.push_back(triple(normalize(Vec3(transform_normal(object_from_world, {n.x, n.y, n.z})))));
+        for (const Float2& uv : m.arrays.uvs) uvs.push_back({uv.u, uv.v});
         for (const Float3& v : m.arrays.vertices) vertices.push_back(triple(transform_point(place, {v.x, v.y, v.z})));
         for (const Index3& t : m.arrays.triangles) triangles.push_back({t.a, t.b, t.c});
-        return {{"vertices", vertices}, {"triangles", triangles}, {"material", material(m.materials.at(0))}};
+        return {{"vertices", vertices},
+                {"triangles", triangles},
+                {"normals", normals},
+                {"uvs", uvs},
+                {"material", material(m.materials.at(0))}};
     }
 
     Json medium(const MediumRecord& m, const Transform& place) const {
@@ -82,8 +114,22 @@ private:
 
     Json material(MaterialId id) const {
         const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
+        Json told = lobe(m);
+        if (!m.details) return told;
+        if (m.details->normal_map != TextureId::none) told["normal_map"] = texture(m.details->normal_map);
+        if (m.details->opacity != TextureId::none) {
+            if (m.details->opacity_cutoff != 0) refuse("a cutoff of opacities");
+            told["opacity"] = texture(m.details->opacity);
+        }
+        return told;
+    }
+
+    Json lobe(const MaterialRecord& m) const {
         if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
-        if (m.kind == "diffuse-light") return {{"kind", "light"}, {"color", texture(m.emission)}};
+        if (m.kind == "diffuse-light") {
+            if (m.sides != Sides::both) refuse("one-sided lamps");
+            return {{"kind", "light"}, {"color", texture(m.emission)}};
+        }
         if (m.kind == "metal") {
             if (m.parameter != 0) refuse("metal that is not a mirror");
             return {{"kind", "mirror"}, {"color", texture(m.texture)}};
@@ -92,19 +138,49 @@ private:
             if (m.fresnel != Fresnel::exact) refuse("Schlick's approximation");
             return {{"kind", "glass"}, {"index", m.parameter}};
         }
-        refuse("materials of other classes");
+        if (m.kind != "rough-conductor" && m.kind != "rough-dielectric") refuse("materials of other classes");
+        const auto& numbers = m.details->numbers;
+        if (numbers[3] != numbers[4] || numbers[3] == 0) refuse("brushed or smooth microfacets");
+        if (m.kind == "rough-dielectric")
+            return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", numbers[3]}};
+        const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
+        if (reflectance.kind != TextureKind::solid) refuse("metals that are not of one colour");
+        const ComplexIndex index = index_of(reflectance.color, numbers);
+        return {{"kind", "rough-conductor"}, {"eta", triple(index.eta)}, {"k", triple(index.k)}, {"alpha", numbers[3]}};
     }
 
-    // A colour, or the two of a checker.
+    // A colour, the two of a checker, or a picture.
     Json texture(TextureId id) const {
         const TextureRecord& t = records_.textures.at(static_cast<std::size_t>(id));
         if (t.kind == TextureKind::solid) return triple(t.color);
-        if (t.kind != TextureKind::checker) refuse("noise and pictures");
+        if (t.kind == TextureKind::image) {
+            if (t.filter != Filter::bilinear || t.wrap != Wrap::repeat) refuse("other filters and wraps");
+            return {{"picture", picture(*records_.images.at(t.data))}};
+        }
+        if (t.kind != TextureKind::checker) refuse("noise");
         return {{"cell", t.scale}, {"even", texture(t.even)}, {"odd", texture(t.odd)}};
     }
 
     const SceneRecords& records_;
 };
+
+Json describe_suns(const Scene& scene) {
+    Json suns = Json::array();
+    for (const LightSource& light : scene.lights()) {
+        const auto* sun = std::get_if<SunLight>(&light);
+        if (!sun) refuse("lights that are no shapes, but for suns");
+        suns.push_back({{"direction", triple(sun->direction)},
+                        {"irradiance", triple(sun->irradiance)},
+                        {"angular_radius", sun->angular_radius}});
+    }
+    return suns;
+}
+
+Json describe_environment(const Scene& scene) {
+    if (!scene.environment) return {};
+    if (!(scene.environment->world_from_map() == Transform{})) refuse("turned environment maps");
+    return picture(*scene.environment->image(), scene.environment->scale());
+}
 
 Json describe_camera(const Camera& c) {
     const double focus = c.focus_distance.value_or(length(c.look_at - c.look_from));
@@ -127,6 +203,8 @@ Json describe_scene(const Figure& figure) {
                  {"camera", describe_camera(figure.camera)},
                  {"background",
                   {{"bottom", triple(figure.scene.background.bottom)}, {"top", triple(figure.scene.background.top)}}}};
+    json["suns"] = describe_suns(figure.scene);
+    json["environment"] = describe_environment(figure.scene);
     json.update(Description(sink.records()).group(GroupId::root, Transform{}));
     return json;
 }

@@ -78,7 +78,7 @@ Image mean_of(const Image& a, const Image& b) {
 
 const std::vector<std::string>& subject_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all = transport_scene_names();
+        std::vector<std::string> all = promised_scene_names();
         for (const Entry& e : kOthers) all.push_back(e.name);
         return all;
     }();

@@ -20,7 +20,7 @@ struct Subject {
     Image a{}, b{};     ///< the reference
 };
 
-/// The ten scenes of the convergence report, and "bouncing", "glass" and "fireflies".
+/// The first ten scenes of the convergence report, and "bouncing", "glass" and "fireflies".
 const std::vector<std::string>& subject_names();
 /// Without reference. \throws ArgumentError for another name
 Subject subject_of(const std::string& name);

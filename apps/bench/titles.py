@@ -11,4 +11,7 @@ SCENES = {
     "mesh": "a mesh of 69312 triangles in the Cornell box",
     "glass-mesh": "the same mesh of glass",
     "many-lights": "200 small lights in the Cornell box",
+    "rough-copper": "rough copper under a sky with its sun in the map",
+    "rough-glass": "ground glass in the Cornell box",
+    "window": "sun and sky through a window",
 }

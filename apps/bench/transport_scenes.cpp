@@ -4,9 +4,10 @@
 #include <functional>
 #include <numbers>
 
+#include "bench/material_scenes.h"
 #include "bench/random.h"
-#include "bench/scenes.h"
 #include "figures.h"
+#include "gallery.h"
 #include "limn/core/warp.h"
 #include "scene_parts.h"
 
@@ -15,8 +16,6 @@ namespace limn::bench {
 namespace {
 
 using figures::matte;
-
-constexpr double kShareOfTwoMillion = 0.035;  // 69312 triangles
 
 std::shared_ptr<const Material> glass() { return std::make_shared<Dielectric>(1.5, Fresnel::exact); }
 
@@ -49,15 +48,10 @@ Figure still_spheres() {
     return figure;
 }
 
-// The hilly ball of `limn bench`, hung into the empty box.
-Figure mesh_in_room(std::shared_ptr<const Material> material) {
-    MeshData data = make_scene("sphere", kShareOfTwoMillion).mesh->data();
-    const auto place = [](float coordinate, double center) {
-        return static_cast<float>(center + 150 * static_cast<double>(coordinate));
-    };
-    for (Float3& v : data.vertices) v = {place(v.x, 278), place(v.y, 200), place(v.z, 278)};
+// Hung into the empty box.
+Figure ball_in_room(std::shared_ptr<const Material> material) {
     Figure figure = cornell_empty();
-    figure.scene.add(std::make_shared<Mesh>(std::move(data), std::move(material)));
+    figure.scene.add(hilly_ball({278, 200, 278}, 150, std::move(material)));
     return figure;
 }
 
@@ -81,6 +75,8 @@ Figure many_lights() {
     return figure;
 }
 
+constexpr std::ptrdiff_t kPromised = 10;  // of the entries, the first
+
 struct Entry {
     std::string name;
     std::function<Figure()> make;
@@ -97,10 +93,13 @@ const std::vector<Entry>& entries() {
         {"smoke", [] { return figures::fig16_volume_cornell_box(); }},
         {"mesh",
          [] {
-             return mesh_in_room(matte({.73, .73, .73}));
+             return ball_in_room(matte({.73, .73, .73}));
          }},
-        {"glass-mesh", [] { return mesh_in_room(glass()); }},
+        {"glass-mesh", [] { return ball_in_room(glass()); }},
         {"many-lights", many_lights},
+        {"rough-copper", rough_copper},
+        {"rough-glass", rough_glass},
+        {"window", gallery::sunlit_room},
     };
     return all;
 }
@@ -113,6 +112,12 @@ const std::vector<std::string>& transport_scene_names() {
         for (const Entry& entry : entries()) all.push_back(entry.name);
         return all;
     }();
+    return names;
+}
+
+const std::vector<std::string>& promised_scene_names() {
+    static const std::vector<std::string> names(transport_scene_names().begin(),
+                                                transport_scene_names().begin() + kPromised);
     return names;
 }
 

@@ -7,6 +7,7 @@
 #include "bench/transport_scenes.h"
 #include "catch.h"
 #include "figures.h"
+#include "gallery.h"
 #include "limn/core/error.h"
 #include "limn/query/compiled_scene.h"
 
@@ -88,6 +89,19 @@ TEST_CASE("Transport: materials, media, sky and lens are told as they are", "[be
     CHECK(smoke["media"][1]["density"] == .01);
     CHECK(told("still-spheres")["spheres"][0]["material"]["color"] ==
           Json{{"cell", .32}, {"even", {.2, .3, .1}}, {"odd", {.9, .9, .9}}});
+    const Json copper = told("rough-copper");
+    CHECK(copper["meshes"][0]["material"]["kind"] == "rough-conductor");
+    CHECK(copper["meshes"][0]["material"]["alpha"].get<double>() == Approx(.04));
+    CHECK(copper["meshes"][0]["material"]["eta"][0].get<double>() == Approx(.21));
+    CHECK(copper["meshes"][0]["material"]["k"][0].get<double>() == Approx(3.67));
+    const std::size_t pixels =
+        copper["environment"]["width"].get<std::size_t>() * copper["environment"]["height"].get<std::size_t>();
+    CHECK(copper["environment"]["values"].size() == 3 * pixels);
+    CHECK(told("rough-glass")["spheres"][0]["material"] ==
+          Json{{"kind", "rough-glass"}, {"index", 1.5}, {"alpha", .25}});
+    const Json room = told("window");
+    CHECK(room["suns"][0]["angular_radius"] == SunLight{}.angular_radius);
+    CHECK(room["meshes"][0]["normals"].size() == room["meshes"][0]["vertices"].size());
     CHECK(told("cornell")["quads"][5]["material"] == Json{{"kind", "light"}, {"color", {15., 15., 15.}}});
 }
 
@@ -96,6 +110,7 @@ TEST_CASE("Transport: what the peers have no word for is refused", "[bench][tran
              [] { return figures::fig01_bouncing_spheres(); },  // motion, Schlick's approximation
              [] { return figures::fig11_metal(); },             // fuzz
              [] { return figures::fig12_emissive(); },          // noise
+             [] { return gallery::copper_knot(); },             // plastic
              [] { return figures::fig09_checkered_triangle(); }})
         CHECK_THROWS_AS(bench::describe_scene(make()), Error);
     CHECK_THROWS_AS(bench::make_transport_scene("nowhere"), ArgumentError);

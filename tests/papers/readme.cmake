@@ -8,7 +8,7 @@ file(READ "${ROOT}/examples/rays.py" rays_py)
 set(parts "# limn\n" "\n!" "\n| exactness |" "\n| memory |" "\n| time to an error |" "\n```sh\n./build.sh figures "
     "\n## Three programs\n" "\n```cpp\n${minimal}```\n" "\n```cpp\n${rays}```\n"
     "\n```python\n${rays_py}```\n" "\n## Linking it\n" "\n## The command line\n"
-    "\n## The figures\n" "\n## Credits\n" "\n## Where things are\n" "\n## Limits\n")
+    "\n## Pictures\n" "\n## Credits\n" "\n## Where things are\n" "\n## Limits\n")
 set(past -1)
 foreach(part IN LISTS parts)
     string(FIND "${readme}" "${part}" at)

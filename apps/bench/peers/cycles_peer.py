@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from geometry import is_checker, lifted, quads_mesh, sphere_mesh
+from geometry import is_checker, is_picture, lifted, pixels, quads_mesh, sphere_mesh
 
 LIFT = 0.02  # of media, off the floor
 FEW_LIGHTS = 16  # up to here the light tree costs more than it gives
@@ -51,6 +51,21 @@ def rgba(color):
     return [float(c) for c in color] + [1.0]
 
 
+def image_of(values, color_space="Linear Rec.709"):
+    """Rows from the top, as a Blender image, whose rows begin at the bottom."""
+    height, width, _ = values.shape
+    made = bpy.data.images.new("picture", width, height, float_buffer=True)
+    made.colorspace_settings.name = color_space
+    made.pixels.foreach_set(np.concatenate([values[::-1], np.ones((height, width, 1), np.float32)], axis=2).ravel())
+    made.pack()
+    return made
+
+
+def picture_node(shader, color, color_space="Linear Rec.709"):
+    return shader.node("ShaderNodeTexImage", image=image_of(pixels(color["picture"]), color_space),
+                       interpolation="Linear", extension="REPEAT").outputs["Color"]
+
+
 def material_of(told, tinted=False):
     """A Blender material; `tinted`: the colour is an attribute of the points."""
     made = bpy.data.materials.new(told["kind"])
@@ -64,10 +79,24 @@ def material_of(told, tinted=False):
         # Its first colour is where the sum of the whole parts is odd.
         color = shader.node("ShaderNodeTexChecker", {"Vector": position, "Color1": rgba(c["odd"]),
                                                      "Color2": rgba(c["even"]), "Scale": 1 / c["cell"]}).outputs["Color"]
+    elif is_picture(told.get("color")):
+        color = picture_node(shader, told["color"])
     else:
         color = rgba(told.get("color", (1, 1, 1)))
+    bent = {}
+    if "normal_map" in told:
+        normals = picture_node(shader, told["normal_map"], "Non-Color")
+        bent = {"Normal": shader.node("ShaderNodeNormalMap", {"Color": normals}, space="TANGENT").outputs[0]}
     if told["kind"] == "lambertian":
-        surface = shader.node("ShaderNodeBsdfDiffuse", {"Color": color, "Roughness": 0.0}).outputs[0]
+        surface = shader.node("ShaderNodeBsdfDiffuse", {"Color": color, "Roughness": 0.0, **bent}).outputs[0]
+    elif told["kind"] == "rough-conductor":
+        surface = shader.node("ShaderNodeBsdfMetallic", {
+            "IOR": told["eta"], "Extinction": told["k"], "Roughness": math.sqrt(told["alpha"]), **bent,
+        }, fresnel_type="PHYSICAL_CONDUCTOR", distribution="GGX").outputs[0]
+    elif told["kind"] == "rough-glass":
+        surface = shader.node("ShaderNodeBsdfGlass", {
+            "Color": color, "Roughness": math.sqrt(told["alpha"]), "IOR": told["index"], **bent,
+        }, distribution="GGX").outputs[0]
     elif told["kind"] == "mirror":
         surface = shader.node("ShaderNodeBsdfAnisotropic", {"Color": color, "Roughness": 0.0}).outputs[0]
     elif told["kind"] == "glass":
@@ -75,6 +104,10 @@ def material_of(told, tinted=False):
     else:
         surface = shader.node("ShaderNodeEmission", {"Color": color, "Strength": 1.0}).outputs[0]
         made.cycles.emission_sampling = "FRONT_BACK"
+    if "opacity" in told:
+        stopped = picture_node(shader, told["opacity"], "Non-Color") if is_picture(told["opacity"]) else told["opacity"][0]
+        through = shader.node("ShaderNodeBsdfTransparent").outputs[0]
+        surface = shader.node("ShaderNodeMixShader", {0: stopped, 1: through, 2: surface}).outputs[0]
     shader.output("ShaderNodeOutputMaterial", "Surface", surface)
     return made
 
@@ -101,9 +134,11 @@ def add(data, material=None):
     return made
 
 
-def add_mesh(vertices, triangles, material, normals=None):
+def add_mesh(vertices, triangles, material, normals=None, uvs=None):
     data = bpy.data.meshes.new("mesh")
     data.from_pydata(vertices.tolist(), [], triangles.tolist())
+    if uvs is not None:
+        data.uv_layers.new(name="uv").data.foreach_set("uv", uvs[triangles.ravel()].ravel())
     if normals is not None:
         data.shade_smooth()
         data.normals_split_custom_set_from_vertices(normals.tolist())
@@ -148,11 +183,33 @@ def add_ball_of_light(sphere):
     made.visible_camera = True
 
 
-def add_sky(background):
+def add_sun(sun):
+    light = bpy.data.lights.new("sun", "SUN")
+    light.angle = math.radians(2 * sun["angular_radius"])
+    brightest = max(sun["irradiance"])
+    light.color, light.energy = np.array(sun["irradiance"]) / brightest, brightest
+    add(light).rotation_mode = "QUATERNION"
+    bpy.data.objects[light.name].rotation_quaternion = Vector(sun["direction"]).to_track_quat("-Z", "Y")
+
+
+def environment_color(shader, environment):
+    """Blender's maps are around +z, the middle +x turned to +y at the left; the scene's around +y, the middle -z."""
+    direction = shader.node("ShaderNodeTexCoord").outputs["Generated"]
+    parts = shader.node("ShaderNodeSeparateXYZ", {"Vector": direction}).outputs
+    turned = {name: shader.node("ShaderNodeMath", {0: parts[name], 1: -1.0}, operation="MULTIPLY").outputs[0]
+              for name in ("X", "Z")}
+    around = shader.node("ShaderNodeCombineXYZ", {"X": turned["Z"], "Y": turned["X"], "Z": parts["Y"]}).outputs[0]
+    return shader.node("ShaderNodeTexEnvironment", {"Vector": around}, image=image_of(environment),
+                       interpolation="Linear", projection="EQUIRECTANGULAR").outputs["Color"]
+
+
+def add_sky(background, environment):
     world = bpy.data.worlds.new("sky")
     bpy.context.scene.world = world
     shader = Shader(world)
-    if background["bottom"] == background["top"]:
+    if environment is not None:
+        color = environment_color(shader, environment)
+    elif background["bottom"] == background["top"]:
         color = rgba(background["top"])
     else:
         direction = shader.node("ShaderNodeTexCoord").outputs["Generated"]
@@ -163,7 +220,7 @@ def add_sky(background):
                                                  "Color2": rgba(background["top"])}).outputs[0]
     emission = shader.node("ShaderNodeBackground", {"Color": color, "Strength": 1.0}).outputs[0]
     shader.output("ShaderNodeOutputWorld", "Surface", emission)
-    world.cycles.sampling_method = "NONE"
+    world.cycles.sampling_method = "NONE" if environment is None else "AUTOMATIC"
 
 
 def add_camera(told):
@@ -217,7 +274,7 @@ class Peer:
 
     def open(self, scene):
         for blocks in (bpy.data.objects, bpy.data.meshes, bpy.data.lights, bpy.data.cameras, bpy.data.materials,
-                       bpy.data.worlds, bpy.data.node_groups):
+                       bpy.data.worlds, bpy.data.node_groups, bpy.data.images):
             for block in list(blocks):
                 blocks.remove(block)
         points = {}
@@ -225,7 +282,7 @@ class Peer:
             told = sphere["material"]
             if told["kind"] == "light":
                 add_ball_of_light(sphere)
-            elif told["kind"] == "glass":
+            elif told["kind"] in ("glass", "rough-glass"):
                 vertices, triangles, normals = sphere_mesh(sphere["center"], sphere["radius"],
                                                            rings=128 if len(scene.spheres) < 16 else 64)
                 add_mesh(vertices, triangles, material_of(told), normals)
@@ -240,10 +297,12 @@ class Peer:
         for quads in by_material.values():
             add_mesh(*quads_mesh(quads), material_of(quads[0]["material"]))
         for mesh in scene.meshes:
-            add_mesh(mesh["vertices"], mesh["triangles"], material_of(mesh["material"]))
+            add_mesh(mesh["vertices"], mesh["triangles"], material_of(mesh["material"]), mesh["normals"], mesh["uvs"])
         for medium in scene.media:
             add_mesh(*quads_mesh(lifted(medium["boundary"]["quads"], LIFT)), medium_material(medium))
-        add_sky(scene.background)
+        for sun in scene.suns:
+            add_sun(sun)
+        add_sky(scene.background, scene.environment)
         add_camera(scene.camera)
         set_integrator(scene, sum(s["material"]["kind"] == "light" for s in scene.spheres + scene.quads))
 

@@ -10,17 +10,21 @@ RARELY = 0.02  # how often, of once, the back of a lamp is sampled that has a wa
 
 
 class Scene:
-    """A description, with its numbers as arrays. Colours are three numbers, or {"cell", "even", "odd"}: a checker."""
+    """A description, with its numbers as arrays. Colours are three numbers, {"cell", "even", "odd"}: a checker, or
+    {"picture"}: rows from the top, bilinear and repeated, (0, 0) of texture coordinates in its lower left corner."""
 
     def __init__(self, path):
         told = json.loads(Path(path).read_text())
         self.name, self.max_depth = told["name"], told["max_depth"]
         self.camera, self.background = told["camera"], told["background"]
         self.spheres, self.quads, self.meshes = told["spheres"], told["quads"], told["meshes"]
-        self.media = told["media"]
+        self.media, self.suns = told["media"], told["suns"]
+        self.environment = pixels(told["environment"]) if told["environment"] else None
         for mesh in self.meshes:
             mesh["vertices"] = np.array(mesh["vertices"], dtype=np.float32)
             mesh["triangles"] = np.array(mesh["triangles"], dtype=np.uint32)
+            for name in ("normals", "uvs"):
+                mesh[name] = np.array(mesh[name], dtype=np.float32) if mesh[name] else None
 
     def has(self, kind):
         return any(shape["material"]["kind"] == kind for shape in self.spheres + self.quads + self.meshes)
@@ -32,8 +36,16 @@ class Scene:
         return not any(self.background["bottom"] + self.background["top"])
 
 
+def pixels(picture):
+    return np.array(picture["values"], dtype=np.float32).reshape(picture["height"], picture["width"], 3)
+
+
 def is_checker(color):
-    return isinstance(color, dict)
+    return isinstance(color, dict) and "cell" in color
+
+
+def is_picture(color):
+    return isinstance(color, dict) and "picture" in color
 
 
 def quad_corners(quad):

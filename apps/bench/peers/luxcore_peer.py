@@ -70,6 +70,8 @@ class Peer:
             "scene.camera.cliphither": 1e-3, "scene.camera.clipyon": 1e5})
 
     def set_sky(self, scene):
+        if scene.environment is not None or scene.suns:
+            raise ValueError("this report does not write maps and suns for LuxCore")
         if scene.is_dark():
             return
         if not scene.has_gradient():
@@ -104,6 +106,8 @@ class Peer:
         elif kind == "glass":
             self.told.update({f"{at}.type": "glass", f"{at}.kr": [1.0, 1.0, 1.0], f"{at}.kt": [1.0, 1.0, 1.0],
                               f"{at}.interiorior": float(told["index"]), f"{at}.exteriorior": 1.0})
+        elif kind != "light" or "normal_map" in told or "opacity" in told:
+            raise ValueError(f"this report does not write {kind} for LuxCore")
         else:
             self.told.update({f"{at}.type": "matte", f"{at}.kd": [0.0, 0.0, 0.0],
                               f"{at}.emission": self.texture(told["color"])})

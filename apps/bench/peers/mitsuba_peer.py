@@ -32,9 +32,11 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from geometry import RARELY, has_wall_behind, is_checker, lifted, quad_corners, quads_mesh, sky_image
+from geometry import (RARELY, has_wall_behind, is_checker, is_picture, lifted, pixels, quad_corners, quads_mesh,
+                      sky_image)
 
 LANES = 1 << 24  # paths at once: more take more memory, and are not faster
+FAR = 1e4  # suns, in units of the scene: discs that their angular radius makes large
 LIFT = 0.2  # of media: rays set out 0.05 beyond where they are at such coordinates, and miss what lies within
 
 
@@ -75,7 +77,9 @@ def define_checker():
     mi.register_texture("solid_checker", SolidChecker)
 
 
-def texture(color):
+def texture(color, raw=False):
+    if is_picture(color):
+        return {"type": "bitmap", "bitmap": mi.Bitmap(pixels(color["picture"])), "raw": raw}
     if not is_checker(color):
         return rgb(color)
     told = {"type": "solid_checker", "cell": color["cell"]}
@@ -85,13 +89,30 @@ def texture(color):
 
 
 def bsdf(material):
+    told = lobe(material)
+    if "normal_map" in material:
+        told = {"type": "normalmap", "normalmap": texture(material["normal_map"], raw=True), "nested": told}
+    if material["kind"] == "lambertian":
+        told = {"type": "twosided", "nested": told}
+    if "opacity" in material:
+        told = {"type": "mask", "opacity": texture(material["opacity"], raw=True), "nested": told}
+    return told
+
+
+def lobe(material):
     kind = material["kind"]
     if kind == "lambertian":
-        return {"type": "twosided", "inner": {"type": "diffuse", "reflectance": texture(material["color"])}}
+        return {"type": "diffuse", "reflectance": texture(material["color"])}
     if kind == "mirror":
         return {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])}
     if kind == "glass":
         return {"type": "dielectric", "int_ior": float(material["index"]), "ext_ior": 1.0}
+    if kind == "rough-conductor":
+        return {"type": "roughconductor", "distribution": "ggx", "alpha": float(material["alpha"]),
+                "eta": rgb(material["eta"]), "k": rgb(material["k"])}
+    if kind == "rough-glass":
+        return {"type": "roughdielectric", "distribution": "ggx", "alpha": float(material["alpha"]),
+                "int_ior": float(material["index"]), "ext_ior": 1.0}
     return {"type": "diffuse", "reflectance": rgb([0, 0, 0])}  # lamps
 
 
@@ -110,16 +131,31 @@ def rectangle(quad, turned=False, lift=0.0):
     return {"type": "rectangle", "to_world": mi.ScalarTransform4f(matrix)}
 
 
-def mesh(vertices, triangles, properties):
+def mesh(vertices, triangles, properties, normals=None, uvs=None):
     props = mi.Properties()
     for name, value in properties.items():
         props[name] = value
-    made = mi.Mesh("mesh", len(vertices), len(triangles), props=props, has_vertex_normals=False)
+    made = mi.Mesh("mesh", len(vertices), len(triangles), props=props, has_vertex_normals=normals is not None,
+                   has_vertex_texcoords=uvs is not None)
     parameters = mi.traverse(made)
     parameters["vertex_positions"] = vertices.ravel()
     parameters["faces"] = triangles.ravel()
+    if normals is not None:
+        parameters["vertex_normals"] = normals.ravel()
+    if uvs is not None:
+        parameters["vertex_texcoords"] = (uvs * [1, -1] + [0, 1]).ravel()  # its rows begin at the top
     parameters.update()
     return made
+
+
+def sun_disc(sun):
+    to_sun = -np.array(sun["direction"]) / np.linalg.norm(sun["direction"])
+    radius = np.radians(sun["angular_radius"])
+    up = [0, 1, 0] if abs(to_sun[1]) < 0.9 else [1, 0, 0]
+    place = mi.ScalarTransform4f().look_at((FAR * to_sun).tolist(), [0, 0, 0], up)
+    return {"type": "disk", "to_world": place @ mi.ScalarTransform4f().scale(float(FAR * np.tan(radius))),
+            "bsdf": bsdf({"kind": "light"}),
+            "emitter": {"type": "area", "radiance": rgb(np.array(sun["irradiance"]) / (np.pi * np.sin(radius) ** 2))}}
 
 
 class Peer:
@@ -155,13 +191,19 @@ class Peer:
                                      "emitter": emitter(quad["material"], RARELY if behind else 1.0)}
             told[f"quad{i}"] = shape
         for i, m in enumerate(scene.meshes):
-            told[f"mesh{i}"] = mesh(m["vertices"], m["triangles"], {"bsdf": mi.load_dict(bsdf(m["material"]))})
+            told[f"mesh{i}"] = mesh(m["vertices"], m["triangles"], {"bsdf": mi.load_dict(bsdf(m["material"]))},
+                                    m["normals"], m["uvs"])
         for i, medium in enumerate(scene.media):
             inside = mi.load_dict({"type": "homogeneous", "albedo": rgb(medium["albedo"]),
                                    "sigma_t": float(medium["density"]), "phase": {"type": "isotropic"}})
             boundary = quads_mesh(lifted(medium["boundary"]["quads"], LIFT))
             told[f"medium{i}"] = mesh(*boundary, {"bsdf": mi.load_dict({"type": "null"}), "interior": inside})
-        if scene.has_gradient():
+        told.update({f"sun{i}": sun_disc(sun) for i, sun in enumerate(scene.suns)})
+        if scene.environment is not None:
+            # Its left edge is -z, ours +z.
+            turned = np.ascontiguousarray(np.roll(scene.environment, scene.environment.shape[1] // 2, axis=1))
+            told["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(turned)}
+        elif scene.has_gradient():
             told["sky"] = {"type": "envmap", "bitmap": mi.Bitmap(sky_image(scene.background))}
         elif not scene.is_dark():
             told["sky"] = {"type": "constant", "radiance": rgb(scene.background["top"])}
@@ -169,7 +211,7 @@ class Peer:
         self.camera = scene.camera
         # Roulette pays but where light has to pass glass.
         self.integrator = {"type": "volpath" if scene.media else "path", "max_depth": scene.max_depth,
-                           "rr_depth": 100 if scene.has("glass") else 5}
+                           "rr_depth": 100 if scene.has("glass") or scene.has("rough-glass") else 5}
 
     def sensor(self, size):
         c = self.camera
