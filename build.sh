@@ -11,7 +11,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
-       ./build.sh fuzz [load_film] [load_gltf] [load_image] [load_obj] [load_ply] [load_stl] [read_rays] [--seconds N]
+       ./build.sh fuzz [load_film] [load_gltf] [load_image] [load_obj] [load_ply] [load_scene] [load_stl] [read_rays]
+                       [--seconds N]
        ./build.sh release [--renew]
 
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
@@ -25,7 +26,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
                --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
-  fuzz         the readers of films, pictures, models and rays on damaged files, half an hour each
+  fuzz         the readers of films, compiled scenes, pictures, models and rays on damaged files, half an hour each
   films        what checkpoints cost, how even shards are, how long a merge takes: docs/long-renders.md
   faults       killed renders, full disks, damaged films: docs/long-renders.md
   cluster      a render on a Slurm of two nodes here, one of which is lost: docs/long-renders.md (installs Slurm; root)
@@ -102,7 +103,7 @@ fuzz() {
     local targets=() seconds=1800 target failed=0
     while [[ $# -gt 0 ]]; do
         case $1 in
-            load_film | load_gltf | load_image | load_obj | load_ply | load_stl | read_rays) targets+=("$1") ;;
+            load_film | load_gltf | load_image | load_obj | load_ply | load_scene | load_stl | read_rays) targets+=("$1") ;;
             --seconds)
                 [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
                 seconds=$2
@@ -112,7 +113,7 @@ fuzz() {
         esac
         shift
     done
-    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_gltf load_image load_obj load_ply load_stl read_rays)
+    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_gltf load_image load_obj load_ply load_scene load_stl read_rays)
     install_needs
     install_missing clang-14 libclang-rt-14-dev
     for target in "${targets[@]}"; do

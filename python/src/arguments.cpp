@@ -60,21 +60,24 @@ std::size_t choice(NameArgument argument, const char* name, const std::vector<st
     wrong_value(name, "must be one of " + all + ", not '" + word + "'");
 }
 
-Vec3 triple(nb::handle object, const char* name) {
-    const char* expected = "three numbers";
+std::vector<nb::object> items(nb::handle object, std::size_t count, const char* name, const char* expected) {
     if (nb::isinstance<nb::str>(object) || !PySequence_Check(object.ptr())) wrong_type(name, expected, object);
     const Py_ssize_t length = PySequence_Size(object.ptr());
-    if (length != 3) {
+    if (length != static_cast<Py_ssize_t>(count)) {
         PyErr_Clear();
-        wrong_value(name, "must be three numbers, not " + std::to_string(length));
+        wrong_value(name, std::string("must be ") + expected + ", not " + std::to_string(length));
     }
-    Vec3 values;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const nb::object item = nb::steal(PySequence_GetItem(object.ptr(), static_cast<Py_ssize_t>(i)));
-        if (!item.is_valid()) throw nb::python_error();
-        values[i] = number({item}, name);
+    std::vector<nb::object> found(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        found[i] = nb::steal(PySequence_GetItem(object.ptr(), static_cast<Py_ssize_t>(i)));
+        if (!found[i].is_valid()) throw nb::python_error();
     }
-    return values;
+    return found;
+}
+
+Vec3 triple(nb::handle object, const char* name) {
+    const std::vector<nb::object> of = items(object, 3, name, "three numbers");
+    return {number({of[0]}, name), number({of[1]}, name), number({of[2]}, name)};
 }
 
 Color color(nb::handle object, const char* name) {

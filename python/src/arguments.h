@@ -37,7 +37,13 @@ LIMN_ARGUMENT(NameArgument, "str");
 LIMN_ARGUMENT(TripleArgument, "collections.abc.Sequence[float] | numpy.typing.NDArray");
 LIMN_ARGUMENT(MatrixArgument, "numpy.typing.ArrayLike");
 LIMN_ARGUMENT(ColorArgument, "Texture | collections.abc.Sequence[float] | numpy.typing.NDArray");
+LIMN_ARGUMENT(TextureArgument, "Texture");
+LIMN_ARGUMENT(OpacityArgument, "Texture | float");
+LIMN_ARGUMENT(RoughnessArgument, "float | collections.abc.Sequence[float]");
+LIMN_ARGUMENT(WindowArgument, "collections.abc.Sequence[int] | None");
+LIMN_ARGUMENT(SurfaceArgument, "Material");
 LIMN_ARGUMENT(MaterialArgument, "Material | None");
+LIMN_ARGUMENT(EnvironmentArgument, "EnvironmentMap | None");
 LIMN_ARGUMENT(ShapeArgument, "Hittable");
 LIMN_ARGUMENT(CallbackArgument, "collections.abc.Callable[[Progress], bool | None] | None");
 #undef LIMN_ARGUMENT
@@ -56,7 +62,9 @@ int thread_count(CountArgument argument);  // 0 to 1024
 // Which of the words it is.
 std::size_t choice(NameArgument argument, const char* name, const std::vector<std::string>& words);
 
-// Three numbers in a sequence or an array.
+// So many objects in a sequence or an array.
+std::vector<nb::object> items(nb::handle object, std::size_t count, const char* name, const char* expected);
+// Three numbers.
 Vec3 triple(nb::handle object, const char* name);
 inline Vec3 vector(TripleArgument argument, const char* name) { return triple(argument.object, name); }
 inline Point3 point(TripleArgument argument, const char* name) { return Point3{} + triple(argument.object, name); }

@@ -1,30 +1,68 @@
-// What surfaces are made of.
+// What surfaces are made of. Those of microfacets stand in microfacets.cpp.
+#include "limn/material/material.h"
+
+#include "limn/material/alpha_mask.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/diffuse_light.h"
 #include "limn/material/isotropic.h"
 #include "limn/material/lambertian.h"
 #include "limn/material/metal.h"
+#include "limn/material/normal_map.h"
 #include "limn/material/oren_nayar.h"
 
 #include <nanobind/stl/shared_ptr.h>
 
-#include "arguments.h"
+#include <array>
+
 #include "bindings.h"
-#include "limn/texture/solid.h"
-#include "limn/texture/texture.h"
+#include "materials.h"
 
 namespace limn::python {
 
 namespace {
 
-// A material of a texture, or of a colour.
-template <class Made, class... Rest>
-void make(void* place, ColorArgument argument, const char* name, Rest... rest) {
-    std::shared_ptr<Texture> texture;
-    if (!argument.object.is_none() && nb::try_cast(argument.object, texture))
-        new (place) Made(std::shared_ptr<const Texture>(std::move(texture)), rest...);
-    else
-        new (place) Made(color(argument.object, name), rest...);
+std::shared_ptr<const Material> material_of(SurfaceArgument argument) {
+    return shared<Material>(argument.object, "material", "a Material");
+}
+
+void bind_wrappers(nb::module_& module) {
+    nb::class_<NormalMap, Material>(module, "NormalMap", "Another material around normals that a texture bends.")
+        .def(
+            "__init__",
+            [](NormalMap* self, SurfaceArgument material, TextureArgument normals) {
+                new (self) NormalMap(material_of(material), shared<Texture>(normals.object, "normals", "a Texture"));
+            },
+            given("material"), given("normals"),
+            R"(Needs a mesh with uvs, or another shape that has texture coordinates.
+
+Args:
+    material: any but a NormalMap.
+    normals: a texture whose red, green and blue, from 0 to 1, are the coordinates from -1 to 1 along u, along v and
+        along the normal, as in glTF. Its numbers are linear: an ImageTexture of bytes has to be made of
+        pixels / numpy.float32(255), as uint8 counts as sRGB.)");
+    nb::class_<AlphaMask, Material>(module, "AlphaMask", "Another material with holes: leaves, fences, worn cloth.")
+        .def(
+            "__init__",
+            [](AlphaMask* self, SurfaceArgument material, OpacityArgument opacity, NumberArgument cutoff) {
+                const std::shared_ptr<const Material> of = material_of(material);
+                const double edge = number(cutoff, "cutoff");
+                std::shared_ptr<Texture> texture;
+                if (!opacity.object.is_none() && nb::try_cast(opacity.object, texture)) {
+                    new (self) AlphaMask(of, std::shared_ptr<const Texture>(std::move(texture)), edge);
+                    return;
+                }
+                const double share = number({opacity.object}, "opacity");
+                if (edge != 0) wrong_value("cutoff", "needs an opacity that is a texture");
+                new (self) AlphaMask(of, share);
+            },
+            given("material"), given("opacity"), given("cutoff") = 0.0,
+            R"(Renders see the holes, for shadows too; queries do not.
+
+Args:
+    material: what there is between the holes.
+    opacity: in [0, 1], how much of the light the surface stops, or a texture whose red says so. Its numbers are
+        linear: see NormalMap.
+    cutoff: in [0, 1]; if over 0, the surface stops all light where the texture is at least that, and none elsewhere.)");
 }
 
 }  // namespace
@@ -62,12 +100,20 @@ void bind_materials(nb::module_& module) {
     nb::class_<DiffuseLight, Material>(module, "DiffuseLight", "A lamp: the same radiance in every direction.")
         .def(
             "__init__",
-            [](DiffuseLight* self, ColorArgument radiance) { make<DiffuseLight>(self, radiance, "radiance"); },
-            given("radiance"), "radiance: linear red, green, blue, at least 0, or a texture.");
+            [](DiffuseLight* self, ColorArgument radiance, NameArgument sides) {
+                make<DiffuseLight>(self, radiance, "radiance",
+                                   std::array{Sides::both, Sides::front,
+                                              Sides::back}[choice(sides, "sides", {"both", "front", "back"})]);
+            },
+            given("radiance"), given("sides") = "both",
+            "radiance: linear red, green, blue in W / (sr m^2), at least 0, or a texture.\n"
+            "sides: which shine, 'both', 'front' (that of the outward normal) or 'back'.");
     nb::class_<Isotropic, Material>(module, "Isotropic", "Scatters into all directions alike.")
         .def(
             "__init__", [](Isotropic* self, ColorArgument albedo) { make<Isotropic>(self, albedo, "albedo"); },
             given("albedo"), "albedo: linear red, green, blue in [0, 1], or a texture.");
+    bind_microfacets(module);
+    bind_wrappers(module);
 }
 
 }  // namespace limn::python

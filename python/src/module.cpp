@@ -28,6 +28,8 @@ NB_MODULE(_limn, module) {
     bind_materials(module);
     bind_shapes(module);
     bind_meshes(module);
+    bind_lights(module);
     bind_scene(module);
+    bind_images(module);
     bind_render(module);
 }

@@ -3,6 +3,7 @@
 
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 
 #include "bindings.h"
 #include "limn/query/compiled_scene.h"
@@ -17,23 +18,19 @@ std::size_t add_triangles(Scene& scene, ArrayArgument vertices, ArrayArgument fa
     return scene.add(make_mesh(mesh_data(vertices, faces), {material_or_none(material, "material")}));
 }
 
-void bind_background(nb::module_& module) {
-    nb::class_<Background>(module, "Background", "Radiance that arrives from infinitely far away, linear.")
-        .def_static(
-            "black", [] { return Background::black(); }, "None.")
-        .def_static(
-            "constant", [](TripleArgument value) { return Background::constant(color(value.object, "color")); },
-            given("color"), "The same from everywhere.")
-        .def_static(
-            "gradient",
-            [](TripleArgument bottom, TripleArgument top) {
-                return Background::gradient(color(bottom.object, "bottom"), color(top.object, "top"));
-            },
-            given("bottom"), given("top"), "From straight below to straight above, linear in y.");
+std::size_t add(Scene& scene, ShapeArgument object) {
+    return scene.add(shared<Hittable>(object.object, "object", "a shape or a light"));
+}
+
+// None: there is no map, and the background counts.
+void set_environment(Scene& scene, EnvironmentArgument argument) {
+    scene.environment = argument.object.is_none()
+                            ? nullptr
+                            : shared<EnvironmentMap>(argument.object, "environment", "an EnvironmentMap or None");
 }
 
 void bind_description(nb::module_& module) {
-    nb::class_<Scene>(module, "Scene", "Objects and a background. Compile it to trace rays or to render.")
+    nb::class_<Scene>(module, "Scene", "Objects, lights and a background. Compile it to trace rays or to render.")
         .def(nb::init<>())
         .def_rw("background", &Scene::background)
         .def_rw("name", &Scene::name)
@@ -42,9 +39,16 @@ void bind_description(nb::module_& module) {
             "bounds", [](const Scene& scene) { return corners(scene.bounds()); },
             nb::sig("def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
             "The lowest and the highest corner of a box around all objects.")
+        .def_prop_rw(
+            "environment",
+            [](const Scene& scene) { return std::const_pointer_cast<EnvironmentMap>(scene.environment); },
+            &set_environment, nb::for_getter(nb::sig("def environment(self) -> EnvironmentMap | None")),
+            nb::for_setter(given("environment")), "An EnvironmentMap in place of the background; None: there is none.")
         .def(
-            "add", [](Scene& scene, ShapeArgument object) { return scene.add(shape_of(object.object, "object")); },
-            given("object"), "Adds a shape. Returns its number, counted from 0, which is geometry_ids of hits.")
+            "add", [](Scene& scene, const LightSource& light) { scene.add(light); }, nb::arg("light"),
+            "Adds a light that is no shape. It has no number.")
+        .def("add", &add, given("object"),
+             "Adds a shape. Returns its number, counted from 0, which is geometry_ids of hits.")
         .def("add_triangles", &add_triangles, given("vertices"), given("faces"), given("material") = nb::none(),
              R"(Adds a mesh of copied arrays.
 
@@ -68,7 +72,6 @@ Returns:
 }  // namespace
 
 void bind_scene(nb::module_& module) {
-    bind_background(module);
     nb::class_<CompiledScene> compiled(module, "CompiledScene",
                                        "A scene ready to be traced. Immutable; any number of threads may ask it.");
     compiled

@@ -4,12 +4,12 @@
 #include <nanobind/stl/shared_ptr.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "arguments.h"
 #include "bindings.h"
+#include "images.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
@@ -19,36 +19,10 @@ namespace limn::python {
 
 namespace {
 
-constexpr std::size_t kMostPixels = 1 << 20;  // a side
-
 std::shared_ptr<const Texture> texture(ColorArgument argument, const char* name) {
     std::shared_ptr<Texture> given;
     if (!argument.object.is_none() && nb::try_cast(argument.object, given)) return given;
     return std::make_shared<SolidColor>(color(argument.object, name));
-}
-
-// Linear float64 or float32 as it is; bytes are sRGB, as those of pictures.
-Image image_of(ArrayArgument argument) {
-    const ArrayView array(argument.object, "image", "an array of pixels, shape (height, width, 3)");
-    if (array.rank() != 3 || array.length(2) != 3 || array.size() == 0)
-        wrong_value("image", "must have shape (height, width, 3), not " + shape_text(array.shape()));
-    if (array.length(0) > kMostPixels || array.length(1) > kMostPixels) wrong_value("image", "is too large");
-    Image image(static_cast<int>(array.length(1)), static_cast<int>(array.length(0)));
-    const auto put = [&](const auto* from, const auto& convert) {
-        for (float& value : image.values()) value = convert(*from++);
-    };
-    if (array.holds<float>()) {
-        put(array.data<float>(), [](float v) { return v; });
-    } else if (array.holds<double>()) {
-        put(array.data<double>(), [](double v) { return static_cast<float>(v); });
-    } else if (array.holds<std::uint8_t>()) {
-        put(array.data<std::uint8_t>(), [](std::uint8_t v) { return static_cast<float>(srgb_decode(v / 255.0)); });
-    } else {
-        throw nb::type_error("image: must be of float64, float32 or uint8");
-    }
-    for (const float value : image.values())
-        if (!(std::isfinite(value) && value >= 0)) wrong_value("image", "has a value that is negative or not finite");
-    return image;
 }
 
 template <class Made>

@@ -4,13 +4,17 @@
 #include "catch.h"
 #include "flat/tables.h"
 #include "limn/core/error.h"
+#include "limn/material/alpha_mask.h"
 #include "limn/material/dielectric.h"
+#include "limn/material/diffuse_light.h"
 #include "limn/material/metal.h"
+#include "limn/material/normal_map.h"
 #include "limn/material/oren_nayar.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
 #include "limn/material/rough_dielectric.h"
 #include "limn/query/compiled_scene.h"
+#include "limn/render/first_hits.h"
 #include "limn/shape/disk.h"
 #include "limn/texture/checker.h"
 #include "limn/texture/image_texture.h"
@@ -123,6 +127,60 @@ TEST_CASE("Scene files: lights that are no shapes, and the environment", "[compi
     CHECK(again.material_name(*hit) == "clay");
     const Camera camera = camera_at({0, 8, 15}, {0, 0, 0}, 40);
     CHECK(render(scene, camera, square(16, 8, 4)).image == render(again, camera, square(16, 8, 4)).image);
+}
+
+TEST_CASE("Scene files: each material under each light, bit for bit", "[compile][scene-file]") {
+    const Folder folder;
+    const auto picture = std::make_shared<ImageTexture>(std::make_shared<Image>(2, 3, Color{0.25, 0.5, 0.75}));
+    const auto checker = std::make_shared<Checker>(0.25, Color{}, Color{1, 1, 1});
+    Image holes(2, 1, Color{0.25, 0.25, 0.25});
+    holes.set(1, 0, {0.75, 0.75, 0.75});
+    const auto mask = std::make_shared<ImageTexture>(holes);
+    const Color copper{0.95, 0.6, 0.5};
+    const auto metal = std::make_shared<RoughConductor>(copper, Roughness{0.1, 0.4}, Color{0.2, 0.3, 0.4});
+    const auto varnish = std::make_shared<Plastic>(picture, 0.3, 1.4, checker);
+    const std::vector<MaterialPtr> materials{
+        metal,
+        varnish,
+        std::make_shared<RoughConductor>(picture, 0.3),
+        std::make_shared<RoughConductor>(ComplexIndex{.eta = {0.2, 0.9, 1.1}, .k = {3.9, 2.4, 2.2}}, 0.3),
+        std::make_shared<RoughDielectric>(1.5, Roughness{0.2, 0.4}),
+        std::make_shared<Plastic>(Color{0.5, 0.25, 0.5}, 0.1),
+        std::make_shared<NormalMap>(metal, picture),
+        std::make_shared<NormalMap>(grey(0.5), picture),
+        std::make_shared<AlphaMask>(varnish, mask),
+        std::make_shared<AlphaMask>(varnish, mask, 0.5),
+        std::make_shared<AlphaMask>(std::make_shared<NormalMap>(metal, picture), 0.5),
+        std::make_shared<DiffuseLight>(picture, Sides::front),
+        std::make_shared<DiffuseLight>(picture, Sides::back)};
+    Image map(4, 2, Color{0.25, 0.5, 1});
+    map.set(1, 0, {20, 10, 5});
+    const auto environment = std::make_shared<EnvironmentMap>(map, Transform::rotate_y(30), 0.5);
+    const Camera camera = camera_at({0, 0, 4}, {0, 0, 0}, 40);
+    std::vector<Image> pictures;
+    for (const MaterialPtr& material : materials) {
+        Scene described;
+        described.environment = environment;
+        described.add(PointLight{.position = {0, 5, 0}, .intensity = {9, 9, 9}});
+        described.add(SpotLight{.position = {3, 0, 3}, .direction = {-1, 0, -1}, .intensity = {5, 0, 0}});
+        described.add(DirectionalLight{.direction = {1, -1, -1}, .irradiance = {0, 1, 0}});
+        described.add(SunLight{.direction = {-1, -1, -1}, .irradiance = {0, 0, 2}, .angular_radius = 2});
+        described.add(sphere({0, 0, 0}, 1, material));
+        const CompiledScene scene = compile(described);
+        scene.save(folder.path("a.scene"));
+        const CompiledScene again = CompiledScene::load(folder.path("a.scene"));
+        CAPTURE(pictures.size());
+        check_same(scene, again);
+        pictures.push_back(render(scene, camera, square(16, 8, 4)).image);
+        CHECK(pictures.back() == render(again, camera, square(16, 8, 4)).image);
+        const FirstHits seen = first_hits(scene, camera, square(16, 1, 1)),
+                        seen_again = first_hits(again, camera, square(16, 1, 1));
+        CHECK(seen.albedo == seen_again.albedo);
+        CHECK(seen.normal == seen_again.normal);
+        CHECK(seen.depth == seen_again.depth);
+        // So each of them is seen, and what makes it another one.
+        for (std::size_t i = 0; i + 1 < pictures.size(); ++i) CHECK_FALSE(pictures[i] == pictures.back());
+    }
 }
 
 TEST_CASE("Scene files: random scenes answer as before, and can be moved", "[compile][scene-file]") {

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 
+#include "bsdf/albedo_table.h"
 #include "limn/core/error.h"
 #include "query/scene_file.h"
 #include "scratch_file.h"
@@ -18,11 +20,17 @@ std::string small_scene(const std::string& path) {
     std::get<0>(scene.rows).emplace_back(limn::SphereRecord{});
     scene.groups.resize(1), scene.ranges.resize(2), scene.nodes.resize(1), scene.blocks.resize(9);
     scene.name = "name";
-    scene.materials.resize(1);
+    scene.materials.resize(2);
     scene.materials[0].kind = "lambertian";
+    scene.materials[1].kind = "plastic";
+    scene.materials[1].details = std::make_shared<limn::MaterialDetails>(
+        limn::MaterialDetails{.albedo_table = std::make_shared<limn::bsdf::AlbedoTable>(
+                                  limn::bsdf::AlbedoTable{.rows = 1, .albedo = {0.5, 0.5}, .mean = {0.5}})});
+    scene.material_names = {std::make_shared<std::vector<std::string>>(1, "clay"), nullptr};
     scene.meshes.resize(1);
     scene.meshes[0].places = {1, 2};
     scene.images.push_back(std::make_shared<limn::Image>(2, 1));
+    scene.environment.image = std::make_shared<limn::Image>(1, 2);
     limn::query::write_scene(scene, path);
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

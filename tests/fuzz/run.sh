@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_scene, load_stl or
-# read_rays, half an hour if not told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in build/fuzz/found; both are tried first next
-# time. Exit status 0: none failed.
+# read_rays, half an hour if not told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in
+# build/fuzz/found; both are tried first next time. Exit status 0: none failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
@@ -43,8 +43,10 @@ case $target in
         largest=25000  # a tile has 20504
         ;;
     load_scene)
-        head -c 64 /dev/zero >"$seeds/nothing"  # changed
-        largest=2048
+        # What the bytes of a small scene are changed by: none of them, and all.
+        head -c 4096 /dev/zero >"$seeds/nothing"
+        head -c 4096 /dev/zero | tr '\0' '\377' >"$seeds/everything"
+        largest=8192
         ;;
     read_rays)
         printf '0 0 5 0 0 -1\n# a comment\n\n1e-3 +2. .5 0 1 0 0 inf\n' >"$seeds/rays.txt"

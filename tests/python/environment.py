@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-NEEDS = ("numpy", "trimesh", "rtree")  # of the tests
+NEEDS = ("numpy", "trimesh", "rtree", "mypy")  # of the tests
 
 
 def main(root, folder, prefix):

@@ -107,3 +107,9 @@ class MeshObject:
 def directions(rng, count):
     d = rng.normal(size=(count, 3))
     return d / np.linalg.norm(d, axis=1)[:, None]
+
+
+def resident():
+    """Bytes of memory that the process has now."""
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * 4096

@@ -10,6 +10,8 @@ from meshes import box
 VERTICES, FACES = box()
 RAYS = np.tile(np.array([0.5, 0.5, 5, 0, 0, -1]), (10, 1))
 POINTS = np.zeros((10, 3))
+WHITE = (1, 1, 1)
+MATTE = limn.Lambertian(WHITE)
 
 
 class Errors(unittest.TestCase):
@@ -98,14 +100,73 @@ class Errors(unittest.TestCase):
                 ("image", TypeError, limn.ImageTexture, (np.zeros((4, 4, 3), int),)),
                 ("image", ValueError, limn.ImageTexture, (np.full((4, 4, 3), np.nan),)),
                 ("wrap", ValueError, limn.ImageTexture, (np.zeros((4, 4, 3)), "bilinear", "tile")),
+                *self.of_materials(), *self.of_lights(),
                 ("object", TypeError, limn.Scene().add, (3,))):
             with self.subTest(call=call, arguments=arguments):
                 self.refuses(name, kind, call, *arguments)
         for call, arguments in ((limn.Sphere, ((0, 0, 0), 0)), (limn.Sphere, ((0, np.nan, 0), 1)),
                                 (limn.Lambertian, ((2, 0, 0),)), (limn.Disk, ((0, 0, 0), (0, 0, 0), 1)),
-                                (limn.Instance, (limn.Sphere((0, 0, 0), 1), np.zeros((3, 4))))):
+                                (limn.Instance, (limn.Sphere((0, 0, 0), 1), np.zeros((3, 4)))),
+                                (limn.RoughConductor, (WHITE, 1.5)), (limn.RoughConductor, ((1, 2, 1), 0.5)),
+                                (limn.RoughConductor, (WHITE, 0.5, (0, 0, 2))),
+                                (limn.RoughConductor.from_index, ((0, 1, 1), WHITE, 0)),
+                                (limn.RoughConductor.from_index, (WHITE, (0, -1, 0), 0)),
+                                (limn.RoughDielectric, (0, 0.5)), (limn.RoughDielectric, (1.5, -0.5)),
+                                (limn.Plastic, (WHITE, 0.5, 0.9)), (limn.Plastic, (WHITE, 0.5, 1.5, (1, 1, 2))),
+                                (limn.AlphaMask, (MATTE, 1.5)), (limn.AlphaMask, (MATTE, limn.SolidColor(WHITE), 2)),
+                                (limn.EnvironmentMap, (np.ones((1, 1, 3)), 2 * np.eye(4)[:3])),
+                                (limn.EnvironmentMap, (np.ones((1, 1, 3)), None, -1))):
             with self.subTest(call=call, arguments=arguments), self.assertRaises(ValueError):
                 call(*arguments)
+
+    def of_materials(self):
+        return (("roughness", TypeError, limn.RoughConductor, (WHITE, "rough")),
+                ("roughness", TypeError, limn.RoughConductor, (WHITE, None)),
+                ("roughness", ValueError, limn.RoughConductor, (WHITE, (0.1, 0.2, 0.3))),
+                ("roughness", TypeError, limn.RoughDielectric, (1.5, (0.1, None))),
+                ("edge_tint", ValueError, limn.RoughConductor, (WHITE, 0, (1, 1))),
+                ("reflectance", TypeError, limn.RoughConductor, (None, 0)),
+                ("eta", TypeError, limn.RoughConductor.from_index, (1.5, WHITE, 0)),
+                ("k", ValueError, limn.RoughConductor.from_index, (WHITE, (1,), 0)),
+                ("index", TypeError, limn.RoughDielectric, ("ice", 0)),
+                ("albedo", ValueError, limn.Plastic, ((2, 0, 0), 0, 1.5, limn.SolidColor(WHITE))),
+                ("specular", TypeError, limn.Plastic, (WHITE, 0, 1.5, 1)),
+                ("material", TypeError, limn.NormalMap, (None, limn.SolidColor(WHITE))),
+                ("normals", TypeError, limn.NormalMap, (MATTE, WHITE)),
+                ("material", TypeError, limn.AlphaMask, ("leaf", 0.5)),
+                ("opacity", TypeError, limn.AlphaMask, (MATTE, WHITE)),
+                ("cutoff", ValueError, limn.AlphaMask, (MATTE, 0.5, 0.5)),
+                ("sides", ValueError, limn.DiffuseLight, (WHITE, "top")))
+
+    def of_lights(self):
+        def added(make, *arguments):
+            return lambda: limn.Scene().add(make(*arguments))
+
+        def surround(value):
+            limn.Scene().environment = value
+
+        return (("position", TypeError, limn.PointLight, (1, WHITE)), ("intensity", ValueError, limn.PointLight, ((0, 0, 0), ())),
+                ("direction", TypeError, limn.SpotLight, ((0, 0, 0), None, WHITE)),
+                ("outer_cone_angle", TypeError, limn.SpotLight, ((0, 0, 0), (1, 0, 0), WHITE, 0, "wide")),
+                ("irradiance", TypeError, limn.DirectionalLight, ((1, 0, 0), 3)),
+                ("angular_radius", TypeError, limn.SunLight, ((1, 0, 0), WHITE, None)),
+                ("PointLight: .*intensity", ValueError, added(limn.PointLight, (0, 0, 0), (-1, 0, 0)), ()),
+                ("SpotLight: .*cone", ValueError, added(limn.SpotLight, (0, 0, 0), (1, 0, 0), WHITE, 40, 30), ()),
+                ("DirectionalLight: .*direction", ValueError, added(limn.DirectionalLight, (0, 0, 0), WHITE), ()),
+                ("SunLight: .*angular_radius", ValueError, added(limn.SunLight, (1, 0, 0), WHITE, 100), ()),
+                ("image", ValueError, limn.EnvironmentMap, (np.ones((2, 2)),)),
+                ("image", ValueError, limn.EnvironmentMap, (-np.ones((2, 2, 3)),)),
+                ("image", TypeError, limn.EnvironmentMap, (None,)),
+                ("world_from_map", ValueError, limn.EnvironmentMap, (np.ones((1, 1, 3)), np.eye(3))),
+                ("scale", TypeError, limn.EnvironmentMap, (np.ones((1, 1, 3)), None, "bright")),
+                ("environment", TypeError, surround, (np.ones((1, 1, 3)),)))
+
+    def test_skies(self):
+        for name, kind, value in (("to_sun", ValueError, (0, -1, 0)), ("turbidity", ValueError, 99),
+                                  ("turbidity", TypeError, "hazy"), ("ground", ValueError, (2, 0, 0)),
+                                  ("scale", ValueError, -1), ("height", ValueError, 1), ("height", TypeError, 2.5)):
+            with self.subTest(name=name), self.assertRaisesRegex(kind, name):
+                limn.make_sky(**{name: value})
 
     def test_render(self):
         camera = limn.Camera(look_from=(0, 0, 5))
@@ -115,6 +176,7 @@ class Errors(unittest.TestCase):
         for name, value, kind in (("width", 0, ValueError), ("height", 2.5, TypeError), ("samples_per_pixel", 0, ValueError),
                                   ("seed", -1, ValueError), ("error", "small", TypeError), ("uniform", 1, TypeError),
                                   ("estimator", "bidirectional", ValueError), ("sampler", 3, TypeError),
+                                  ("transparent", 1, TypeError), ("crop", (0, 0, 1), ValueError),
                                   ("progress", "bar", TypeError), ("threads", -1, ValueError)):
             self.refuses(name, kind, limn.render, self.scene, camera, **(small | {name: value}))
         self.refuses("look_from", ValueError, limn.Camera, look_from=(1, 2))

@@ -1,9 +1,12 @@
 """What is in the wheel, and what it needs."""
 
+import ast
 import importlib.metadata
 import re
 import subprocess
 import sys
+import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
@@ -35,15 +38,42 @@ class Package(unittest.TestCase):
         self.assertEqual(stable, sys.version_info >= (3, 12))
 
     def test_the_stubs_name_all_that_there_is(self):
-        stubs = (FOLDER / "_limn.pyi").read_text()
-        compile(stubs, "_limn.pyi", "exec")
         from limn import _limn
-        for name in vars(_limn):
-            if not name.startswith("_"):
-                self.assertRegex(stubs, rf"(?m)^(class|def) {name}\b|^{name}:")
-        for name in vars(limn.CompiledScene):
-            if not name.startswith("_"):
-                self.assertRegex(stubs, rf"def {name}\(self")
+        stubs = ast.parse((FOLDER / "_limn.pyi").read_text())
+        classes = {node.name: node for node in stubs.body if isinstance(node, ast.ClassDef)}
+        named = set(classes) | {node.name for node in stubs.body if isinstance(node, ast.FunctionDef)}
+        named |= {node.target.id for node in stubs.body if isinstance(node, ast.AnnAssign)}
+        self.assertLessEqual({name for name in vars(_limn) if not name.startswith("__")}, named)
+        for name, node in classes.items():
+            members = {member.name for member in node.body if isinstance(member, ast.FunctionDef)}
+            there = {member for member in vars(getattr(_limn, name)) if not member.startswith("__")}
+            self.assertEqual({member for member in members if not member.startswith("__")}, there, name)
+
+    def test_a_type_checker_knows_right_from_wrong(self):
+        right = """
+            import numpy as np
+            import limn
+            scene = limn.Scene()
+            number: int = scene.add(limn.Sphere((0, 0, 0), 1, limn.RoughConductor((0.9, 0.5, 0.2), (0.1, 0.4))))
+            scene.add(limn.PointLight((0, 5, 0), (9, 9, 9)))
+            scene.environment = limn.make_sky(turbidity=4).environment
+            hits = limn.first_hits(scene, limn.Camera(projection="panorama"), crop=(0, 0, 4, 4))
+            depth: float = hits.depth.max()
+            image = limn.render(scene.compile(), limn.Camera(look_from=np.zeros(3)))
+            version: str = limn.__version__
+        """
+        wrong = ("limn.Sphere(0, 1)", "limn.Scene().add(limn.Camera())", "limn.Plastik((1, 1, 1), 0.5)",
+                 "limn.Scene().environment = limn.Background.black()", "limn.render('scene', limn.Camera())",
+                 "limn.NormalMap(limn.SolidColor((1, 1, 1)), limn.SolidColor((1, 1, 1)))", "limn.Camera((0, 0, 1))")
+        program = textwrap.dedent(right) + "\n".join(wrong) + "\n"
+        lines = program.split("\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "program.py")
+            path.write_text(program)
+            out = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", folder, path], capture_output=True, text=True,
+                                 cwd=folder).stdout
+        found = {lines[int(line) - 1] for line in re.findall(r"(?m)^program\.py:(\d+): error", out)}
+        self.assertEqual(found, set(wrong), out)
 
     def test_everything_public_is_documented(self):
         for name in limn.__all__:

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 import limn
-from meshes import box, directions, icosphere, inverted, joined
+from meshes import box, directions, icosphere, inverted, joined, resident
 
 
 def compiled(*meshes):
@@ -16,12 +16,6 @@ def compiled(*meshes):
     for mesh in meshes:
         scene.add_triangles(*mesh)
     return scene.compile()
-
-
-def resident():
-    """Bytes of memory that the process has now."""
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * 4096
 
 
 class Answers(unittest.TestCase):

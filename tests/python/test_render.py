@@ -11,18 +11,7 @@ import numpy as np
 
 import limn
 from meshes import icosphere
-
-
-def furnace(material, shape=None):
-    """A white object in a white world."""
-    scene = limn.Scene()
-    scene.background = limn.Background.constant((1, 1, 1))
-    scene.add(shape(material) if shape else limn.Sphere((0, 0, 0), 1, material))
-    return scene
-
-
-CAMERA = limn.Camera(look_from=(0, 0, 4), vertical_fov=40)
-SMALL = {"width": 24, "height": 16, "samples_per_pixel": 16}
+from scenes import CAMERA, SMALL, furnace
 
 
 class Pictures(unittest.TestCase):
