@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "limn/core/error.h"
@@ -91,7 +92,8 @@ private:
     }
 
     Json mesh(const MeshRecord& m, const Transform& place) const {
-        if (!m.arrays.material_slots.empty()) refuse("many-coloured meshes");
+        const auto& slots = m.arrays.material_slots;
+        if (std::ranges::adjacent_find(slots, std::not_equal_to()) != slots.end()) refuse("many-coloured meshes");
         Json vertices = Json::array(), triangles = Json::array(), normals = Json::array(), uvs = Json::array();
         const Transform object_from_world = limn::inverse(place);
         for (const Float3& n : m.arrays.normals)
@@ -103,7 +105,7 @@ private:
                 {"triangles", triangles},
                 {"normals", normals},
                 {"uvs", uvs},
-                {"material", material(m.materials.at(0))}};
+                {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
     }
 
     Json medium(const MediumRecord& m, const Transform& place) const {

@@ -5,6 +5,7 @@
 
 #include "bench/scenes.h"
 #include "limn/limn.h"
+#include "parts.h"
 #include "scene_parts.h"
 
 namespace limn::bench {
@@ -74,6 +75,15 @@ Figure rough_glass() {
     figure.camera = figures::cornell_camera();
     figure.scene.add(figures::tall_box(matte({.73, .73, .73})));
     figure.scene.add(std::make_shared<Sphere>(Point3{190, 110, 170}, 100, std::make_shared<RoughDielectric>(1.5, 0.5)));
+    return figure;
+}
+
+Figure still_life() {
+    const Model model = gallery::load("still_life.glb");
+    Figure figure;
+    figure.scene.add(model);
+    figure.scene.background = Background::constant({.05, .06, .08});
+    figure.camera = model.cameras.front().camera;
     return figure;
 }
 

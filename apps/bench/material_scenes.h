@@ -15,5 +15,7 @@ std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std:
 Figure rough_copper();
 /// A ball of ground glass and a matte box in the Cornell box.
 Figure rough_glass();
+/// The still life of the gallery, a glTF model: normal maps, alpha and rough metal. Reads examples/models.
+Figure still_life();
 
 }  // namespace limn::bench

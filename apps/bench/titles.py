@@ -13,5 +13,6 @@ SCENES = {
     "many-lights": "200 small lights in the Cornell box",
     "rough-copper": "rough copper under a sky with its sun in the map",
     "rough-glass": "ground glass in the Cornell box",
+    "still-life": "a glTF still life: normal maps, alpha, rough metal",
     "window": "sun and sky through a window",
 }

@@ -99,6 +99,7 @@ const std::vector<Entry>& entries() {
         {"many-lights", many_lights},
         {"rough-copper", rough_copper},
         {"rough-glass", rough_glass},
+        {"still-life", still_life},
         {"window", gallery::sunlit_room},
     };
     return all;
