@@ -70,7 +70,7 @@ def first_hits(scene: Scene | CompiledScene, camera: Camera, *, width: int = 400
                crop: Sequence[int] | None = None) -> FirstHits:
     """What the camera meets first, for compositing and denoising. Arguments as those of `render`.
 
-    The interpreter's lock is let go meanwhile.
+    Takes 17 rays a pixel. The interpreter's lock is let go meanwhile; Ctrl-C is seen at the end.
     """
     return FirstHits(*_limn._first_hits(_compiled(scene, camera), camera, width, height, seed, threads, antialias,
                                         sampler, crop))

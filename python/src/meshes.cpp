@@ -92,7 +92,7 @@ void check_length(const char* name, std::size_t length, std::size_t count, const
                               std::to_string(length));
 }
 
-void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, MaterialArgument material,
+void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, MaterialsArgument material,
                ArrayArgument normals, ArrayArgument uvs, ArrayArgument slots) {
     MeshData data = mesh_data(vertices, faces);
     if (!normals.object.is_none()) {

@@ -56,13 +56,16 @@ class Package(unittest.TestCase):
             scene = limn.Scene()
             number: int = scene.add(limn.Sphere((0, 0, 0), 1, limn.RoughConductor((0.9, 0.5, 0.2), (0.1, 0.4))))
             scene.add(limn.PointLight((0, 5, 0), (9, 9, 9)))
+            scene.add(limn.Instance(limn.Sphere((0, 0, 0), 1, None), np.eye(4), None))
+            scene.add(limn.Mesh(np.eye(3, dtype=np.float32), np.arange(3)[None], [limn.Metal((1, 1, 1))]))
             scene.environment = limn.make_sky(turbidity=4).environment
             hits = limn.first_hits(scene, limn.Camera(projection="panorama"), crop=(0, 0, 4, 4))
             depth: float = hits.depth.max()
             image = limn.render(scene.compile(), limn.Camera(look_from=np.zeros(3)))
             version: str = limn.__version__
         """
-        wrong = ("limn.Sphere(0, 1)", "limn.Scene().add(limn.Camera())", "limn.Plastik((1, 1, 1), 0.5)",
+        wrong = ("limn.Sphere(0, 1)", "limn.Sphere(None, 1)", "limn.Scene().add(limn.Camera())",
+                 "limn.Plastik((1, 1, 1), 0.5)",
                  "limn.Scene().environment = limn.Background.black()", "limn.render('scene', limn.Camera())",
                  "limn.NormalMap(limn.SolidColor((1, 1, 1)), limn.SolidColor((1, 1, 1)))", "limn.Camera((0, 0, 1))")
         program = textwrap.dedent(right) + "\n".join(wrong) + "\n"
