@@ -34,6 +34,7 @@
 #include "limn/material/alpha_mask.h"
 #include "limn/material/material.h"
 #include "limn/material/metal.h"
+#include "limn/material/metallic_roughness.h"
 #include "limn/material/normal_map.h"
 #include "limn/material/oren_nayar.h"
 #include "limn/material/plastic.h"

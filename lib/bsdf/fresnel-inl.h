@@ -41,14 +41,25 @@ HWY_INLINE N reflectance_exact(N cos_incident, N eta) {
 }
 
 // Schlick's approximation (An Inexpensive BRDF Model for Physically-based Rendering, Computer Graphics Forum 13(3),
-// 1994) on the incident-side cosine whichever side that is, as the books have it; 1 under total reflection. In [0, 1].
+// 1994), between what is reflected at normal and at grazing incidence. \param cosine in [0, 1]
+template <class N>
+HWY_INLINE N schlick(N at_normal, N cosine) {
+    const N m = 1.0 - cosine;
+    return at_normal + (1.0 - at_normal) * (m * m * m * m * m);
+}
+// 2 cos d(cos) of it from 0 to 1.
+template <class N>
+HWY_INLINE N mean_schlick(N at_normal) {
+    return at_normal + (1.0 - at_normal) / 21.0;
+}
+
+// On the incident-side cosine whichever side that is, as the books have it; 1 under total reflection. In [0, 1].
 // \param cos_incident clamped to [0, 1]
 template <class N>
 HWY_INLINE N reflectance_schlick(N cos_incident, N eta) {
     const N cos_i = clamp_cosine(cos_incident);
-    const N root = (1.0 - eta) / (1.0 + eta), at_normal = root * root;
-    const N m = 1.0 - cos_i;
-    return select(cos_transmitted(cos_i, eta) == 0.0, 1.0, at_normal + (1.0 - at_normal) * (m * m * m * m * m));
+    const N root = (1.0 - eta) / (1.0 + eta);
+    return select(cos_transmitted(cos_i, eta) == 0.0, 1.0, schlick(root * root, cos_i));
 }
 
 // The index of a conductor by what it reflects at normal incidence and its edge tint (Gulbrandsen, Artist Friendly

@@ -54,6 +54,11 @@ HWY_INLINE Vector<N> weight_where(Mask<N> scatters, const Vector<N>& weight) {
     return select(scatters, weight, {0.0, 0.0, 0.0});
 }
 
+template <class N>
+HWY_INLINE N mean_of(const Vector<N>& color) {
+    return (color.x + color.y + color.z) / 3.0;
+}
+
 // The mirror image of `out` about `normal`; unit if both are.
 template <class N>
 HWY_INLINE Vector<N> mirror(const Vector<N>& out, const Vector<N>& normal) {

@@ -35,6 +35,10 @@ struct Microsurface {
     HWY_INLINE N masking_over_cosines(const Vector<N>& out, const Vector<N>& in) const {
         return 0.5 / (stretched(out) * in.z + stretched(in) * out.z);
     }
+    // f |cos| of facets with the normal m, in the middle of both, that reflect all.
+    HWY_INLINE N scattered_once(const Vector<N>& out, const Vector<N>& in, const Vector<N>& m) const {
+        return density(m) * masking_over_cosines(out, in) * max(in.z, 0.0);
+    }
     // Smith's G1 for |cos|.
     HWY_INLINE N masking(const Vector<N>& w) const {
         const N cosine = abs(w.z);

@@ -56,6 +56,21 @@ HWY_INLINE Wide<D> mean_albedo(const AlbedoTable* const* tables, Wide<D> row) {
                         [&](std::size_t i, double r, double) { return tables[i] ? tables[i]->mean_at(r) : 0; });
 }
 
+// f |cos| of what is not scattered once, spread evenly over what misses of each direction: more scattering among facets
+// (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017), or a white base under a coat (Kelemen and
+// Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling, Eurographics 2001).
+// \param missing_out,missing_in 1 - the albedo of either direction
+template <class N>
+HWY_INLINE N spread_evenly(N missing_out, N missing_in, N mean_albedo, N cosine_pdf) {
+    return missing_out * missing_in / max(1.0 - mean_albedo, 1e-15) * cosine_pdf;
+}
+// What facets that reflect `mean` leave of that: each scattering more reflects `mean` of what did not leave (Hill, A
+// Multifaceted Exploration, part 4, 2018).
+template <class N>
+HWY_INLINE N reflected_often(N mean, N mean_albedo) {
+    return mean * mean * mean_albedo / (1.0 - mean * (1.0 - mean_albedo));
+}
+
 // A vertex on microfacets, whose alphas are the details 3 and 4, both 0 of a smooth surface.
 template <class N>
 struct Facets {

@@ -114,7 +114,7 @@ StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, cons
     const ImageInfo info = decode_info_stb(format, bytes, name);
     const Reader reader(format, bytes);
     StoredImage image;
-    image.channels = info.channels.size() < 3 ? 1 : std::min(static_cast<int>(info.channels.size()), std::max(most, 3));
+    image.channels = std::min(static_cast<int>(info.channels.size()), most);
     require_possible_size(info.width, info.height, image.channels, bytes.size(), name);
     if (format == FileFormat::png) read_png_transfer(bytes, image);
     const std::string& type = info.channels.front().type;

@@ -6,7 +6,8 @@
 
 namespace limn {
 
-// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. Alpha is left out unless `most` is 4.
+// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. Of the pixels the first channels, at most
+// `most`.
 // \throws FileError naming `name`
 StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name, int most = 3);
 

@@ -2,27 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "io/text_lines.h"
-#include "limn/io/image_io.h"
-#include "limn/material/dielectric.h"
+#include "io/gltf_pictures.h"
+#include "io/model_textures.h"
+#include "limn/material/alpha_mask.h"
 #include "limn/material/diffuse_light.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/metal.h"
-#include "limn/texture/image_texture.h"
+#include "limn/material/metallic_roughness.h"
+#include "limn/material/normal_map.h"
+#include "limn/material/rough_dielectric.h"
+#include "limn/texture/solid.h"
 
 namespace limn {
 
 namespace {
 
+using MaterialPtr = std::shared_ptr<const Material>;
+using TexturePtr = std::shared_ptr<const Texture>;
+using Values = GltfPictures::Values;
+
 constexpr double kBrightest = 1e38;  // that a picture of float holds
 
-Color color_of(const std::vector<double>& c) { return {c[0], c[1], c[2]}; }
+double share(double x) { return std::clamp(x, 0.0, 1.0); }
 
-Color clamped(const Color& c, double largest) {
-    return {std::clamp(c.r, 0.0, largest), std::clamp(c.g, 0.0, largest), std::clamp(c.b, 0.0, largest)};
+Color clamped(const std::vector<double>& c, double factor, double largest) {
+    const auto at = [&](std::size_t i) { return std::clamp(factor * c[i], 0.0, largest); };
+    return {at(0), at(1), at(2)};
 }
 
 // Of red, green or blue over all pixels.
@@ -32,157 +37,144 @@ double mean_of(const Image& image, std::size_t channel) {
     return sum / (static_cast<double>(image.values().size()) / 3);
 }
 
-// A word that materials have and limn does not use.
-struct Unused {
-    std::string word, first;
-    std::size_t others = 0;
-};
-
 class Loader {
 public:
     Loader(const GltfValue& document, GltfBuffers& buffers, const std::string& path, const ModelOptions& options,
            Model& model)
-        : document_(document), buffers_(buffers), path_(path), options_(options), model_(model) {}
+        : document_(document), model_(model), pictures_(document, buffers, path, options, model, unused_) {}
 
     std::vector<GltfMaterial> load() {
         const GltfValue materials = document_["materials"];
         std::vector<GltfMaterial> all;
         for (std::size_t i = 0; i < materials.size(); ++i) {
-            GltfMaterial& made = all.emplace_back();
-            made.name = materials[i]["name"].text_or("material " + std::to_string(i));
-            name_ = made.name;
-            made.material = make(materials[i], made);
+            made_ = {};
+            made_.name = materials[i]["name"].text_or("material " + std::to_string(i));
+            is_placed_ = false;
+            unused_.begin(made_.name);
+            made_.material = make(materials[i]);
+            all.push_back(made_);
         }
-        for (const auto& [word, first, others] : unused_)
-            model_.warnings.push_back(word + " of material " + in_quotes(first) + " is not used" +
-                                      (others == 0 ? "" : ", nor in " + std::to_string(others) + " more"));
+        unused_.warn(model_);
         return all;
     }
 
 private:
-    // The first that fits: light, glass, metal, matte.
-    std::shared_ptr<const Material> make(const GltfValue& m, GltfMaterial& made) {
-        const GltfValue base = m["pbrMetallicRoughness"], extensions = m["extensions"];
-        const GltfValue base_texture = base["baseColorTexture"];
-        const Color factor = clamped(color_of(base["baseColorFactor"].numbers_or({1, 1, 1, 1})), 1);
-        if (m["normalTexture"].exists()) note("normalTexture");
-        if (m["alphaMode"].text_or("OPAQUE") != "OPAQUE") note("alphaMode");
-
-        const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number_or(1);
-        const Color emission = clamped(strength * color_of(m["emissiveFactor"].numbers_or({0, 0, 0})), kBrightest);
-        const GltfValue emissive_texture = m["emissiveTexture"];
-        if (!is_black(emission)) {
-            if (!emissive_texture.exists()) return std::make_shared<DiffuseLight>(emission);
-            // A picture that is black but for some spots is no reason to leave the base colour out.
-            const auto picture =
-                base_texture.exists() ? nullptr : texture(emissive_texture, emission, kBrightest, made);
-            if (picture) return std::make_shared<DiffuseLight>(picture);
-            note("emissiveTexture");
+    MaterialPtr make(const GltfValue& m) {
+        const GltfValue base = m["pbrMetallicRoughness"];
+        MaterialPtr material = light(m);
+        if (!material) {
+            material = scattering(m);
+            const GltfValue bumps = m["normalTexture"];
+            if (const auto picture = pictures_.image(bumps, Values::raw)) {
+                const double scale = bumps["scale"].number_or(1);
+                const auto normals =
+                    scale == 1 ? picture : std::make_shared<const Image>(scaled_normals(*picture, scale));
+                material = std::make_shared<NormalMap>(material, texture(bumps, normals, "normalTexture"));
+            }
         }
-        if (extensions["KHR_materials_transmission"]["transmissionFactor"].number_or(0) >= 0.5) {
-            const double index = extensions["KHR_materials_ior"]["ior"].number_or(1.5);
-            return std::make_shared<Dielectric>(index > 0 ? index : 1.5);
-        }
-        double metallic = base["metallicFactor"].number_or(1), roughness = base["roughnessFactor"].number_or(1);
-        const GltfValue roughness_texture = base["metallicRoughnessTexture"];
-        if (const auto picture = image(roughness_texture, Encoding::raw)) {
-            roughness *= mean_of(*picture, 1), metallic *= mean_of(*picture, 2);
-            note("metallicRoughnessTexture (but for its mean)");
-        }
-        const auto picture = texture(base_texture, factor, 1, made);
-        if (metallic >= 0.5) {
-            const double fuzz = std::clamp(roughness * roughness, 0.0, 1.0);
-            return picture ? std::make_shared<Metal>(picture, fuzz) : std::make_shared<Metal>(factor, fuzz);
-        }
-        return picture ? std::make_shared<Lambertian>(picture) : std::make_shared<Lambertian>(factor);
+        return masked(std::move(material), m, base["baseColorTexture"],
+                      base["baseColorFactor"].numbers_or({1, 1, 1, 1})[3]);
     }
 
-    // A picture times a factor; null if there is none that can be read.
-    std::shared_ptr<const Texture> texture(const GltfValue& info, const Color& factor, double largest,
-                                           GltfMaterial& made) {
-        const auto picture = image(info, Encoding::automatic);
-        if (!picture) return nullptr;
-        const std::array<double, 3> scale{factor.r, factor.g, factor.b};
-        Image scaled = *picture;
-        for (std::size_t i = 0; i < scaled.values().size(); ++i) {
-            const double value = double{scaled.values()[i]} * scale[i % 3];
-            scaled.values()[i] = static_cast<float>(value > 0 ? std::min(value, largest) : 0);
+    // Null if it does not shine, or if there is more to see than its light.
+    MaterialPtr light(const GltfValue& m) {
+        const double strength = m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number_or(1);
+        const Color emission = clamped(m["emissiveFactor"].numbers_or({0, 0, 0}), strength, kBrightest);
+        const GltfValue emissive_texture = m["emissiveTexture"];
+        if (is_black(emission)) return nullptr;
+        if (!emissive_texture.exists()) return std::make_shared<DiffuseLight>(emission);
+        // A picture that is black but for some spots is no reason to leave the base colour out.
+        const auto picture = m["pbrMetallicRoughness"]["baseColorTexture"].exists()
+                                 ? nullptr
+                                 : pictures_.image(emissive_texture, Values::colors, emission, kBrightest);
+        if (picture) return std::make_shared<DiffuseLight>(texture(emissive_texture, picture, "emissiveTexture"));
+        unused_.note("emissiveTexture");
+        return nullptr;
+    }
+
+    MaterialPtr scattering(const GltfValue& m) {
+        const GltfValue base = m["pbrMetallicRoughness"], base_texture = base["baseColorTexture"],
+                        surface = base["metallicRoughnessTexture"];
+        const Color factor = clamped(base["baseColorFactor"].numbers_or({1, 1, 1, 1}), 1, 1);
+        const double metallic = share(base["metallicFactor"].number_or(1)),
+                     roughness = share(base["roughnessFactor"].number_or(1));
+        const double stated_index = m["extensions"]["KHR_materials_ior"]["ior"].number_or(1.5);
+        const double index = stated_index >= 1 ? stated_index : 1.5;  // 0 is for specular-glossiness
+        const auto surface_picture = pictures_.image(surface, Values::raw);
+        if (const auto glass = this->glass(m, index, metallic, roughness, surface_picture.get())) return glass;
+
+        const auto picture = pictures_.image(base_texture, Values::colors, factor, 1);
+        const TexturePtr color =
+            picture ? texture(base_texture, picture, "baseColorTexture") : std::make_shared<SolidColor>(factor);
+        if (!surface_picture) return metallic_roughness_material(color, metallic, roughness, index);
+        return std::make_shared<MetallicRoughness>(color, texture(surface, surface_picture, "metallicRoughnessTexture"),
+                                                   metallic, roughness, index);
+    }
+
+    // Null if it lets less than half of the light through. It is as rough as in the mean.
+    MaterialPtr glass(const GltfValue& m, double index, double metallic, double roughness, const Image* surface) {
+        const GltfValue transmission = m["extensions"]["KHR_materials_transmission"];
+        const double factor = transmission["transmissionFactor"].number_or(0);
+        if (factor == 0) return nullptr;
+        if (transmission["transmissionTexture"].exists()) unused_.note("transmissionTexture");
+        if (surface) roughness *= mean_of(*surface, 1), metallic *= mean_of(*surface, 2);
+        const double share_of_glass = factor * (1 - metallic);
+        if (share_of_glass != 1 && metallic != 1) unused_.note("transmissionFactor (but for whether it is below 0.5)");
+        if (share_of_glass < 0.5) return nullptr;
+        const GltfValue base = m["pbrMetallicRoughness"];
+        if (surface) unused_.note("metallicRoughnessTexture (but for its mean)");
+        if (base["baseColorTexture"].exists()) unused_.note("baseColorTexture");
+        if (base["baseColorFactor"].numbers_or({1, 1, 1, 1}) != std::vector<double>{1, 1, 1, 1})
+            unused_.note("baseColorFactor");
+        return std::make_shared<RoughDielectric>(index, share(roughness));
+    }
+
+    // 3.9.4: MASK is all or nothing, BLEND is stopped in part.
+    MaterialPtr masked(MaterialPtr material, const GltfValue& m, const GltfValue& base_texture, double factor) {
+        const std::string mode = m["alphaMode"].text_or("OPAQUE");
+        const double cutoff = mode == "MASK" ? m["alphaCutoff"].number_or(0.5) : 0;
+        if (mode == "OPAQUE" || (mode == "MASK" && cutoff <= 0)) return material;
+        if (mode != "MASK" && mode != "BLEND") {
+            unused_.note("alphaMode");
+            return material;
         }
-        place(info, made);
-        return std::make_shared<ImageTexture>(std::move(scaled), sampler(info));
+        factor = share(factor);
+        if (const auto alpha = pictures_.image(base_texture, Values::alpha, {factor, factor, factor}, 1);
+            alpha && cutoff <= 1)
+            return std::make_shared<AlphaMask>(std::move(material), texture(base_texture, alpha, "alpha"), cutoff);
+        const double opacity = mode == "BLEND" ? factor : factor >= cutoff ? 1 : 0;
+        if (opacity == 1) return material;
+        return std::make_shared<AlphaMask>(std::move(material), opacity);
+    }
+
+    // All textures lie on the surface as the first one does. \param name of this one
+    TexturePtr texture(const GltfValue& info, std::shared_ptr<const Image> picture, const std::string& name) {
+        const GltfPlace place = place_of(info);
+        if (!is_placed_)
+            made_.place = place;
+        else if (!(place == made_.place))
+            unused_.note("the texCoord or KHR_texture_transform of " + name);
+        is_placed_ = true;
+        return pictures_.texture(info, std::move(picture));
     }
 
     // KHR_texture_transform: scaled, turned, moved.
-    static void place(const GltfValue& info, GltfMaterial& made) {
+    static GltfPlace place_of(const GltfValue& info) {
         const GltfValue transform = info["extensions"]["KHR_texture_transform"];
-        made.uv_set = transform["texCoord"].natural_or(info["texCoord"].natural_or(0));
         const std::vector<double> offset = transform["offset"].numbers_or({0, 0}),
                                   scale = transform["scale"].numbers_or({1, 1});
         const double angle = transform["rotation"].number_or(0), c = std::cos(angle), s = std::sin(angle);
-        made.u_of = {c * scale[0], s * scale[1], offset[0]};
-        made.v_of = {-s * scale[0], c * scale[1], offset[1]};
-    }
-
-    // The numbers of OpenGL.
-    ImageTextureOptions sampler(const GltfValue& info) const {
-        const GltfValue number = info["index"].in(document_["textures"])["sampler"];
-        ImageTextureOptions options;
-        if (!number.exists()) return options;
-        constexpr std::uint64_t kNearest = 9728, kClamp = 33071, kMirror = 33648, kRepeat = 10497;
-        const GltfValue sampler = number.in(document_["samplers"]);
-        if (sampler["magFilter"].natural_or(0) == kNearest) options.filter = Filter::nearest;
-        const std::uint64_t wrap = sampler["wrapS"].natural_or(kRepeat);
-        if (wrap == kClamp) options.wrap = Wrap::clamp;
-        if (wrap == kMirror) options.wrap = Wrap::mirror;
-        return options;
-    }
-
-    // The picture that a texture shows; null, with a warning, if it cannot be read.
-    std::shared_ptr<const Image> image(const GltfValue& info, Encoding encoding) {
-        if (!info.exists() || !options_.textures) return nullptr;
-        const GltfValue source = info["index"].in(document_["textures"])["source"];
-        if (!source.exists()) {
-            note("a texture without a source");
-            return nullptr;
-        }
-        const GltfValue image = source.in(document_["images"]);
-        const auto [found, is_new] = images_.try_emplace({image.place(), encoding});
-        if (is_new) try {
-                found->second = std::make_shared<const Image>(load(image, encoding));
-            } catch (const FileError& error) {
-                model_.warnings.emplace_back(error.what());
-            }
-        return found->second;
-    }
-
-    Image load(const GltfValue& image, Encoding encoding) {
-        const std::string uri = image["uri"].text_or(""), name = path_ + ": " + image.place();
-        if (uri.empty()) return load_image_from_memory(buffers_.view(image["bufferView"]), encoding, name);
-        if (!uri.starts_with("data:")) {
-            model_.files.push_back(gltf_path_beside(path_, uri));
-            return load_image(model_.files.back(), encoding);
-        }
-        const std::string bytes = GltfBuffers::decode_data(image["uri"]);
-        return load_image_from_memory(std::as_bytes(std::span(bytes)), encoding, name);
-    }
-
-    void note(const std::string& word) {
-        const auto found =
-            std::find_if(unused_.begin(), unused_.end(), [&](const Unused& u) { return u.word == word; });
-        if (found == unused_.end())
-            unused_.push_back({word, name_});
-        else
-            ++found->others;
+        return {.uv_set = transform["texCoord"].natural_or(info["texCoord"].natural_or(0)),
+                .u_of = {c * scale[0], s * scale[1], offset[0]},
+                .v_of = {-s * scale[0], c * scale[1], offset[1]}};
     }
 
     GltfValue document_;
-    GltfBuffers& buffers_;
-    const std::string& path_;
-    const ModelOptions& options_;
     Model& model_;
-    std::map<std::pair<std::string, Encoding>, std::shared_ptr<const Image>> images_;
-    std::vector<Unused> unused_;
-    std::string name_;  // of the current material
+    GltfUnused unused_;
+    GltfPictures pictures_;
+    GltfMaterial made_;  // the current one
+    bool is_placed_ = false;
 };
 
 }  // namespace

@@ -11,12 +11,17 @@
 
 namespace limn {
 
-struct GltfMaterial {
-    std::string name;
-    std::shared_ptr<const Material> material;
-    // How its picture lies: which texture coordinates, and where their (u, v) goes, v downward.
+// How a picture lies: which texture coordinates, and where their (u, v) goes, v downward.
+struct GltfPlace {
     std::uint64_t uv_set = 0;
     std::array<double, 3> u_of{1, 0, 0}, v_of{0, 1, 0};
+    bool operator==(const GltfPlace&) const = default;
+};
+
+struct GltfMaterial {
+    std::string name{};
+    std::shared_ptr<const Material> material{};
+    GltfPlace place{};  // of all its pictures
 };
 
 /// All materials of a glTF, as the table in docs/models.md says; what is not used becomes a warning of the model.

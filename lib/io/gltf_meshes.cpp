@@ -119,14 +119,14 @@ void GltfMeshes::add_attributes(const GltfValue& primitive, const std::vector<st
         const std::vector<float>& normals = attribute(normal, "VEC3", vertices);
         for (const std::uint32_t vertex : used) data.normals.push_back(three(normals, vertex));
     }
-    const GltfMaterial plain, &material = slot == 0 ? plain : materials_[slot - 1];
-    const GltfValue uv = attributes["TEXCOORD_" + std::to_string(material.uv_set)];
+    const GltfPlace place = slot == 0 ? GltfPlace{} : materials_[slot - 1].place;
+    const GltfValue uv = attributes["TEXCOORD_" + std::to_string(place.uv_set)];
     if (!uv.exists()) return;
     const std::vector<float>& uvs = attribute(uv, "VEC2", vertices);
     for (const std::uint32_t vertex : used) {
         const double u = uvs[2 * vertex], v = uvs[2 * vertex + 1];
         const auto at = [u, v](const std::array<double, 3>& row) { return row[0] * u + row[1] * v + row[2]; };
-        data.uvs.push_back({static_cast<float>(at(material.u_of)), static_cast<float>(1 - at(material.v_of))});
+        data.uvs.push_back({static_cast<float>(at(place.u_of)), static_cast<float>(1 - at(place.v_of))});
     }
 }
 

@@ -34,6 +34,18 @@ Transfer transfer_of(const StoredImage& stored, Encoding encoding) {
     return std::holds_alternative<std::vector<float>>(stored.values) ? Transfer::linear : Transfer::srgb;
 }
 
+// One channel as grey, as stored.
+template <class T>
+Image grey_image(const StoredImage& stored, const std::vector<T>& values, std::size_t channel) {
+    constexpr double kLargest = std::is_same_v<T, float> ? 1 : static_cast<double>(std::numeric_limits<T>::max());
+    Image image(stored.width, stored.height);
+    const std::span<float> out = image.values();
+    const std::size_t channels = static_cast<std::size_t>(stored.channels);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = static_cast<float>(values[i / 3 * channels + channel] / kLargest);
+    return image;
+}
+
 // `linear(v)` is the linear value of the stored value v. Fewer than three channels: the first as grey.
 template <class T, class Linear>
 Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear linear) {
@@ -44,7 +56,7 @@ Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear l
     return image;
 }
 
-Image to_image(const StoredImage& stored, Encoding encoding, const std::string& name) try {
+Image to_image(const StoredImage& stored, Encoding encoding) {
     const Transfer transfer = transfer_of(stored, encoding);
     const auto convert = [&]<class T>(const std::vector<T>& values) {
         const auto linear = [&](double v) { return static_cast<float>(decode_value(v, transfer, stored.exponent)); };
@@ -60,8 +72,17 @@ Image to_image(const StoredImage& stored, Encoding encoding, const std::string& 
         }
     };
     return std::visit(convert, stored.values);
-} catch (const ArgumentError&) {  // of Image, which has a size
-    throw FileError(name, "there is not enough memory for its pixels");
+}
+
+// The alpha that is among the channels of a picture. `decode` gives the first so many of them.
+template <class Decode>
+std::optional<Image> to_alpha(const ImageInfo& info, const Decode& decode) {
+    const auto alpha = std::ranges::find(info.channels, "A", &ImageChannel::name);
+    if (alpha == info.channels.end()) return std::nullopt;
+    const std::ptrdiff_t channel = alpha - info.channels.begin();
+    const StoredImage stored = decode(static_cast<int>(channel) + 1);
+    return std::visit([&](const auto& values) { return grey_image(stored, values, static_cast<std::size_t>(channel)); },
+                      stored.values);
 }
 
 // Hands a file's format and bytes to one of the codec's functions.
@@ -72,26 +93,51 @@ auto from_file(const std::string& path, Decode decode) {
     return decode(require_sound(bytes, path), bytes, path);
 }
 
-// Running out of memory is a fault that concerns the file.
+// Running out of memory is a fault that concerns the file; of an Image, which has a size, so is an ArgumentError.
 template <class Call>
-auto with_memory(const std::string& path, Call call) try {
-    return call();
-} catch (const std::bad_alloc&) {
-    throw FileError(path, "there is not enough memory for its pixels");
+auto with_memory(const std::string& path, Call call) {
+    constexpr const char* kProblem = "there is not enough memory for its pixels";
+    try {
+        return call();
+    } catch (const std::bad_alloc&) {
+        throw FileError(path, kProblem);
+    } catch (const ArgumentError&) {
+        throw FileError(path, kProblem);
+    }
+}
+
+FileFormat require_readable_in_memory(std::span<const std::byte> bytes, const std::string& name) {
+    const FileFormat format = require_sound(bytes, name);
+    if (format == FileFormat::exr)
+        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
+    return format;
 }
 
 }  // namespace
 
 Image load_image(const std::string& path, Encoding encoding) {
     const auto decode_pixels = [](const auto&... file) { return decode(file...); };
-    return with_memory(path, [&] { return to_image(from_file(path, decode_pixels), encoding, path); });
+    return with_memory(path, [&] { return to_image(from_file(path, decode_pixels), encoding); });
 }
 
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding, const std::string& name) {
-    const FileFormat format = require_sound(bytes, name);
-    if (format == FileFormat::exr)
-        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
-    return with_memory(name, [&] { return to_image(decode_stb(format, bytes, name), encoding, name); });
+    const FileFormat format = require_readable_in_memory(bytes, name);
+    return with_memory(name, [&] { return to_image(decode_stb(format, bytes, name), encoding); });
+}
+
+std::optional<Image> load_alpha(const std::string& path) {
+    const auto decode_alpha = [](const auto&... file) {
+        return to_alpha(decode_header(file...).info, [&](int most) { return decode(file..., most); });
+    };
+    return with_memory(path, [&] { return from_file(path, decode_alpha); });
+}
+
+std::optional<Image> load_alpha_from_memory(std::span<const std::byte> bytes, const std::string& name) {
+    const FileFormat format = require_readable_in_memory(bytes, name);
+    return with_memory(name, [&] {
+        return to_alpha(decode_info_stb(format, bytes, name),
+                        [&](int most) { return decode_stb(format, bytes, name, most); });
+    });
 }
 
 ImageInfo load_image_info(const std::string& path) { return from_file(path, decode_header).info; }

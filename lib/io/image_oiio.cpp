@@ -165,7 +165,7 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
-    if (is_for_stb(format)) return decode_stb(format, bytes, path);
+    if (is_for_stb(format)) return decode_stb(format, bytes, path, most);
     BoundedReader memory(bytes);
     return read(*open(format, memory, path), bytes.size(), path, most);
 }

@@ -11,14 +11,26 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// The words before a texture's name: map_Kd and its options (Wavefront, MTL Material Format v4.2, 1995, "Options for
-// texture map statements").
-std::size_t words_before_name(const Words& words) {
-    std::size_t place = 1;
+// What stands before a texture's name.
+struct MapOptions {
+    std::size_t words = 1;       // with map_Kd itself
+    std::size_t multiplier = 0;  // the place of the number behind -bm
+    bool are_there_others = false;
+};
+
+// Wavefront, MTL Material Format v4.2, 1995, "Options for texture map statements".
+MapOptions options_of(const Words& words) {
+    MapOptions options;
+    std::size_t& place = options.words;
     while (place < words.size()) {
         const std::string_view option = words[place];
-        if (is_one_of(option, {"-blendu", "-blendv", "-bm", "-boost", "-cc", "-clamp", "-colorspace", "-imfchan",
-                               "-texres", "-type"})) {
+        if (option == "-bm") {
+            options.multiplier = place + 1;
+            place += 2;
+            continue;
+        }
+        if (is_one_of(option, {"-blendu", "-blendv", "-boost", "-cc", "-clamp", "-colorspace", "-imfchan", "-texres",
+                               "-type"})) {
             place += 2;
         } else if (option == "-mm") {
             place += 3;
@@ -28,8 +40,10 @@ std::size_t words_before_name(const Words& words) {
         } else {
             break;
         }
+        options.are_there_others = true;
     }
-    return std::min(place, words.size());
+    place = std::min(place, words.size());
+    return options;
 }
 
 class MtlParser {
@@ -49,8 +63,8 @@ private:
         const std::string_view key = words[0];
         if (key == "newmtl") {
             material(std::string(lines_.name()));
-        } else if (key == "map_Kd") {
-            map(words);
+        } else if (MtlMap* const to = map_of(key)) {
+            map(words, *to);
         } else if (key == "Kd") {
             color(words, current().diffuse);
         } else if (key == "Ks") {
@@ -61,6 +75,10 @@ private:
             current().shininess = number(words);
         } else if (key == "Ni") {
             current().index = number(words);
+        } else if (key == "Pr") {
+            current().roughness = share(words);
+        } else if (key == "Pm") {
+            current().metallic = share(words);
         } else if (key == "d") {
             current().opacity = number(words);
         } else if (key == "Tr") {
@@ -86,13 +104,23 @@ private:
         current_->file = path_;
     }
 
-    void map(const Words& words) {
-        const std::size_t before_name = words_before_name(words);
-        const std::string name(lines_.name(before_name));
-        if (name.empty()) return warn("map_Kd without the name of a file");
-        if (before_name > 1) warn("the options of map_Kd are not used");
-        current().diffuse_map = name;
-        note(words[0]);
+    MtlMap* map_of(std::string_view key) {
+        if (key == "map_Kd") return &current().diffuse_map;
+        if (key == "map_Ks") return &current().specular_map;
+        if (key == "map_d") return &current().opacity_map;
+        if (is_one_of(key, {"map_Bump", "map_bump", "bump"})) return &current().bump;
+        return key == "norm" ? &current().normals : nullptr;
+    }
+
+    void map(const Words& words, MtlMap& to) {
+        const MapOptions options = options_of(words);
+        const std::string word(words[0]), name(lines_.name(options.words));
+        if (name.empty()) return warn(word + " without the name of a file");
+        const bool has_height = &to == &current().bump && options.multiplier > 0;
+        if (options.are_there_others || (options.multiplier > 0 && !has_height))
+            warn("the options of " + word + " are not used" + (has_height ? ", but for -bm" : ""));
+        to = {name, word, has_height ? double{lines_.require_number(words[options.multiplier])} : 1};
+        note(word);
     }
 
     void color(const Words& words, Color& to) {
@@ -111,6 +139,12 @@ private:
         const double value = lines_.require_number(words[place]);
         note(words[0]);
         return value;
+    }
+
+    double share(const Words& words) {
+        const double value = number(words), within = std::clamp(value, 0.0, 1.0);
+        if (within != value) warn(std::string(words[0]) + " was clamped");
+        return within;
     }
 
     // d stands, wherever it is; some programs write the same number as d and as Tr.

@@ -2,22 +2,29 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/model_reader.h"
-#include "io/mtl.h"
+#include "io/model_textures.h"
+#include "io/mtl_look.h"
 #include "io/obj_reader.h"
 #include "io/text_lines.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
-#include "limn/material/dielectric.h"
+#include "limn/material/alpha_mask.h"
 #include "limn/material/diffuse_light.h"
 #include "limn/material/lambertian.h"
-#include "limn/material/metal.h"
+#include "limn/material/normal_map.h"
+#include "limn/material/plastic.h"
+#include "limn/material/rough_conductor.h"
+#include "limn/material/rough_dielectric.h"
 #include "limn/texture/image_texture.h"
+#include "limn/texture/solid.h"
 
 namespace limn {
 
@@ -36,41 +43,10 @@ bool exists(const std::string& path) {
     return fs::exists(path, unusable);
 }
 
-// What becomes of a material: the table of docs/models.md.
-enum class Look { light, glass, metal, diffuse };
+using MaterialPtr = std::shared_ptr<const Material>;
+using TexturePtr = std::shared_ptr<const Texture>;
 
-Look look_of(const MtlMaterial& m, const Color& emission, const Color& diffuse, const Color& specular) {
-    if (!is_black(emission)) return Look::light;
-    if (!m.diffuse_map.empty()) return Look::diffuse;
-    if (!m.illumination) {
-        if (m.opacity < 1) return Look::glass;
-        return luminance(specular) > luminance(diffuse) ? Look::metal : Look::diffuse;
-    }
-    switch (*m.illumination) {
-        case 3:
-        case 5:
-        case 8: return is_black(specular) ? Look::diffuse : Look::metal;
-        case 4:
-        case 6:
-        case 7:
-        case 9: return Look::glass;
-        default: return Look::diffuse;
-    }
-}
-
-// The words that limn knows, but that this material has no use for.
-std::vector<std::string> words_without_use(const MtlMaterial& m, Look look, const Color& specular) {
-    const int illumination = m.illumination.value_or(-1);
-    std::vector<std::string> words;
-    if (look == Look::light && !m.diffuse_map.empty()) words.emplace_back("map_Kd");
-    if (look != Look::glass && m.opacity < 1) words.emplace_back(m.lines.contains("d") ? "d" : "Tr");
-    // Without Ks, 0, 1 and 10 say.
-    const bool has_highlight = illumination != 0 && illumination != 1 && illumination != 10;
-    if (look == Look::diffuse && has_highlight && !is_black(specular)) words.emplace_back("Ks");
-    const bool is_as_illum_says = illumination <= 2 || look == Look::metal || look == Look::glass;
-    if (!is_as_illum_says) words.emplace_back("illum");
-    return words;
-}
+enum class Use { color, opacity, normals, bumps };  // of a picture
 
 class MaterialLoader {
 public:
@@ -92,8 +68,8 @@ public:
         }
     }
 
-    std::vector<std::shared_ptr<const Material>> make_all() {
-        std::vector<std::shared_ptr<const Material>> made{default_material(options_)};
+    std::vector<MaterialPtr> make_all() {
+        std::vector<MaterialPtr> made{default_material(options_)};
         std::vector<std::string> unknown;
         for (const std::string& name : model_.materials) {
             const auto found = materials_.find(name);
@@ -122,29 +98,69 @@ private:
         parse_mtl(text, path, materials_, model_.warnings);
     }
 
-    std::shared_ptr<const Material> make(const std::string& name, const MtlMaterial& m) {
-        const Color emission = clamped(m.emission, HUGE_VAL, "Ke", name);
-        const Color diffuse = clamped(m.diffuse, 1, "Kd", name);
-        const Color specular = clamped(m.specular, 1, "Ks", name);
-        const Look look = look_of(m, emission, diffuse, specular);
+    MaterialPtr make(const std::string& name, const MtlMaterial& m) {
+        const MtlColors colors{clamped(m.emission, HUGE_VAL, "Ke", name), clamped(m.diffuse, 1, "Kd", name),
+                               clamped(m.specular, 1, "Ks", name)};
+        const MtlLook look = look_of(m, colors);
         for (const MtlMaterial::Word& word : m.unused) count_unused(m, name, word);
-        for (const std::string& word : words_without_use(m, look, specular))
-            count_unused(m, name, {word, m.lines.at(word)});
+        for (const MtlMaterial::Word& word : words_without_use(m, look)) count_unused(m, name, word);
+        if (look == MtlLook::light) return std::make_shared<DiffuseLight>(colors.emission);
+        const MaterialPtr material = with_bumps(scattering(m, look, colors), m);
+        return look == MtlLook::glass ? material : masked(material, m, name);
+    }
+
+    MaterialPtr scattering(const MtlMaterial& m, MtlLook look, const MtlColors& colors) {
+        const double index = m.index > 1 ? m.index : 1.5, roughness = roughness_of(m);
         switch (look) {
-            case Look::light: return std::make_shared<DiffuseLight>(emission);
-            case Look::glass: return std::make_shared<Dielectric>(m.index > 1 ? m.index : 1.5);
-            // The roughness of the microfacets whose lobe is as wide as Phong's with exponent Ns (Walter et al.,
-            // Microfacet Models for Refraction through Rough Surfaces, EGSR 2007, section 5.2).
-            case Look::metal:
-                return std::make_shared<Metal>(specular,
-                                               std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2))));
-            case Look::diffuse: break;
+            case MtlLook::glass: return std::make_shared<RoughDielectric>(index, m.roughness.value_or(0));
+            case MtlLook::metal: return std::make_shared<RoughConductor>(specular(m, colors), roughness);
+            case MtlLook::metallic_roughness:
+                return metallic_roughness_material(base(m, colors), *m.metallic, roughness, index);
+            case MtlLook::plastic:
+                return std::make_shared<Plastic>(base(m, colors), roughness, index, specular(m, colors));
+            default: return std::make_shared<Lambertian>(base(m, colors));
         }
-        if (options_.textures && !m.diffuse_map.empty())
-            if (const auto image = load_texture(beside(m.file, m.diffuse_map)))
-                return std::make_shared<Lambertian>(std::make_shared<ImageTexture>(image));
-        const bool is_unsaid = !m.diffuse_map.empty() && !m.lines.contains("Kd");
-        return std::make_shared<Lambertian>(is_unsaid ? Color{0.6, 0.6, 0.6} : diffuse);
+    }
+
+    TexturePtr base(const MtlMaterial& m, const MtlColors& colors) {
+        const bool is_unsaid = !m.diffuse_map.name.empty() && !m.lines.contains("Kd");
+        return color(m, m.diffuse_map, is_unsaid ? Color{0.6, 0.6, 0.6} : colors.diffuse);
+    }
+
+    TexturePtr specular(const MtlMaterial& m, const MtlColors& colors) {
+        return color(m, m.specular_map, colors.specular);
+    }
+
+    // Of the picture, if there is one that can be read.
+    TexturePtr color(const MtlMaterial& m, const MtlMap& map, const Color& otherwise) {
+        const TexturePtr picture = texture(m, map, Use::color, 1, [](const std::string& path) {
+            return scaled(load_image(path), {1, 1, 1}, 1);
+        });
+        return picture ? picture : std::make_shared<SolidColor>(otherwise);
+    }
+
+    MaterialPtr with_bumps(const MaterialPtr& material, const MtlMaterial& m) {
+        TexturePtr normals = texture(m, m.normals, Use::normals, 1,
+                                     [](const std::string& path) { return load_image(path, Encoding::raw); });
+        if (m.normals.name.empty())
+            normals = texture(m, m.bump, Use::bumps, m.bump.height, [&](const std::string& path) {
+                const Image picture = load_image(path, Encoding::raw);
+                // Blender names the pictures of its normal maps so.
+                return holds_normals(picture) ? scaled_normals(picture, m.bump.height)
+                                              : normals_of_heights(picture, m.bump.height);
+            });
+        return normals ? std::make_shared<NormalMap>(material, normals) : material;
+    }
+
+    MaterialPtr masked(const MaterialPtr& material, const MtlMaterial& m, const std::string& name) {
+        const double share = std::clamp(m.opacity, 0.0, 1.0);
+        const TexturePtr opacity = texture(m, m.opacity_map, Use::opacity, share, [&](const std::string& path) {
+            const std::optional<Image> alpha = load_alpha(path);
+            return scaled(alpha ? *alpha : grey(load_image(path, Encoding::raw)), {share, share, share}, 1);
+        });
+        if (opacity) return std::make_shared<AlphaMask>(material, opacity);
+        if (share == 0) model_.warnings.push_back("material " + in_quotes(name) + " is invisible, for its d is 0");
+        return share < 1 ? std::make_shared<AlphaMask>(material, share) : material;
     }
 
     // One warning for each word of a file.
@@ -180,18 +196,20 @@ private:
         return result;
     }
 
-    // Null, with a warning, if it cannot be read.
-    std::shared_ptr<const Image> load_texture(const std::string& path) {
-        const auto [found, is_new] = textures_.try_emplace(path);
+    // What `load` makes of a picture; null if there is none, and, with a warning, if it cannot be read. \param number
+    // that `load` depends on
+    template <class Load>
+    TexturePtr texture(const MtlMaterial& m, const MtlMap& map, Use use, double number, const Load& load) {
+        if (map.name.empty() || !options_.textures) return nullptr;
+        const std::string path = beside(m.file, map.name);
+        const auto [found, is_new] = textures_.try_emplace({path, use, number});
         if (!is_new) return found->second;
-        model_.files.push_back(path);
+        if (std::ranges::find(model_.files, path) == model_.files.end()) model_.files.push_back(path);
         try {
-            Image image = load_image(path);
-            // An albedo; a floating-point file may hold anything, NaN included.
-            for (float& v : image.values()) v = v > 0 ? std::min(v, 1.0f) : 0;
-            found->second = std::make_shared<const Image>(std::move(image));
+            found->second = std::make_shared<ImageTexture>(load(path));
         } catch (const FileError& error) {
-            model_.warnings.emplace_back(error.what());
+            if (std::ranges::find(model_.warnings, error.what()) == model_.warnings.end())
+                model_.warnings.emplace_back(error.what());
         }
         return found->second;
     }
@@ -206,7 +224,7 @@ private:
     std::vector<Unused> unused_;
     std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // by file and word
     std::map<std::string, MtlMaterial> materials_;
-    std::map<std::string, std::shared_ptr<const Image>> textures_;
+    std::map<std::tuple<std::string, Use, double>, TexturePtr> textures_;
 };
 
 }  // namespace

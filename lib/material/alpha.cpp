@@ -1,6 +1,8 @@
 #include "material/alpha.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
 #include "bsdf/albedo_table.h"
 #include "material/albedo.h"
@@ -18,6 +20,16 @@ Alphas checked_alphas(const Roughness& r, const std::string& material) {
 std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(const Alphas& alpha, double eta) {
     return std::make_shared<const bsdf::AlbedoTable>(
         bsdf::albedo_of(std::max(alpha.x, kLeastAlpha), std::max(alpha.y, kLeastAlpha), eta));
+}
+
+std::shared_ptr<const bsdf::AlbedoTable> albedo_table_by_roughness(double eta) {
+    static std::mutex mutex;
+    static std::map<double, std::weak_ptr<const bsdf::AlbedoTable>> tables;
+    const std::lock_guard lock(mutex);
+    std::weak_ptr<const bsdf::AlbedoTable>& known = tables[eta];
+    std::shared_ptr<const bsdf::AlbedoTable> table = known.lock();
+    if (!table) known = table = std::make_shared<const bsdf::AlbedoTable>(bsdf::albedo_by_roughness(eta));
+    return table;
 }
 
 }  // namespace limn

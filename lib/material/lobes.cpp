@@ -6,14 +6,15 @@
 #include "bsdf/lobe.h"
 
 // X(namespace of the lobe, kind) for each material that scatters.
-#define LIMN_FOR_EACH_LOBE(X)             \
-    X(lambertian, "lambertian")           \
-    X(metal, "metal")                     \
-    X(dielectric, "dielectric")           \
-    X(isotropic, "isotropic")             \
-    X(oren_nayar, "oren-nayar")           \
-    X(plastic, "plastic")                 \
-    X(rough_conductor, "rough-conductor") \
+#define LIMN_FOR_EACH_LOBE(X)                   \
+    X(lambertian, "lambertian")                 \
+    X(metal, "metal")                           \
+    X(dielectric, "dielectric")                 \
+    X(isotropic, "isotropic")                   \
+    X(metallic_roughness, "metallic-roughness") \
+    X(oren_nayar, "oren-nayar")                 \
+    X(plastic, "plastic")                       \
+    X(rough_conductor, "rough-conductor")       \
     X(rough_dielectric, "rough-dielectric")
 
 namespace limn {

@@ -15,11 +15,6 @@ namespace limn::plastic::HWY_NAMESPACE {
 
 using namespace bsdf::HWY_NAMESPACE;
 
-template <class N>
-HWY_INLINE N mean_of(const Vector<N>& color) {
-    return (color.x + color.y + color.z) / 3.0;
-}
-
 // The parameter is the coat's index, the second texture what its reflection is multiplied by.
 template <class N>
 struct Vertex : Facets<N> {
@@ -35,16 +30,14 @@ struct Vertex : Facets<N> {
         const Vector<N> in = frame.to_local(world), &out = frame.out;
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0);
         const Vector<N> m = normalize(out + in);
-        const N cos_i = max(in.z, 0.0), cosine_pdf = cos_i / kPi;
+        const N cosine_pdf = max(in.z, 0.0) / kPi;
         // Both ways through the coat; what is reflected back from below it is scattered again.
-        const N through = (1.0 - coat) * (1.0 - this->albedo(in)) / max(1.0 - this->mean_albedo(), 1e-15);
-        const N shine = select(smooth, 0.0,
-                               reflectance_exact(dot(out, m), s.parameter) * surface.density(m) *
-                                   surface.masking_over_cosines(out, in) * cos_i);
+        const N through = spread_evenly(1.0 - coat, 1.0 - this->albedo(in), this->mean_albedo(), cosine_pdf);
+        const N shine =
+            select(smooth, 0.0, reflectance_exact(dot(out, m), s.parameter) * surface.scattered_once(out, in, m));
         const N mirrored = select(smooth, 0.0, surface.mirrored_pdf(out, m));
         const N pdf = by_coat * mirrored + (1.0 - by_coat) * cosine_pdf;
-        return {weight_where(above, shine * s.second_texture + (through * cosine_pdf) * s.albedo),
-                select(above, pdf, 0.0)};
+        return {weight_where(above, shine * s.second_texture + through * s.albedo), select(above, pdf, 0.0)};
     }
 };
 

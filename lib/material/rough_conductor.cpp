@@ -24,14 +24,13 @@ struct Vertex : Facets<N> {
     HWY_INLINE explicit Vertex(const LobeInput<N>& input) : Facets<N>(input), lost(1.0 - this->albedo(frame.out)) {}
 
     // Of one component: what facets reflect, times the light that was scattered once, and what multiple scattering adds
-    // to it. Each scattering more reflects `mean` of what did not leave (Hill, A Multifaceted Exploration, part 4,
-    // 2018).
+    // to it.
     HWY_INLINE N reflected(N reflectance, N tint, N cosine, N once, N often, N mean_albedo) const {
         const ConductorIndex<N> index(min(reflectance, 1 - 0x1p-53), tint);
         const N mean = mean_over_cosines<N>([&](N c) HWY_ATTR { return reflectance_conductor(c, index); });
-        const N again = mean * mean * mean_albedo / (1.0 - mean * (1.0 - mean_albedo));
         const Mask<N> all = reflectance >= 1.0;
-        return select(all, 1.0, reflectance_conductor(cosine, index)) * once + select(all, 1.0, again) * often;
+        return select(all, 1.0, reflectance_conductor(cosine, index)) * once +
+               select(all, 1.0, reflected_often(mean, mean_albedo)) * often;
     }
     HWY_INLINE Vector<N> reflected(N cosine, N once, N often, N mean_albedo) const {
         const N* tint = s.details;
@@ -43,11 +42,9 @@ struct Vertex : Facets<N> {
         const Vector<N> in = frame.to_local(world), &out = frame.out;
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0) & !smooth;
         const Vector<N> m = normalize(out + in);
-        const N cos_i = max(in.z, 0.0);
-        const N once = surface.density(m) * surface.masking_over_cosines(out, in) * cos_i;
-        // Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017.
-        const N mean = this->mean_albedo(), lost_in = 1.0 - this->albedo(in), cosine_pdf = cos_i / kPi;
-        const N often = lost * lost_in / max(1.0 - mean, 1e-15) * cosine_pdf;
+        const N once = surface.scattered_once(out, in, m);
+        const N mean = this->mean_albedo(), cosine_pdf = max(in.z, 0.0) / kPi;
+        const N often = spread_evenly(lost, 1.0 - this->albedo(in), mean, cosine_pdf);
         const N pdf = (1.0 - lost) * surface.mirrored_pdf(out, m) + lost * cosine_pdf;
         const Vector<N> value = reflected(clamp_cosine(dot(out, m)), once, often, mean);
         return {weight_where(above, value), select(above, pdf, 0.0)};

@@ -9,10 +9,6 @@ using namespace limn::test;
 
 namespace {
 
-const std::string kSquare = embedded_square();
-
-std::string with(const std::string& what, const std::string& by) { return replaced(kSquare, what, by); }
-
 // The square with other bytes behind it.
 std::string of_bytes(const std::string& bytes) { return square_gltf("\"uri\": \"" + data_uri(bytes) + "\", "); }
 

@@ -1,9 +1,15 @@
 // glTF files made by the tests.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "broken_models.h"
+#include "limn/core/color.h"
+#include "limn/image/image.h"
+#include "limn/io/image_io.h"
+#include "limn/io/model.h"
+#include "support/folder.h"
 
 namespace limn::test {
 
@@ -54,6 +60,50 @@ inline std::string glb_chunk(const std::string& type, std::string data, char fil
 inline std::string glb(const std::string& json, const std::string& binary) {
     const std::string chunks = glb_chunk("JSON", json, ' ') + glb_chunk(std::string("BIN\0", 4), binary, '\0');
     return "glTF" + little(2, 4) + little(12 + chunks.size(), 4) + chunks;
+}
+
+inline const std::string kSquare = embedded_square();
+
+// The square with changes.
+inline std::string with(const std::string& what, const std::string& by) { return replaced(kSquare, what, by); }
+
+inline std::string with_material(const std::string& members) {
+    return with(R"("name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "metallicFactor": 0})",
+                members);
+}
+
+inline Model load(const std::string& bytes, const ModelOptions& options = {}) {
+    const Folder folder;
+    return load_model(folder.write("a.model", bytes), options);
+}
+
+template <class Kind>
+bool is_of(const Model& model) {
+    return dynamic_cast<const Kind*>(model.meshes.at(0)->materials().at(1).get()) != nullptr;
+}
+
+inline double distance(const Color& a, const Color& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+}
+
+// Red, green; blue, white: from the top left, in bytes of a PNG.
+inline std::string four_pixels(const Folder& folder) {
+    Image image(2, 2);
+    image.set(0, 0, {1, 0, 0});
+    image.set(1, 0, {0, 1, 0});
+    image.set(0, 1, {0, 0, 1});
+    image.set(1, 1, {1, 1, 1});
+    save_image(image, folder.path("four.png"));
+    return folder.read("four.png");
+}
+
+inline const std::string kTextured =
+    R"("pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}})";
+
+inline std::string with_texture(const std::string& image, const std::string& material = kTextured) {
+    return replaced(with_material(material), "\"materials\"",
+                    R"("textures": [{"source": 0, "sampler": 0}], "samplers": [{"magFilter": 9728}],
+"images": [{)" + image + "}], \"materials\"");
 }
 
 }  // namespace limn::test

@@ -3,6 +3,7 @@
 #include "io/image_codec.h"
 #include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "make_png.h"
 #include "support/folder.h"
 
 using namespace limn;
@@ -47,6 +48,59 @@ TEST_CASE("PNG: alpha is kept, and colours are divided by it", "[io][image][alph
     CHECK(names_of(path) == ChannelNames{"R", "G", "B"});
 }
 
+TEST_CASE("load_alpha: the alpha of a PNG, of grey and coloured ones, from file and memory", "[io][image][alpha]") {
+    const Folder folder;
+    const std::string path = folder.path("a.png");
+    const auto check = [&](double tolerance) {
+        const std::string bytes = folder.read("a.png");
+        for (const auto& alpha : {load_alpha(path), load_alpha_from_memory(std::as_bytes(std::span(bytes)))}) {
+            REQUIRE(alpha);
+            REQUIRE(alpha->width() == 2);
+            REQUIRE(alpha->height() == 2);
+            for (std::size_t i = 0; i < 12; ++i) CHECK(alpha->values()[i] == Approx(kAlpha[i / 3]).margin(tolerance));
+        }
+    };
+    save_image(premultiplied(), path, {.alpha = kAlpha});
+    check(0.002);  // in 8 bits, without any transfer function
+    save_image(premultiplied(), path);
+    CHECK_FALSE(load_alpha(path));
+    // Grey and alpha of 16 bits.
+    std::string row;
+    for (int y = 0; y < 2; ++y) {
+        row += '\0';  // no filter
+        for (int x = 0; x < 2; ++x) {
+            const auto alpha = static_cast<unsigned>(std::lround(65535 * kAlpha[static_cast<std::size_t>(2 * y + x)]));
+            row += std::string("\x12\x34", 2) + static_cast<char>(alpha >> 8) + static_cast<char>(alpha & 255);
+        }
+    }
+    folder.write("a.png",
+                 make_png({.width = 2, .height = 2, .bit_depth = 16, .color = PngColor::grey_alpha, .data = row}));
+    check(1e-5);
+    CHECK(load_image(path).at(0, 0).r == Approx(srgb_decode(0x1234 / 65535.0)));
+}
+
+TEST_CASE("load_alpha: a TGA has alpha where it has four channels, a broken file is refused", "[io][image][alpha]") {
+    const Folder folder;
+    const auto tga = [](int channels, int alpha_bits) {
+        std::string bytes(18, '\0');
+        bytes[2] = 2, bytes[12] = 1, bytes[14] = 2;  // uncompressed colours, 1 x 2, the lowest row first
+        bytes[16] = static_cast<char>(8 * channels), bytes[17] = static_cast<char>(alpha_bits);
+        for (const char alpha : {'\x33', '\xff'}) {
+            bytes += "\x01\x02\x03";
+            if (channels == 4) bytes += alpha;
+        }
+        return bytes;
+    };
+    const auto alpha = load_alpha(folder.write("a.tga", tga(4, 8)));
+    REQUIRE(alpha);
+    CHECK(alpha->at(0, 0) == Color{1, 1, 1});
+    CHECK(alpha->at(0, 1).g == Approx(0.2).epsilon(1e-6));
+    CHECK_FALSE(load_alpha(folder.write("a.tga", tga(3, 0))));
+    CHECK_THROWS_AS(load_alpha(folder.write("a.tga", tga(4, 8).substr(0, 20))), FileError);
+    CHECK_THROWS_AS(load_alpha(folder.path("none.png")), FileError);
+    CHECK_THROWS_WITH(load_alpha_from_memory({}, "that"), Catch::StartsWith("that: "));
+}
+
 TEST_CASE("PNG: exposure brightens what is written", "[io][image]") {
     const Folder folder;
     save_image(Image(1, 1, {0.25, 0.125, 0.0625}), folder.path("a.png"), {.exposure = 2});
@@ -89,6 +143,18 @@ TEST_CASE("EXR: alpha is a channel beside colours that are multiplied by it, and
         for (const ImageChannel& c : load_image_info(path).channels)
             CHECK(c.type == (half && c.name.size() == 1 ? "half" : "float"));
     }
+}
+
+TEST_CASE("load_alpha: of an EXR, also behind other channels, as stored", "[io][image][alpha]") {
+    const Folder folder;
+    const std::string path = folder.path("a.exr");
+    save_image(premultiplied(), path, {.layers = {{"B.depth", {1, 2, 3, 4}}}, .alpha = {-1, 0.25F, 2, 1}});
+    const auto alpha = load_alpha(path);
+    REQUIRE(alpha);
+    CHECK(alpha->at(0, 0) == Color{-1, -1, -1});
+    CHECK(alpha->at(0, 1) == Color{2, 2, 2});
+    save_image(premultiplied(), path);
+    CHECK_FALSE(load_alpha(path));
 }
 
 TEST_CASE("EXR: of a part the data window is its own, and the display window that of the whole", "[io][image]") {

@@ -1,4 +1,5 @@
 // The tables of docs/models.md, line by line.
+#include <array>
 #include <cmath>
 
 #include "catch.h"
@@ -8,6 +9,7 @@
 #include "limn/material/dielectric.h"
 #include "limn/material/lambertian.h"
 #include "limn/record_sink.h"
+#include "lowered_material.h"
 #include "support/folder.h"
 
 using namespace limn;
@@ -57,82 +59,108 @@ Model load_one(const Folder& folder, const std::string& mtl) {
 
 }  // namespace
 
-TEST_CASE("MTL: illum decides what a material is, Ke and map_Kd before it", "[io][obj][mtl]") {
-    constexpr std::string_view kMatte = "lambertian", kGlass = "dielectric";
+TEST_CASE("MTL: illum decides what a material is, Ke before it", "[io][obj][mtl]") {
+    constexpr std::string_view kMatte = "lambertian", kGlass = "rough-dielectric", kClear = "dielectric",
+                               kPlastic = "plastic", kMetal = "rough-conductor", kMixture = "metallic-roughness";
     struct Row {
         std::string mtl;
         std::string_view kind;
         Color color;
-        double parameter;
+        double index = 0, alpha = 0, opacity = 1;
         std::vector<std::string> unused{};  // words that a warning names, with their lines
     };
     const Row rows[] = {
-        {"illum 0\nKd .5 .25 1\n", kMatte, {.5, .25, 1}, 0},
-        {"illum 1\nKd .5 .25 1\nKs 1 1 1\nNs 9\n", kMatte, {.5, .25, 1}, 0},
-        {"illum 2\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0},
-        {"illum 2\nKd .5 .5 .5\nKs .25 .25 .25\nNs 100\n", kMatte, {.5, .5, .5}, 0, {"4: Ks"}},
+        {"illum 0\nKd .5 .25 1\n", kMatte, {.5, .25, 1}},
+        {"illum 1\nKd .5 .25 1\nKs 1 1 1\nNs 9\n", kMatte, {.5, .25, 1}},
+        {"illum 1\nKd .5 .25 1\nPr .5\n", kMatte, {.5, .25, 1}, 0, 0, 1, {"4: Pr"}},
+        {"illum 2\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}},
+        {"illum 2\nKd .5 .5 .5\nKs .25 .25 .25\nNs 6\n", kPlastic, {.5, .5, .5}, 1.5, 0.5},
+        {"illum 2\nKd .5 .5 .5\nKs .25 .25 .25\nNs 6\nPr .5\n", kPlastic, {.5, .5, .5}, 1.5, 0.25},
+        {"illum 2\nKd .5 .5 .5\nKs .25 .25 .25\n", kPlastic, {.5, .5, .5}, 1.5, 1},
         // As Blender writes them: never a grey mirror, nor clear glass.
-        {"Ns 250\nKa 1 1 1\nKd .125 .25 .5\nKs .5 .5 .5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n",
-         kMatte,
+        {"Ns 198\nKa 1 1 1\nKd .125 .25 .5\nKs .5 .5 .5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n",
+         kPlastic,
          {.125, .25, .5},
-         0,
-         {"5: Ks"}},
-        {"Kd .125 .25 .5\nKs .5 .5 .5\nd .98\nillum 2\n", kMatte, {.125, .25, .5}, 0, {"4: d", "3: Ks"}},
-        {"illum 3\nKd .5 .5 .5\nKs .25 .5 .25\nNs 1022\n", "metal", {.25, .5, .25}, 0.04419417382415922},
-        {"illum 5\nKs 1 1 1\nNs 0\n", "metal", {1, 1, 1}, 1},
-        {"illum 8\nKs 1 1 1\nNs 6\n", "metal", {1, 1, 1}, 0.5},
-        {"illum 3\nKs 1 1 1\nNs -5\n", "metal", {1, 1, 1}, 1},
-        {"illum 3\nKs 1 1 1\nNs 6\nd .5\n", "metal", {1, 1, 1}, .5, {"5: d"}},
-        {"illum 3\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0, {"2: illum"}},
-        {"illum 4\nKd 1 1 1\n", kGlass, {}, 1.5},
-        {"illum 6\nNi 2\n", kGlass, {}, 2},
-        {"illum 7\nNi 0.5\nKs 1 1 1\n", kGlass, {}, 1.5},
-        {"illum 9\nNi 2\nd .25\n", kGlass, {}, 2},
-        {"illum 10\nKd .5 .25 1\n", kMatte, {.5, .25, 1}, 0, {"2: illum"}},
-        {"Kd 0.5 0.25 1\n", kMatte, {0.5, 0.25, 1}, 0},
-        {"Kd 0.5\n", kMatte, {0.5, 0.5, 0.5}, 0},
-        {"Kd .5 .5 .5\nKs .25 .25 .25\n", kMatte, {.5, .5, .5}, 0, {"3: Ks"}},
-        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", "metal", {.5, .5, .5}, 0.5},
-        {"d 0.5\nNi 1.25\n", kGlass, {}, 1.25},
-        {"d -halo 0.5\nNi 1.25\n", kGlass, {}, 1.25},
-        {"Tr 0.5\nNi 1\n", kGlass, {}, 1.5},
-        {"Tr 0\nKd 1 0 1\nNi 1.5\n", kMatte, {1, 0, 1}, 0},
-        {"d 1\nKd 1 0 1\nNi 1.5\n", kMatte, {1, 0, 1}, 0},
-        {"d 1\nTr 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
-        {"Tr 1\nd 1\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0},
-        {"illum 1\nTr 0.5\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, {"3: Tr"}},
-        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", "diffuse-light", {4, 2, 1}, 0, {"4: d", "5: illum"}},
-        {"Ke 4 2 1\nKs 1 1 1\nillum 2\n", "diffuse-light", {4, 2, 1}, 0},
-        {"Ke 4 2 1\nmap_Kd none.png\n", "diffuse-light", {4, 2, 1}, 0, {"3: map_Kd"}},
-        {"Ke 0 0 0\nKd 1 1 1\n", kMatte, {1, 1, 1}, 0},
+         1.45,
+         0.1},
+        {"Kd .125 .25 .5\nKs .5 .5 .5\nNs 6\nd .75\nillum 2\n", kPlastic, {.125, .25, .5}, 1.5, .5, .75},
+        {"illum 3\nKd .5 .5 .5\nKs .25 .5 .25\nNs 1022\n", kMetal, {.25, .5, .25}, 0, 0.04419417382415922},
+        {"illum 5\nKs 1 1 1\nNs 0\n", kMetal, {1, 1, 1}, 0, 1},
+        {"illum 8\nKs 1 1 1\nNs 6\n", kMetal, {1, 1, 1}, 0, 0.5},
+        {"illum 3\nKs 1 1 1\nNs -5\n", kMetal, {1, 1, 1}, 0, 1},
+        {"illum 3\nKs 1 1 1\nNs 6\nPr 0\n", kMetal, {1, 1, 1}, 0, 0},
+        {"illum 3\nKs 1 1 1\nNs 6\nd .5\n", kMetal, {1, 1, 1}, 0, .5, .5},
+        {"illum 3\nKd .5 .25 1\nKs 0 0 0\n", kMatte, {.5, .25, 1}, 0, 0, 1, {"2: illum"}},
+        {"illum 4\nKd 1 1 1\n", kClear, {}, 1.5},
+        {"illum 6\nNi 2\n", kClear, {}, 2},
+        {"illum 7\nNi 0.5\nKs 1 1 1\n", kClear, {}, 1.5},
+        {"illum 7\nNi 2\nPr .5\nPm 1\n", kGlass, {}, 2, .25, 1, {"5: Pm"}},
+        {"illum 9\nNi 2\nd .25\n", kClear, {}, 2},
+        {"illum 10\nKd .5 .25 1\n", kMatte, {.5, .25, 1}, 0, 0, 1, {"2: illum"}},
+        {"illum 2\nKd .5 .25 1\nKs .5 .5 .5\nPr .5\nPm .25\n", kMixture, {.5, .25, 1}, 1.5, .5},
+        {"illum 3\nKd .5 .25 1\nKs .5 .5 .5\nPr .5\nPm 1\nNi 1.5\n", kMetal, {.5, .25, 1}, 0, .25},
+        {"Kd .5 .25 1\nPm 0\nPr 0\nNi 1.4\n", kPlastic, {.5, .25, 1}, 1.4, 0},
+        {"Kd 0.5 0.25 1\n", kMatte, {0.5, 0.25, 1}},
+        {"Kd 0.5\n", kMatte, {0.5, 0.5, 0.5}},
+        {"Kd .5 .5 .5\nKs .25 .25 .25\nNs 6\n", kPlastic, {.5, .5, .5}, 1.5, .5},
+        {"Kd .25 .25 .25\nKs .5 .5 .5\nNs 6\n", kMetal, {.5, .5, .5}, 0, 0.5},
+        {"d 0.5\nNi 1.25\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, 0, 0.5},
+        {"d -halo 0.5\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, 0, 0.5},
+        {"Tr 0.25\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, 0, 0.75},
+        {"Tr 0\nKd 1 0 1\nNi 1.5\n", kMatte, {1, 0, 1}},
+        {"d 1\nTr 1\nKd 1 0 1\n", kMatte, {1, 0, 1}},
+        {"Tr 1\nd 1\nKd 1 0 1\n", kMatte, {1, 0, 1}},
+        {"illum 1\nTr 0.5\nKd 1 0 1\n", kMatte, {1, 0, 1}, 0, 0, 0.5},
+        {"Ke 4 2 1\nKd 1 1 1\nd 0.5\nillum 3\n", "diffuse-light", {4, 2, 1}, 0, 0, 1, {"4: d", "5: illum"}},
+        {"Ke 4 2 1\nKs 1 1 1\nillum 2\n", "diffuse-light", {4, 2, 1}},
+        {"Ke 4 2 1\nmap_Kd none.png\nbump none.png\n", "diffuse-light", {4, 2, 1}, 0, 0, 1, {"3: map_Kd", "4: bump"}},
+        {"Ke 0 0 0\nKd 1 1 1\n", kMatte, {1, 1, 1}},
     };
     const Folder folder;
     for (const Row& row : rows) {
         CAPTURE(row.mtl);
         const Model model = load_one(folder, row.mtl);
-        const Lowered lowered(model);
+        const LoweredMaterial lowered(model);
         std::vector<std::string> warnings;
         for (const std::string& word : row.unused)
             warnings.push_back(folder.path("a.mtl") + ": line " + word + " of material 'm' is not used");
         CHECK(model.warnings == warnings);
-        CHECK(lowered.materials[0].kind == row.kind);
-        CHECK(lowered.materials[0].parameter == Approx(row.parameter).epsilon(1e-12));
-        if (row.kind != kGlass) check_color(lowered.color(0), row.color);
+        CHECK(lowered.record.kind == row.kind);
+        CHECK(lowered.record.parameter == Approx(row.index).epsilon(1e-7));  // a float32
+        if (row.kind == kMixture)
+            CHECK(lowered.details.numbers == std::array<double, 6>{row.alpha, .25});  // the roughness itself, Pm
+        else
+            CHECK(lowered.details.numbers[3] == Approx(row.alpha).epsilon(1e-12));
+        if (row.kind != kGlass && row.kind != kClear) check_color(lowered.color(), row.color);
+        CHECK(lowered.opacity() == row.opacity);
     }
+    CHECK(load_one(folder, "d 0\n").warnings == std::vector<std::string>{"material 'm' is invisible, for its d is 0"});
 }
 
 TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io][obj][mtl]") {
     const Folder folder;
     save_image(Image(1, 1, Color{0.5, 0.25, 0.125}), folder.path("a.png"));
-    const std::pair<std::string, std::vector<std::string>> rows[] = {
-        {"Ks .5 .5 .5\nillum 2\n", {"Ks"}},   {"d .98\nillum 2\n", {"d"}}, {"Ks 1 1 1\nillum 3\n", {"Ks", "illum"}},
-        {"d .98\nillum 9\n", {"d", "illum"}}, {"d .98\n", {"d"}},          {"illum 1\n", {}}};
-    for (const auto& [rest, unused] : rows) {
+    struct Row {
+        std::string rest;
+        std::string_view kind;
+        double opacity = 1;
+        std::vector<std::string> unused{};
+    };
+    const Row rows[] = {{"Ks .5 .5 .5\nillum 2\n", "plastic"},
+                        {"d .75\nillum 2\n", "lambertian", .75},
+                        {"Ks 1 1 1\nillum 3\n", "plastic", 1, {"illum"}},
+                        {"d .75\nillum 9\n", "lambertian", .75, {"illum"}},
+                        {"d .75\n", "lambertian", .75},
+                        {"Pm 1\nPr .5\nillum 3\n", "rough-conductor"},
+                        {"Pm .5\nPr .5\nmap_Ks a.png\n", "metallic-roughness", 1, {"map_Ks"}},
+                        {"illum 1\n", "lambertian"}};
+    for (const auto& [rest, kind, opacity, unused] : rows) {
         CAPTURE(rest);
         const Model model = load_one(folder, "map_Kd a.png\n" + rest);
-        const Lowered lowered(model);
-        CHECK(lowered.materials[0].kind == "lambertian");
-        CHECK(lowered.texture(0).kind == TextureKind::image);
+        const LoweredMaterial lowered(model);
+        CHECK(lowered.record.kind == kind);
+        CHECK(lowered.texture(lowered.record.texture).kind == TextureKind::image);
+        CHECK(lowered.opacity() == opacity);
         REQUIRE(model.warnings.size() == unused.size());
         for (std::size_t i = 0; i < unused.size(); ++i)
             CHECK(model.warnings[i].ends_with(": " + unused[i] + " of material 'm' is not used"));
@@ -141,15 +169,15 @@ TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io
 
 TEST_CASE("MTL: each word that is not used gives one warning, however many materials have it", "[io][obj][mtl]") {
     const Folder folder;
-    const std::string both = "Kd 1 1 1\nmap_Bump b.png\nPr .5\nmap_Bump b.png\n";
-    folder.write("a.mtl", "newmtl a\n" + both + "newmtl b\n" + both + "norm n.png\nnewmtl c\nmap_Bump b.png\n" +
-                              "newmtl unused\nmap_d d.png\n");
+    const std::string both = "Kd 1 1 1\nmap_Pr b.png\nPs .5\nmap_Pr b.png\n";
+    folder.write("a.mtl", "newmtl a\n" + both + "newmtl b\n" + both + "Pc 1\nnewmtl c\nmap_Pr b.png\n" +
+                              "newmtl unused\ndisp d.png\n");
     const Model model = load_obj(folder.write("a.obj", triangles({"a", "b", "c"})));
     const std::string at = folder.path("a.mtl") + ": line ";
     CHECK(model.warnings ==
-          std::vector<std::string>{at + "3: map_Bump of material 'a' is not used, nor in 2 other materials",
-                                   at + "4: Pr of material 'a' is not used, nor in one other material",
-                                   at + "11: norm of material 'b' is not used"});
+          std::vector<std::string>{at + "3: map_Pr of material 'a' is not used, nor in 2 other materials",
+                                   at + "4: Ps of material 'a' is not used, nor in one other material",
+                                   at + "11: Pc of material 'b' is not used"});
 }
 
 TEST_CASE("MTL: a file of many unknown words does not flood the warnings", "[io][obj][mtl]") {
@@ -292,7 +320,8 @@ TEST_CASE("MTL: colours that no material may have are clamped, with a warning", 
 
 TEST_CASE("MTL: a malformed number is refused with the MTL's name and the line", "[io][obj][mtl]") {
     const Folder folder;
-    for (const std::string line : {"Kd a b c", "Kd 1 1 nan", "Ke 1e40 0 0", "Ns", "Ni 1,5", "d x", "illum two"}) {
+    for (const std::string line :
+         {"Kd a b c", "Kd 1 1 nan", "Ke 1e40 0 0", "Ns", "Ni 1,5", "d x", "Pr x", "bump -bm x b.png", "illum two"}) {
         CAPTURE(line);
         std::string message = "accepted";
         try {

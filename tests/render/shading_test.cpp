@@ -2,6 +2,7 @@
 #include "limn/material/alpha_mask.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/metal.h"
+#include "limn/material/metallic_roughness.h"
 #include "limn/material/normal_map.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
@@ -80,6 +81,8 @@ std::vector<MaterialPtr> materials() {
             std::make_shared<NormalMap>(std::make_shared<Dielectric>(1.5), checker),
             std::make_shared<NormalMap>(std::make_shared<Echo>(), checker),
             std::make_shared<AlphaMask>(std::make_shared<Lambertian>(checker), checker),
+            std::make_shared<MetallicRoughness>(checker, 0.3, 0.4, 1.3),
+            std::make_shared<MetallicRoughness>(checker, checker),
             std::make_shared<Echo>()};
 }
 
@@ -168,8 +171,8 @@ TEST_CASE("Shading: a packed material emits, samples and scatters as the describ
 
 TEST_CASE("Shading: lights are sampled for what scatters into more than a direction", "[render][shading]") {
     const Packed packed(materials());
-    const bool specular[] = {false, true,  false, false, true,  true,  false, false, true,  false, false,
-                             false, false, false, false, false, false, true,  false, false, false};
+    const bool specular[] = {false, true,  false, false, true,  true, false, false, true,  false, false, false,
+                             false, false, false, false, false, true, false, false, false, false, false};
     REQUIRE(std::size(specular) == packed.rows.size());
     for (std::size_t i = 0; i < packed.rows.size(); ++i) {
         CAPTURE(i);

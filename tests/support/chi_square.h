@@ -26,9 +26,9 @@ inline double sidak_level(int tests) { return 1 - std::pow(1 - 0.01, 1.0 / tests
 /// Draws from each sampler: ten million in the long form.
 inline const int kDraws = std::getenv("LIMN_FULL") ? 10'000'000 : 1'000'000;
 
-/// What the p-value of each of the suite's tests of a sampler has to exceed: of tests/core 10, tests/material 50,
+/// What the p-value of each of the suite's tests of a sampler has to exceed: of tests/core 10, tests/material 54,
 /// tests/render 8, tests/hard 15.
-inline const double kSamplerLevel = sidak_level(10 + 50 + 8 + 15);
+inline const double kSamplerLevel = sidak_level(10 + 54 + 8 + 15);
 
 /// The probability that counts deviate from the expected ones by chance as much as these or more. Cells are pooled
 /// until 5 counts are expected, below which the chi-square distribution does not hold (Cochran, Biometrics 10, 1954).

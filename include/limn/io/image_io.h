@@ -79,6 +79,14 @@ Image load_image(const std::string& path, Encoding encoding = Encoding::automati
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
+/// The alpha of a picture, as red, green and blue of an Image: as stored, from 0, where nothing is, to 1. std::nullopt
+/// if it has no channel A; no JPEG, HDR and few BMP have one. Checked and refused as by load_image.
+std::optional<Image> load_alpha(const std::string& path);
+
+/// The same from the bytes of a file that load_image_from_memory reads.
+std::optional<Image> load_alpha_from_memory(std::span<const std::byte> bytes,
+                                            const std::string& name = "image in memory");
+
 /// One channel of a picture file.
 struct ImageChannel {
     std::string name;  ///< "R", "G", "B"; "Y" where there is only grey; "A"; others as the file names them
