@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "limn/core/vec.h"
+#include "limn/material/lambertian.h"
 #include "limn/material/metallic_roughness.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
@@ -83,6 +84,7 @@ bool holds_normals(const Image& picture) {
 
 std::shared_ptr<const Material> metallic_roughness_material(std::shared_ptr<const Texture> base_color, double metallic,
                                                             double roughness, double index) {
+    if (metallic == 0 && index == 1) return std::make_shared<Lambertian>(std::move(base_color));  // there is no coat
     if (metallic == 0) return std::make_shared<Plastic>(std::move(base_color), roughness, index);
     if (metallic == 1) return std::make_shared<RoughConductor>(std::move(base_color), roughness);
     return std::make_shared<MetallicRoughness>(std::move(base_color), metallic, roughness, index);

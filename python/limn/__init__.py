@@ -11,9 +11,9 @@ Arrays must be C-contiguous and are not copied. Errors are a TypeError or a Valu
 from . import _limn
 from ._limn import (INVALID_ID, AlphaMask, Background, Camera, Checker, CompiledScene, ConstantMedium, Dielectric,
                     DiffuseLight, DirectionalLight, Disk, EnvironmentMap, Hittable, HittableList, ImageTexture,
-                    Instance, Isotropic, Lambertian, Marble, Material, Mesh, Metal, Noise, NormalMap, OrenNayar,
-                    Plastic, PointLight, Progress, Quad, RoughConductor, RoughDielectric, Scene, Sky, SolidColor,
-                    Sphere, SpotLight, SunLight, Texture, Triangle, Turbulence, make_box, make_sky, to_srgb)
+                    Instance, Isotropic, Lambertian, Marble, Material, Mesh, Metal, MetallicRoughness, Noise, NormalMap,
+                    OrenNayar, Plastic, PointLight, Progress, Quad, RoughConductor, RoughDielectric, Scene, Sky,
+                    SolidColor, Sphere, SpotLight, SunLight, Texture, Triangle, Turbulence, make_box, make_sky, to_srgb)
 from ._render import FirstHits, RenderResult, first_hits, render, render_with_report
 
 __version__: str = getattr(_limn, "__version__")
@@ -21,7 +21,7 @@ __version__: str = getattr(_limn, "__version__")
 __all__ = ["INVALID_ID", "AlphaMask", "Background", "Camera", "Checker", "CompiledScene", "ConstantMedium",
            "Dielectric", "DiffuseLight", "DirectionalLight", "Disk", "EnvironmentMap", "FirstHits", "Hittable",
            "HittableList", "ImageTexture", "Instance", "Isotropic", "Lambertian", "Marble", "Material", "Mesh", "Metal",
-           "Noise", "NormalMap", "OrenNayar", "Plastic", "PointLight", "Progress", "Quad", "RenderResult",
-           "RoughConductor", "RoughDielectric", "Scene", "Sky", "SolidColor", "Sphere", "SpotLight", "SunLight",
-           "Texture", "Triangle", "Turbulence", "__version__", "first_hits", "make_box", "make_sky", "render",
-           "render_with_report", "to_srgb"]
+           "MetallicRoughness", "Noise", "NormalMap", "OrenNayar", "Plastic", "PointLight", "Progress", "Quad",
+           "RenderResult", "RoughConductor", "RoughDielectric", "Scene", "Sky", "SolidColor", "Sphere", "SpotLight",
+           "SunLight", "Texture", "Triangle", "Turbulence", "__version__", "first_hits", "make_box", "make_sky",
+           "render", "render_with_report", "to_srgb"]

@@ -1,4 +1,5 @@
-// Rough metal, rough glass, plastic.
+// Rough metal, rough glass, plastic, and their mixture.
+#include "limn/material/metallic_roughness.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
 #include "limn/material/rough_dielectric.h"
@@ -64,10 +65,49 @@ void make_plastic(Plastic* self, ColorArgument albedo, RoughnessArgument roughne
     new (self) Plastic(std::shared_ptr<const Texture>(below), rough, n, std::shared_ptr<const Texture>(coat));
 }
 
+void bind_metallic_roughness(nb::module_& module) {
+    nb::class_<MetallicRoughness, Material>(module, "MetallicRoughness",
+                                            "The model of glTF: metal, varnish, or a mixture.")
+        .def(
+            "__init__",
+            [](MetallicRoughness* self, ColorArgument base_color, NumberArgument metallic, NumberArgument roughness,
+               NumberArgument index) {
+                make<MetallicRoughness>(self, base_color, "base_color", number(metallic, "metallic"),
+                                        number(roughness, "roughness"), number(index, "index"));
+            },
+            given("base_color"), given("metallic"), given("roughness"), given("index") = 1.5,
+            R"(A white one loses no light.
+
+Args:
+    base_color: what metal reflects at normal incidence, and the albedo of the rest; linear red, green, blue in
+        [0, 1], or a texture.
+    metallic: 0 is Plastic, 1 metal.
+    roughness: in [0, 1]; its square is the alpha of GGX. Below 0.001 it counts as 0.001.
+    index: of refraction of the coat, at least 1.)")
+        .def_static(
+            "from_textures",
+            [](TextureArgument base_color, TextureArgument metallic_roughness, NumberArgument metallic,
+               NumberArgument roughness, NumberArgument index) {
+                return std::make_shared<MetallicRoughness>(
+                    shared<Texture>(base_color.object, "base_color", "a Texture"),
+                    shared<Texture>(metallic_roughness.object, "metallic_roughness", "a Texture"),
+                    number(metallic, "metallic"), number(roughness, "roughness"), number(index, "index"));
+            },
+            given("base_color"), given("metallic_roughness"), given("metallic") = 1.0, given("roughness") = 1.0,
+            given("index") = 1.5,
+            R"(One that varies over the surface.
+
+Args:
+    base_color: a texture.
+    metallic_roughness: a texture whose green is multiplied by roughness and its blue by metallic.
+    metallic, roughness, index: as before.)");
+}
+
 }  // namespace
 
 void bind_microfacets(nb::module_& module) {
     bind_conductor(module);
+    bind_metallic_roughness(module);
     nb::class_<RoughDielectric, Material>(module, "RoughDielectric", "Ground glass, frosted glass, ice.")
         .def(
             "__init__",

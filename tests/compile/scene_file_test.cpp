@@ -8,6 +8,7 @@
 #include "limn/material/dielectric.h"
 #include "limn/material/diffuse_light.h"
 #include "limn/material/metal.h"
+#include "limn/material/metallic_roughness.h"
 #include "limn/material/normal_map.h"
 #include "limn/material/oren_nayar.h"
 #include "limn/material/plastic.h"
@@ -146,6 +147,8 @@ TEST_CASE("Scene files: each material under each light, bit for bit", "[compile]
         std::make_shared<RoughConductor>(ComplexIndex{.eta = {0.2, 0.9, 1.1}, .k = {3.9, 2.4, 2.2}}, 0.3),
         std::make_shared<RoughDielectric>(1.5, Roughness{0.2, 0.4}),
         std::make_shared<Plastic>(Color{0.5, 0.25, 0.5}, 0.1),
+        std::make_shared<MetallicRoughness>(picture, 0.5, 0.3),
+        std::make_shared<MetallicRoughness>(picture, picture, 0.5, 0.7, 1.3),
         std::make_shared<NormalMap>(metal, picture),
         std::make_shared<NormalMap>(grey(0.5), picture),
         std::make_shared<AlphaMask>(varnish, mask),

@@ -27,6 +27,8 @@ class Microfacets(unittest.TestCase):
         for material in (limn.RoughConductor(WHITE, 0), limn.RoughConductor(WHITE, 0.3), limn.RoughConductor(WHITE, 1.0),
                          limn.RoughConductor(even(1), (0.2, 0.8)), limn.Plastic(WHITE, 0.0), limn.Plastic(WHITE, 0.4),
                          limn.Plastic(even(1), 0.2, 1.3), limn.Plastic(WHITE, 0.2, specular=even(1)),
+                         limn.MetallicRoughness(WHITE, 0.5, 0.4), limn.MetallicRoughness(even(1), 1, 0.7, 1.3),
+                         limn.MetallicRoughness.from_textures(even(1), even(0, 0.5, 0.5)),
                          limn.RoughDielectric(1.5, 0.2), limn.RoughDielectric(0.75, (0.1, 0.2))):
             with self.subTest(material=material):
                 self.assertAlmostEqual(picture(furnace(material), samples_per_pixel=256).mean(), 1, delta=1e-2)
@@ -36,6 +38,12 @@ class Microfacets(unittest.TestCase):
         for material in (limn.RoughConductor(color, 0), limn.RoughConductor(color, 0, (1, 0.5, 0)),
                          limn.RoughConductor(limn.SolidColor(color), 0)):
             np.testing.assert_allclose(picture(furnace(material), FRONT).mean(axis=(0, 1)), color, atol=1e-4)
+
+    def test_metallic_roughness_takes_both_from_a_picture(self):
+        """Green is the roughness, blue how much is metal."""
+        told = limn.MetallicRoughness((0.75, 0.5, 0.125), 0.25, 0.5)
+        shown = limn.MetallicRoughness.from_textures(even(0.75, 0.5, 0.125), even(0.9, 0.5, 0.25))
+        np.testing.assert_array_equal(picture(furnace(shown)), picture(furnace(told)))
 
     def test_a_conductor_of_an_index_reflects_by_fresnels_equations(self):
         eta, k = np.array([0.2, 1, 2.5]), np.array([3, 0, 4.0])

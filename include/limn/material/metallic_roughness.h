@@ -15,16 +15,21 @@ namespace limn {
 class MetallicRoughness final : public Material {
 public:
     /// A roughness below 0.001 counts as 0.001, as a picture may hold any: alpha, its square, is at least 1e-6. Metal
-    /// and Plastic can be smooth. \param base_color what metal reflects at normal incidence, and the albedo of the
-    /// rest; in [0, 1], or a texture \param metallic 0 plastic, 1 metal; between both a mixture \param roughness in [0,
-    /// 1], see Roughness \param index of the coat over that of the outside, at least 1
+    /// and Plastic can be smooth.
+    ///
+    /// \param base_color what metal reflects at normal incidence, and the albedo of the rest; in [0, 1], or a texture
+    /// \param metallic 0 plastic, 1 metal; between both a mixture
+    /// \param roughness in [0, 1], see Roughness
+    /// \param index of the coat over that of the outside, at least 1
     ///
     /// \throws ArgumentError if one of these is outside its range or not finite, or a texture is null
     ///@{
     MetallicRoughness(const Color& base_color, double metallic, double roughness, double index = 1.5);
     MetallicRoughness(std::shared_ptr<const Texture> base_color, double metallic, double roughness, double index = 1.5);
     ///@}
-    /// Both vary over the surface. \param metallic_roughness its green is multiplied by `roughness`, its blue by
+    /// Both vary over the surface.
+    ///
+    /// \param metallic_roughness its green is multiplied by `roughness`, its blue by
     /// `metallic`, and the products are clamped to [0, 1]; red is not used
     MetallicRoughness(std::shared_ptr<const Texture> base_color, std::shared_ptr<const Texture> metallic_roughness,
                       double metallic = 1, double roughness = 1, double index = 1.5);
