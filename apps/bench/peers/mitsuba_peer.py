@@ -191,8 +191,15 @@ class Peer:
                                      "emitter": emitter(quad["material"], RARELY if behind else 1.0)}
             told[f"quad{i}"] = shape
         for i, m in enumerate(scene.meshes):
-            told[f"mesh{i}"] = mesh(m["vertices"], m["triangles"], {"bsdf": mi.load_dict(bsdf(m["material"]))},
-                                    m["normals"], m["uvs"])
+            properties = {"bsdf": mi.load_dict(bsdf(m["material"]))}
+            if m["material"]["kind"] == "light":
+                if m["normals"] is None:
+                    raise ValueError("meshes of light without normals")
+                properties["emitter"] = mi.load_dict(emitter(m["material"]))
+                behind = (m["vertices"] - 1e-3 * m["normals"]).astype(np.float32)
+                told[f"mesh{i}b"] = mesh(behind, np.ascontiguousarray(m["triangles"][:, ::-1]), {
+                    "bsdf": properties["bsdf"], "emitter": mi.load_dict(emitter(m["material"]))})
+            told[f"mesh{i}"] = mesh(m["vertices"], m["triangles"], properties, m["normals"], m["uvs"])
         for i, medium in enumerate(scene.media):
             inside = mi.load_dict({"type": "homogeneous", "albedo": rgb(medium["albedo"]),
                                    "sigma_t": float(medium["density"]), "phase": {"type": "isotropic"}})
