@@ -43,10 +43,6 @@ EnvironmentMap sky_with_sun(const SkySettings& settings) {
     return EnvironmentMap(std::move(map), {}, sky.environment->scale());
 }
 
-void add_wall(Scene& scene, const Point3& corner, const Vec3& u, const Vec3& v, const Color& color) {
-    scene.add(std::make_shared<Quad>(corner, u, v, matte(color)));
-}
-
 }  // namespace
 
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
@@ -59,11 +55,9 @@ std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std:
 }
 
 Figure rough_copper() {
-    // Johnson and Christy, Optical Constants of the Noble Metals, Physical Review B 6, 1972, at 650, 550 and 450 nm.
-    const ComplexIndex copper{{0.21, 1.04, 1.17}, {3.67, 2.59, 2.36}};
     Figure figure;
-    add_wall(figure.scene, {-20, -1, -20}, {0, 0, 40}, {40, 0, 0}, {.4, .4, .4});
-    figure.scene.add(hilly_ball({0, 0, 0}, 1, std::make_shared<RoughConductor>(copper, 0.2)));
+    figure.scene.add(std::make_shared<Quad>(Point3{-20, -1, -20}, Vec3{0, 0, 40}, Vec3{40, 0, 0}, matte({.4, .4, .4})));
+    figure.scene.add(hilly_ball({0, 0, 0}, 1, std::make_shared<RoughConductor>(gallery::kCopper, 0.2)));
     figure.scene.environment = std::make_shared<EnvironmentMap>(sky_with_sun({}));
     figure.camera = {.look_from = {0, 1.5, 5}, .look_at = {0, -.1, 0}, .vertical_fov = 30};
     return figure;

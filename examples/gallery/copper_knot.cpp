@@ -4,12 +4,10 @@
 namespace limn::gallery {
 
 Figure copper_knot() {
-    // Johnson and Christy, Optical Constants of the Noble Metals, Physical Review B 6, 1972, at 650, 550 and 450 nm.
-    const ComplexIndex copper{{0.21, 1.04, 1.17}, {3.67, 2.59, 2.36}};
     Figure figure;
     figure.name = __func__;
     Scene& scene = figure.scene;
-    const auto metal = knot(std::make_shared<RoughConductor>(copper, Roughness{.35}));
+    const auto metal = knot(std::make_shared<RoughConductor>(kCopper, Roughness{.35}));
     const double floor = metal->bounds().lower.y;
     scene.add(metal);
     scene.add(std::make_shared<Disk>(Point3{0, floor, 0}, Vec3{0, 1, 0}, 60,

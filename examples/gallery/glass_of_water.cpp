@@ -6,12 +6,10 @@ namespace limn::gallery {
 Figure glass_of_water() {
     constexpr double kGlass = 1.5, kWater = 1.333, kLevel = 3.1;
     // Three interfaces, each with the indices of what lies on its two sides.
-    const std::vector<ProfilePoint> outside{{0, 0},      {1.05, 0},    {1.12, .05}, {1.2, .4},
-                                            {1.45, 4.3}, {1.43, 4.36}, {1.4, 4.38}, {1.36, 4.35}};
     const ProfilePoint bottom{.95, .42}, corner{1.05, .5}, waterline{1.264, kLevel};
     const auto glass_to = [](double index) { return std::make_shared<Dielectric>(index, Fresnel::exact); };
-    std::vector<ProfilePoint> air_side = outside;  // and down inside to the water
-    air_side.push_back(waterline);
+    const std::vector<ProfilePoint> air_side{{0, 0},       {1.05, 0},   {1.12, .05},  {1.2, .4}, {1.45, 4.3},
+                                             {1.43, 4.36}, {1.4, 4.38}, {1.36, 4.35}, waterline};
     const std::vector<ProfilePoint> wet{waterline, corner, bottom, {0, .4}};
     const std::vector<ProfilePoint> surface{waterline, {0, kLevel}};
 

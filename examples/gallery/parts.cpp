@@ -8,7 +8,7 @@ namespace limn::gallery {
 Model load(const std::string& name) { return load_model(std::string(LIMN_GALLERY_MODELS "/") + name, {.crease = 60}); }
 
 std::shared_ptr<const Mesh> knot(std::shared_ptr<const Material> material) {
-    return std::make_shared<Mesh>(load("knot.ply").meshes.front()->data(), std::move(material));
+    return std::make_shared<Mesh>(*load("knot.ply").meshes.front(), std::vector{std::move(material)});
 }
 
 MeshData lathe(const std::vector<ProfilePoint>& profile, int steps) {

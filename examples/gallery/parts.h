@@ -9,6 +9,10 @@
 
 namespace limn::gallery {
 
+/// Copper at 650, 550 and 450 nm (Johnson and Christy, Optical Constants of the Noble Metals, Physical Review B 6,
+/// 1972).
+inline constexpr ComplexIndex kCopper{{0.21, 1.04, 1.17}, {3.67, 2.59, 2.36}};
+
 /// A model of examples/models. \throws FileError
 Model load(const std::string& name);
 
