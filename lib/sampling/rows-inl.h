@@ -6,7 +6,7 @@
 #define LIMN_SAMPLING_ROWS_INL_H
 #endif
 
-#include "lanes/lanes-inl.h"
+#include "lanes/compress-inl.h"
 #include "sampling/rows.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,13 +22,11 @@ HWY_INLINE void store3(const Vector<N>& v, sampling::Rows3Of<n>& rows, std::size
     store(v.x, rows.x + i), store(v.y, rows.y + i), store(v.z, rows.z + i);
 }
 
-// The lanes of a mask one after the other, and kSlack more that do not count.
+// The lanes that are kept, and kSlack more that do not count.
 template <std::size_t n>
-HWY_INLINE void compress3(const Vector<Doubles>& v, Mask<Doubles> lanes, sampling::Rows3Of<n>& rows, std::size_t i) {
-    const Doubles::Tag d;
-    hn::CompressStore(v.x.v, lanes.m, d, rows.x + i);
-    hn::CompressStore(v.y.v, lanes.m, d, rows.y + i);
-    hn::CompressStore(v.z.v, lanes.m, d, rows.z + i);
+HWY_INLINE void compress3(const Vector<Doubles>& v, const Compress<Doubles>& kept, sampling::Rows3Of<n>& rows,
+                          std::size_t i) {
+    store3<Doubles>({kept(v.x), kept(v.y), kept(v.z)}, rows, i);
 }
 
 }  // namespace limn::HWY_NAMESPACE

@@ -73,10 +73,11 @@ RayCounts add_shadow_rays(const Paths& paths, const bsdf::Vertices& v, const lig
             offset_along(light, load3<Doubles>(s.position_error, i), load3<Doubles>(s.normal, i), from - light);
         const Vector<Doubles> way = select(distant, direction, to - from);
         const Mask<Doubles> leaves = usable(from, way, lit, counts);
-        compress3(from, leaves, shadows.origin, shadows.count);
-        compress3(way, leaves, shadows.direction, shadows.count);
-        hn::CompressStore(end.v, leaves.m, Doubles::Tag(), shadows.end + shadows.count);
-        compress3(arriving, leaves, shadows.light, shadows.count);
+        const Compress<Doubles> kept(leaves);
+        compress3(from, kept, shadows.origin, shadows.count);
+        compress3(way, kept, shadows.direction, shadows.count);
+        store(kept(end), shadows.end + shadows.count);
+        compress3(arriving, kept, shadows.light, shadows.count);
         for (std::uint32_t rest = bits(leaves); rest != 0; rest &= rest - 1) {
             const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(rest));
             shadows.path[shadows.count] = paths.path[k], shadows.time[shadows.count++] = paths.time[k];
@@ -106,7 +107,6 @@ bool scatter(const Roulette& roulette, const bsdf::Vertices& v, Paths& paths, Ro
 RayCounts add_segments(const Paths& paths, const bsdf::Vertices& v, bool one_sided, const Row& survival,
                        const Row& numbers, const Row& odds, Segments& next) {
     RayCounts counts;
-    const Doubles::Tag d;
     for (std::size_t i = 0; i < v.count; i += kLanes<Doubles>) {
         const Doubles survives = load<Doubles>(survival + i);
         const Mask<Doubles> goes_on =
@@ -116,13 +116,14 @@ RayCounts add_segments(const Paths& paths, const bsdf::Vertices& v, bool one_sid
         const Vector<Doubles> direction = load3<Doubles>(v.direction, i);
         const Vector<Doubles> origin = offset_along(position, load3<Doubles>(v.position_error, i), normal, direction);
         const Mask<Doubles> leaves = usable(origin, direction, goes_on, counts);
+        const Compress<Doubles> kept(leaves);
         const std::size_t at = next.count;
-        compress3(origin, leaves, next.origin, at), compress3(direction, leaves, next.direction, at);
-        compress3(position, leaves, next.receiver, at);
-        compress3(one_sided ? normal : 0.0 * normal, leaves, next.receiver_normal, at);
-        compress3(load3<Doubles>(paths.throughput, i) / survives, leaves, next.throughput, at);
-        hn::CompressStore(load<Doubles>(v.pdf + i).v, leaves.m, d, next.scatter_pdf + at);
-        hn::CompressStore(load<Doubles>(odds + i).v, leaves.m, d, next.light_odds + at);
+        compress3(origin, kept, next.origin, at), compress3(direction, kept, next.direction, at);
+        compress3(position, kept, next.receiver, at);
+        compress3(one_sided ? normal : 0.0 * normal, kept, next.receiver_normal, at);
+        compress3(load3<Doubles>(paths.throughput, i) / survives, kept, next.throughput, at);
+        store(kept(load<Doubles>(v.pdf + i)), next.scatter_pdf + at);
+        store(kept(load<Doubles>(odds + i)), next.light_odds + at);
         for (std::uint32_t rest = bits(leaves); rest != 0; rest &= rest - 1)
             next.follow(next.count++, paths, i + static_cast<std::size_t>(std::countr_zero(rest)));
     }

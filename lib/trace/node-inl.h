@@ -13,23 +13,12 @@
 
 #include "accel/wide_bvh.h"
 #include "flat/scene.h"
+#include "lanes/compress-inl.h"
 #include "trace/box_ray.h"
 #include "trace/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
-
-// For each mask of eight lanes those that are set, in order.
-struct SetLanes {
-    alignas(8) std::uint8_t of[256][8] = {};
-
-    constexpr SetLanes() {
-        for (unsigned mask = 0; mask < 256; ++mask)
-            for (unsigned lane = 0, next = 0; lane < 8; ++lane)
-                if ((mask >> lane & 1) != 0) of[mask][next++] = static_cast<std::uint8_t>(lane);
-    }
-};
-inline constexpr SetLanes kSetLanes;
 
 // Children yet to be visited, and where the ray enters their boxes. A visit pushes at most 7 of 8, a whole vector is
 // written.
@@ -59,18 +48,10 @@ struct Stack {
     HWY_INLINE void push_some(V children, V t, M mask) {
         const Lanes d;
         const hn::RebindToUnsigned<Lanes> du;
-        const std::uint32_t set = bits(mask);
-#if HWY_TARGET <= HWY_AVX3
-        const auto packed_children = hn::Compress(children, mask), packed_t = hn::Compress(t, mask);
-#else
-        const auto lanes =
-            hn::PromoteTo(hn::RebindToSigned<Lanes>(), hn::Load(hn::Rebind<std::uint8_t, Lanes>(), kSetLanes.of[set]));
-        const auto packed = hn::IndicesFromVec(d, lanes);
-        const auto packed_children = hn::TableLookupLanes(children, packed), packed_t = hn::TableLookupLanes(t, packed);
-#endif
-        hn::StoreU(hn::BitCast(du, packed_children), du, child + size);
-        hn::StoreU(packed_t, d, near + size);
-        size += static_cast<std::size_t>(std::popcount(set));
+        const Compress<Floats> compress({mask});
+        hn::StoreU(hn::BitCast(du, compress(children).v), du, child + size);
+        hn::StoreU(compress(t).v, d, near + size);
+        size += static_cast<std::size_t>(std::popcount(bits(mask)));
     }
 #endif
 };
