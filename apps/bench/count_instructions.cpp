@@ -1,10 +1,10 @@
 // performance.py counts the instructions of the functions measure_* under callgrind. Each is called once. They trace
 // rays of a mesh scene, and render it. Without callgrind: their times, as JSON on stdout, nanoseconds a ray.
 //
-// limn_count_instructions [--rays N] [--rounds N] [--foreign]
+// limn_count_instructions [--rays N] [--rounds N] [--user-defined]
 //   --rays N     of each kind
 //   --rounds N   calls of each function: their times are then printed, round by round
-//   --foreign    a user-defined sphere is beside the mesh, in place of a triangle; no ray that is traced meets its
+//   --user-defined    a user-defined sphere is beside the mesh, in place of a triangle; no ray that is traced meets its
 //                box
 #include <algorithm>
 #include <cstdio>
@@ -24,9 +24,9 @@ namespace {
 using namespace limn;
 
 // limn knows it by its virtual functions alone.
-class ForeignSphere final : public Hittable {
+class UserDefinedSphere final : public Hittable {
 public:
-    ForeignSphere(const Point3& center, double radius) : sphere_(center, radius, nullptr) {}
+    UserDefinedSphere(const Point3& center, double radius) : sphere_(center, radius, nullptr) {}
     Box bounds() const override { return sphere_.bounds(); }
     std::optional<Hit> hit(const Ray& ray) const override { return sphere_.hit(ray); }
 
@@ -88,7 +88,7 @@ std::vector<Ray> that_miss(const std::vector<Ray>& rays, const Box& box) {
     return kept;
 }
 
-Work prepare(std::size_t rays, bool with_foreign) {
+Work prepare(std::size_t rays, bool with_user_defined) {
     const bench::Geometry geometry = bench::make_scene("sphere", 0.01);
     // The mesh again, with a material to be rendered with.
     const auto mesh = std::make_shared<Mesh>(geometry.mesh->data(), std::make_shared<Lambertian>(Color{.5, .5, .5}));
@@ -96,8 +96,8 @@ Work prepare(std::size_t rays, bool with_foreign) {
     scene.background = Background::constant({1, 1, 1});
     scene.add(mesh);
     Scene with_sphere = scene;
-    const auto foreign = std::make_shared<ForeignSphere>(Point3{1.5, 1.5, 0}, 0.3);
-    with_sphere.add(foreign);
+    const auto aside = std::make_shared<UserDefinedSphere>(Point3{1.5, 1.5, 0}, 0.3);
+    with_sphere.add(aside);
     // In its place one triangle of another mesh, so that both scenes have two objects.
     MeshData corner;
     corner.vertices = {{1.2f, 1.2f, -0.3f}, {1.8f, 1.2f, 0.3f}, {1.5f, 1.8f, 0}};
@@ -106,12 +106,12 @@ Work prepare(std::size_t rays, bool with_foreign) {
     Camera camera = frame_box(mesh->bounds());
     Work work{compile(scene), {}, {}, {}, camera, {}, {}};
     for (const bench::RaySet& set : bench::make_rays(geometry, work.scene, rays)) {
-        std::vector<Ray> kept = that_miss(set.rays, foreign->bounds());
+        std::vector<Ray> kept = that_miss(set.rays, aside->bounds());
         if (set.name == "primary") work.primary = std::move(kept);
         if (set.name == "diffuse1") work.diffuse = std::move(kept);
         if (set.name == "shadow") work.shadow = std::move(kept);
     }
-    if (with_foreign) work.scene = compile(with_sphere);
+    if (with_user_defined) work.scene = compile(with_sphere);
     work.hits.resize(std::max(work.primary.size(), work.diffuse.size()));
     work.occluded.resize(work.shadow.size());
     return work;
@@ -135,9 +135,9 @@ std::size_t number_after(int argc, char** argv, const char* option, std::size_t 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool with_foreign =
-        std::any_of(argv + 1, argv + argc, [](const char* word) { return std::strcmp(word, "--foreign") == 0; });
-    Work work = prepare(number_after(argc, argv, "--rays", 2000), with_foreign);
+    const bool with_user_defined =
+        std::any_of(argv + 1, argv + argc, [](const char* word) { return std::strcmp(word, "--user-defined") == 0; });
+    Work work = prepare(number_after(argc, argv, "--rays", 2000), with_user_defined);
     const std::size_t rounds = number_after(argc, argv, "--rounds", 1);
     Times times;
     std::uint64_t rendered = 0;
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
         time(times, "shadow_single", work.shadow.size(), [&] { measure_shadow_single(work); });
         time(times, "shadow_batch", work.shadow.size(), [&] { measure_shadow_batch(work); });
         // The user-defined sphere would be seen there.
-        if (!with_foreign) time(times, "render", 1, [&] { rendered = measure_render(work); });
+        if (!with_user_defined) time(times, "render", 1, [&] { rendered = measure_render(work); });
     }
     std::printf("{\"rays\": {\"primary\": %zu, \"diffuse\": %zu, \"shadow\": %zu, \"render\": %llu}",
                 work.primary.size(), work.diffuse.size(), work.shadow.size(),

@@ -47,16 +47,16 @@ class Description {
 public:
     explicit Description(const SceneRecords& records) : records_(records) {}
 
-    Json group(GroupId id, const Transform& place) const {
+    Json blas(BlasId id, const Transform& place) const {
         Json shapes = {
             {"spheres", Json::array()}, {"quads", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}};
-        add_group(id, place, shapes);
+        add_blas(id, place, shapes);
         return shapes;
     }
 
 private:
-    void add_group(GroupId id, const Transform& place, Json& shapes) const {
-        for (const PrimitiveRange& range : records_.groups[static_cast<std::size_t>(id)].ranges) {
+    void add_blas(BlasId id, const Transform& place, Json& shapes) const {
+        for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
             // One row is one primitive or, of a mesh, instance or medium, many.
             const std::uint64_t rows =
                 range.kind == PrimitiveKind::sphere || range.kind == PrimitiveKind::quad ? range.count : 1;
@@ -73,7 +73,7 @@ private:
             case PrimitiveKind::instance: {
                 const InstanceRecord& instance = records_.instances[row];
                 if (instance.moving) refuse("moving instances");
-                return add_group(instance.group, place * instance.world_from_object0, shapes);
+                return add_blas(instance.blas, place * instance.world_from_object0, shapes);
             }
             default: refuse("shapes of other kinds");
         }
@@ -111,7 +111,7 @@ private:
     Json medium(const MediumRecord& m, const Transform& place) const {
         const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
         if (phase.kind != "isotropic") refuse("phase functions of other classes");
-        return {{"boundary", group(m.boundary, place)}, {"density", m.density}, {"albedo", texture(phase.texture)}};
+        return {{"boundary", blas(m.boundary, place)}, {"density", m.density}, {"albedo", texture(phase.texture)}};
     }
 
     Json material(MaterialId id) const {
@@ -207,7 +207,7 @@ Json describe_scene(const Figure& figure) {
                   {{"bottom", triple(figure.scene.background.bottom)}, {"top", triple(figure.scene.background.top)}}}};
     json["suns"] = describe_suns(figure.scene);
     json["environment"] = describe_environment(figure.scene);
-    json.update(Description(sink.records()).group(GroupId::root, Transform{}));
+    json.update(Description(sink.records()).blas(BlasId::root, Transform{}));
     return json;
 }
 

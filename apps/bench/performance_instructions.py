@@ -85,8 +85,8 @@ def measure(folder, programs, full, say):
     say("counting instructions")
     whole = count(program, folder, rays)
     result = {"whole": whole, "without": {},
-              "foreign": {"counts": count(program, folder, rays, "--foreign"),
-                          "times": time_by_turns((program, "--foreign"), (program,), timed, turns)}}
+              "user_defined": {"counts": count(program, folder, rays, "--user-defined"),
+                          "times": time_by_turns((program, "--user-defined"), (program,), timed, turns)}}
     for feature, lean in build_without_features(folder, say).items():
         result["without"][feature] = {"counts": count(lean, folder, rays),
                                       "times": time_by_turns((program,), (lean,), timed, turns)}

@@ -89,7 +89,7 @@ def missed(raw):
         found += [f"instructions, {feature}: {name}" for name, n in lean["counts"].items()
                   if raw["instructions"]["whole"][name] / n > GOAL_INSTRUCTIONS]
     return found + [f"instructions, a user-defined sphere aside: {name}"
-                    for name, n in raw["instructions"]["foreign"]["counts"].items()
+                    for name, n in raw["instructions"]["user_defined"]["counts"].items()
                     if n / raw["instructions"]["whole"][name] > GOAL_INSTRUCTIONS]
 
 
@@ -198,16 +198,16 @@ def instruction_section(raw):
             more = measured["whole"][n] / lean["counts"][n]
             cells.append(marked(percent(more), more <= GOAL_INSTRUCTIONS) + f" ({median_text(lean['times'].get(n))})")
         lines.append(f"| with code for {feature} | " + " | ".join(cells) + " |")
-    foreign = measured["foreign"]
-    def with_foreign(n):
-        more = foreign["counts"][n] / measured["whole"][n]
-        return marked(percent(more), more <= GOAL_INSTRUCTIONS) + f" ({median_text(foreign['times'].get(n))})"
+    aside = measured["user_defined"]
+    def with_user_defined(n):
+        more = aside["counts"][n] / measured["whole"][n]
+        return marked(percent(more), more <= GOAL_INSTRUCTIONS) + f" ({median_text(aside['times'].get(n))})"
 
     lines += ["", "The other way round: a user-defined sphere is beside the mesh, and the rays are those that miss its "
               "box. The goal is the same.", "",
-              "| | " + " | ".join(n.replace("_", ", ") for n in foreign["counts"]) + " |",
-              "|---|" + "---:|" * len(foreign["counts"]),
-              "| with a user-defined sphere | " + " | ".join(map(with_foreign, foreign["counts"])) + " |", ""]
+              "| | " + " | ".join(n.replace("_", ", ") for n in aside["counts"]) + " |",
+              "|---|" + "---:|" * len(aside["counts"]),
+              "| with a user-defined sphere | " + " | ".join(map(with_user_defined, aside["counts"])) + " |", ""]
     return lines
 
 
@@ -216,6 +216,30 @@ def truth_section(raw):
     return ["## Results", "",
             f"limn's single rays and batches give the same bits for every ray above. {judged:,} of the rays, of every "
             f"scene and kind, were judged by exact arithmetic over all primitives: {wrong} results are wrong.", ""]
+
+
+def summary_section(raw):
+    lines = ["On one thread, limn over Embree; over 1 limn is faster, or takes less memory. Of rays geometric means "
+             "over their kinds; batches against Embree's best mode.", "",
+             "| scene | single rays / Embree | / robust | batches, primary | batches, other rays | building | memory |",
+             "|---|" + "---:|" * 6]
+    for scene in raw["table"]["scenes"]:
+        rows = of_threads(scene, 1)
+        other = [row for row in rows if row["rays"] != "primary"]
+        cells = [mean_of(rows, "single_to_default"), mean_of(rows, "single_to_robust"),
+                 mean_of([row for row in rows if row["rays"] == "primary"], "batch_to_best"),
+                 mean_of(other, "batch_to_best")]
+        built = [b["ratios"]["Embree"]["median"] for b in scene["builds"] if b["threads"] == 1 and "Embree" in b["ratios"]]
+        own, theirs = bytes_each(scene, "limn"), bytes_each(scene, "Embree")
+        cells += [built[0] if built else None, theirs / own if theirs else None]
+        lines.append(f"| {scene['name']} | " + " | ".join("–" if c is None else f"{c:.2f}" for c in cells) + " |")
+    return lines + [""]
+
+
+def mean_of(rows, key):
+    """The geometric mean of the ratios of some rows; None where there are none."""
+    found = [row[key]["median"] for row in rows if row[key] is not None]
+    return statistics.geometric_mean(found) if found else None
 
 
 def report(raw):
@@ -227,6 +251,6 @@ def report(raw):
              f"Of {cells} ratios of rays {cells - of_rays} reach their goal.", "",
              "![Ratios of single rays and batches](performance/ratios.svg)", ""]
     lines += [f"- **fault: {fault}**" for fault in raw["faults"]] + [""] * bool(raw["faults"])
-    for section in (table_section, truth_section, build_section, scaling_section, growth_section, instruction_section):
+    for section in (summary_section, table_section, truth_section, build_section, scaling_section, growth_section, instruction_section):
         lines += section(raw)
     return "\n".join(lines).rstrip() + "\n"

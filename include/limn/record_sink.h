@@ -35,9 +35,9 @@ public:
     void environment(const EnvironmentRecord& record) { records_.environment = record; }
     ///@}
 
-    /// Adds a shape to the current group. Its ids must be the sink's own. What a record points to must stay alive: a
+    /// Adds a shape to the current BLAS. Its ids must be the sink's own. What a record points to must stay alive: a
     /// mesh's arrays as long as `owner`; a user-defined shape as long as the scene, which keeps what was added to it
-    /// and for what groups hold. \throws ArgumentError if there are too many primitives
+    /// and for what BLASes hold. \throws ArgumentError if there are too many primitives
     ///@{
     void sphere(const SphereRecord& record) {
         shape(record.center0 == record.center1 ? PrimitiveKind::sphere : PrimitiveKind::moving_sphere,
@@ -45,7 +45,9 @@ public:
     }
     void triangle(const TriangleRecord& record) { shape(PrimitiveKind::triangle, &SceneRecords::triangles, record); }
     void quad(const QuadRecord& record) { shape(PrimitiveKind::quad, &SceneRecords::quads, record); }
-    void foreign(const ForeignRecord& record) { shape(PrimitiveKind::foreign, &SceneRecords::foreign, record); }
+    void user_defined(const UserDefinedRecord& record) {
+        shape(PrimitiveKind::user_defined, &SceneRecords::user_defined, record);
+    }
     void mesh(MeshRecord record, const std::shared_ptr<const void>& owner);
     void instance(const InstanceRecord& record);
     void medium(const MediumRecord& record);
@@ -59,9 +61,18 @@ public:
         (records_.*table).push_back(record);
     }
 
-    /// An instanced subtree (a BLAS) that instances and media refer to: `fill` writes its shapes, the first time only.
+    /// A BLAS that instances and media refer to: `fill` writes its shapes, the first time only.
     /// \throws ArgumentError if an object contains itself
-    GroupId group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
+    BlasId blas(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
+
+    /// Earlier names, which leave with the next version.
+    ///@{
+    [[deprecated("blas")]] BlasId group(const std::shared_ptr<const void>& object,
+                                        const std::function<void(RecordSink&)>& fill) {
+        return blas(object, fill);
+    }
+    [[deprecated("user_defined")]] void foreign(const UserDefinedRecord& record) { user_defined(record); }
+    ///@}
 
     /// The tag of a user-defined object, if it has one; null: it has none.
     void identify(const Tagged* object);
@@ -76,8 +87,8 @@ public:
     /// Keeps the owner of something that a record points to alive as long as the records.
     void keep(const std::shared_ptr<const void>& owner);
 
-    /// Primitives in the current group so far.
-    std::uint64_t primitives() const { return records_.groups[current_].primitives; }
+    /// Primitives in the current BLAS so far.
+    std::uint64_t primitives() const { return records_.blases[current_].primitives; }
     const SceneRecords& records() const { return records_; }  ///< what was written so far
     SceneRecords take() && { return std::move(records_); }    ///< ends the sink
 
@@ -89,11 +100,11 @@ private:
     std::unordered_map<const void*, MaterialId> materials_;
     std::unordered_map<const void*, TextureId> textures_;
     std::unordered_map<const void*, std::uint32_t> images_, lattices_;
-    struct GroupState {
-        GroupId id;
+    struct BlasState {
+        BlasId id;
         bool open;
     };
-    std::unordered_map<const void*, GroupState> groups_;
+    std::unordered_map<const void*, BlasState> blases_;
     std::unordered_set<const void*> entered_;
 };
 

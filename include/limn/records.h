@@ -36,13 +36,23 @@ struct Lobe;
 ///@{
 enum class TextureId : std::uint32_t { none = 0xffffffff };
 enum class MaterialId : std::uint32_t { none = 0xffffffff };
-enum class GroupId : std::uint32_t { root = 0 };
+/// The scene itself, the object of an instance, or the boundary of a medium.
+enum class BlasId : std::uint32_t { root = 0 };
 ///@}
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-/// The built-in textures, and `foreign` for user-defined ones.
-enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence, marble, foreign };
+/// The built-in textures, and user-defined ones.
+enum class TextureKind : std::uint8_t {
+    solid,
+    checker,
+    image,
+    noise,
+    turbulence,
+    marble,
+    user_defined,
+    foreign [[deprecated]] = user_defined
+};
 
 /// One texture; each field is of the kinds named beside it.
 struct TextureRecord {
@@ -54,8 +64,8 @@ struct TextureRecord {
     TextureId odd = TextureId::none;                           ///< checker
     double scale = 1;                                          ///< checker: side of a cell; noises: frequency
     Color color;                                               ///< solid: the colour; noises: multiplies
-    const Texture* object = nullptr;                           ///< foreign; not owning
-    Color (*value)(const Texture&, const Surface&) = nullptr;  ///< foreign: what to call on it
+    const Texture* object = nullptr;                           ///< user-defined; not owning
+    Color (*value)(const Texture&, const Surface&) = nullptr;  ///< user-defined: what to call on it
 };
 static_assert(sizeof(TextureRecord) == 64);
 
@@ -126,8 +136,9 @@ enum class PrimitiveKind : std::uint8_t {
     mesh,
     instance,
     medium,
-    foreign,
-    disk
+    user_defined,
+    disk,
+    foreign [[deprecated]] = user_defined
 };
 
 /// Centre moves on a straight line from center0 at time 0 to center1 at time 1.
@@ -184,23 +195,23 @@ struct MeshRecord {
 
 /// An instanced subtree seen through a matrix; a moving matrix is interpolated entry by entry.
 struct InstanceRecord {
-    /// The matrices at time 0 and 1, the same for a still instance; `group` is another one than root.
+    /// The matrices at time 0 and 1, the same for a still instance; `blas` is another one than root.
     ///@{
     Transform world_from_object0, world_from_object1;
-    GroupId group = GroupId::root;
+    BlasId blas = BlasId::root;
     bool moving = false;
     ///@}
 };
 
 /// A closed boundary and what fills it.
 struct MediumRecord {
-    GroupId boundary = GroupId::root;     ///< another one than root
+    BlasId boundary = BlasId::root;       ///< another one than root
     MaterialId phase = MaterialId::none;  ///< the phase function, with the albedo
     double density = 0;                   ///< extinction, per world unit of length
 };
 
 /// The hit of a user-defined shape: as Hit, but for the form of material and uv.
-struct ForeignHit {
+struct UserDefinedHit {
     double t = 0;                ///< in units of the ray's direction
     Normal3 normal;              ///< geometric, outward, unit
     Normal3 shading_normal;      ///< zero: same as normal
@@ -213,12 +224,12 @@ struct ForeignHit {
 };
 
 /// A user-defined shape.
-struct ForeignRecord {
-    Box bounds;                                                       ///< Hittable::bounds
-    const Hittable* object = nullptr;                                 ///< not owning
-    bool (*hit)(const Hittable&, const Ray&, ForeignHit&) = nullptr;  ///< Hittable::hit on it; false: a miss
+struct UserDefinedRecord {
+    Box bounds;                                                           ///< Hittable::bounds
+    const Hittable* object = nullptr;                                     ///< not owning
+    bool (*hit)(const Hittable&, const Ray&, UserDefinedHit&) = nullptr;  ///< Hittable::hit on it; false: a miss
 };
-static_assert(sizeof(ForeignRecord) == 64);
+static_assert(sizeof(UserDefinedRecord) == 64);
 
 // ---- lights that are no shapes -------------------------------------------------------------------------------------
 
@@ -247,7 +258,7 @@ struct EnvironmentRecord {
 
 /// `count` primitives of one kind, in the order of description. For a mesh, an instance or a medium: one row with
 /// `count` primitives. For the others: rows first_row, first_row + 1, ... of their table.
-/// `first_number` is the index of the first of them within the group.
+/// `first_number` is the index of the first of them within the BLAS.
 struct PrimitiveRange {
     /// As said above.
     ///@{
@@ -258,10 +269,10 @@ struct PrimitiveRange {
     ///@}
 };
 
-/// What is described together: the scene itself, the object of an instance, the boundary of a medium.
-struct GroupRecord {
+/// What one tree is built over, a bottom-level acceleration structure.
+struct BlasRecord {
     std::vector<PrimitiveRange> ranges;  ///< in the order of description
-    std::uint64_t primitives = 0;        ///< those of instanced groups counted once an instance
+    std::uint64_t primitives = 0;        ///< those of instanced BLASes counted once an instance
 };
 
 /// All records of one scene.
@@ -275,7 +286,7 @@ struct SceneRecords {
     std::vector<MeshRecord> meshes;
     std::vector<InstanceRecord> instances;
     std::vector<MediumRecord> media;
-    std::vector<ForeignRecord> foreign;
+    std::vector<UserDefinedRecord> user_defined;
     std::vector<MaterialRecord> materials;
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
@@ -283,11 +294,19 @@ struct SceneRecords {
     std::vector<LightRecord> lights;
     ///@}
 
-    EnvironmentRecord environment;                                  ///< in place of the background, if it has an image
-    std::vector<GroupRecord> groups = std::vector<GroupRecord>(1);  ///< row 0 is the scene itself
-    std::vector<std::shared_ptr<const void>> kept;                  ///< owners of what the records point to
+    EnvironmentRecord environment;                                ///< in place of the background, if it has an image
+    std::vector<BlasRecord> blases = std::vector<BlasRecord>(1);  ///< row 0 is the scene itself
+    std::vector<std::shared_ptr<const void>> kept;                ///< owners of what the records point to
     std::vector<std::string> tags;  ///< of user-defined objects, in the order of description
     bool untagged = false;          ///< whether there are such objects without one
 };
+
+/// Earlier names, which leave with the next version.
+///@{
+using GroupId [[deprecated("BlasId")]] = BlasId;
+using GroupRecord [[deprecated("BlasRecord")]] = BlasRecord;
+using ForeignHit [[deprecated("UserDefinedHit")]] = UserDefinedHit;
+using ForeignRecord [[deprecated("UserDefinedRecord")]] = UserDefinedRecord;
+///@}
 
 }  // namespace limn

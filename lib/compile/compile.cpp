@@ -27,19 +27,19 @@ void fill_rows(const SceneRecords& records, flat::Scene& out) {
 }
 
 void move_tables(SceneRecords&& records, flat::Scene& out) {
-    for (const GroupRecord& group : records.groups) {
-        flat::Group& packed = out.groups.emplace_back();
+    for (const BlasRecord& blas : records.blases) {
+        flat::Blas& packed = out.blases.emplace_back();
         packed.first_range = static_cast<std::uint32_t>(out.ranges.size());
-        packed.range_count = static_cast<std::uint32_t>(group.ranges.size());
-        out.ranges.insert(out.ranges.end(), group.ranges.begin(), group.ranges.end());
+        packed.range_count = static_cast<std::uint32_t>(blas.ranges.size());
+        out.ranges.insert(out.ranges.end(), blas.ranges.begin(), blas.ranges.end());
     }
     fill_rows(records, out);
-    out.primitives = records.groups.front().primitives;
+    out.primitives = records.blases.front().primitives;
     for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
-    out.foreign = std::move(records.foreign);
+    out.user_defined = std::move(records.user_defined);
     out.medium_shapes = std::move(records.media);
     for (const InstanceRecord& instance : records.instances) {
-        out.instances.emplace_back().group = instance.group;
+        out.instances.emplace_back().blas = instance.blas;
         place_instance(out.instances.back(), instance.world_from_object0, instance.world_from_object1);
     }
     out.materials = std::move(records.materials);
@@ -52,20 +52,20 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
 
 void gather_features(flat::Scene& s) {
     flat::Features& f = s.features;
-    f.foreign_shapes = !s.foreign.empty();
+    f.user_defined_shapes = !s.user_defined.empty();
     for (const flat::Instance& instance : s.instances) f.moving_instances |= instance.moving;
     bool smooth_normals = false, textures = false;
     for (const flat::Mesh& mesh : s.meshes) smooth_normals |= !mesh.arrays.normals.empty();
     for (const TextureRecord& t : s.textures) {
         textures |= t.kind != TextureKind::solid;
-        f.foreign_textures |= t.kind == TextureKind::foreign;
+        f.user_defined_textures |= t.kind == TextureKind::user_defined;
         f.texture_coordinates |= t.kind == TextureKind::image;
     }
     for (const MaterialRecord& m : s.materials) {
-        f.foreign_materials |= m.kind == kUserDefinedMaterial;
+        f.user_defined_materials |= m.kind == kUserDefinedMaterial;
         f.tangents |= m.kind == kUserDefinedMaterial || (m.details && m.details->tangents);
     }
-    f.texture_coordinates |= f.foreign_textures || f.foreign_materials || f.foreign_shapes;
+    f.texture_coordinates |= f.user_defined_textures || f.user_defined_materials || f.user_defined_shapes;
     const bool has_map = s.environment.image != nullptr;
     f.background = !has_map && (!is_black(s.background_bottom) || !is_black(s.background_top));
 
@@ -80,11 +80,11 @@ void gather_features(flat::Scene& s) {
     name(smooth_normals, "smooth-normals");
     name(!s.instances.empty(), "instance");
     name(f.moving_instances, "moving-instance");
-    name(f.foreign_shapes, "foreign-shape");
+    name(f.user_defined_shapes, "foreign-shape");
     name(!s.media.empty(), "medium");
     name(textures, "texture");
-    name(f.foreign_textures, "foreign-texture");
-    name(f.foreign_materials, "foreign-material");
+    name(f.user_defined_textures, "foreign-texture");
+    name(f.user_defined_materials, "foreign-material");
     name(s.lights.size() > 0 || !s.light_sources.empty(), "light");
     name(f.background, "background");
     name(has_map, "environment");
@@ -98,7 +98,7 @@ void reserve_places(flat::Scene& s) {
     }
 }
 
-// Gives up the arrays that the tree repeats, and owners of what no foreign object is there to use.
+// Gives up the arrays that the tree repeats, and owners of what no user-defined object is there to use.
 void release_arrays(flat::Scene& s) {
     const bool fits = s.blocks.size() / 2 * flat::kMaxBlock < flat::kNothing;
     for (flat::Mesh& mesh : s.meshes) {
@@ -111,7 +111,7 @@ void release_arrays(flat::Scene& s) {
         mesh.owner.reset();
     }
     const flat::Features& f = s.features;
-    if (!f.foreign_shapes && !f.foreign_materials && !f.foreign_textures) s.kept.clear();
+    if (!f.user_defined_shapes && !f.user_defined_materials && !f.user_defined_textures) s.kept.clear();
 }
 
 constexpr std::uint64_t kFewPrimitives = 4096;
@@ -131,22 +131,22 @@ constexpr double kCostOfManyNodes = 48;
 
 void judge_memory(flat::Scene& s) {
     const std::size_t bytes = s.nodes.size() * sizeof(s.nodes[0]) + s.blocks.size() * sizeof(s.blocks[0]);
-    s.is_larger_than_cache = bytes > kCacheBytes && s.groups.front().cost < kCostOfManyNodes;
+    s.is_larger_than_cache = bytes > kCacheBytes && s.blases.front().cost < kCostOfManyNodes;
 }
 
 // Shapes that can be seen but have no material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
-    std::vector<bool> seen(s.groups.size(), false);
-    std::vector<GroupId> open{GroupId::root};
+    std::vector<bool> seen(s.blases.size(), false);
+    std::vector<BlasId> open{BlasId::root};
     while (!open.empty()) {
         const auto id = static_cast<std::size_t>(open.back());
         open.pop_back();
         if (seen[id]) continue;
         seen[id] = true;
-        for (const PrimitiveRange& range : flat::ranges_of(s, s.groups[id])) {
-            if (range.kind == PrimitiveKind::instance) open.push_back(s.instances[range.first_row].group);
+        for (const PrimitiveRange& range : flat::ranges_of(s, s.blases[id])) {
+            if (range.kind == PrimitiveKind::instance) open.push_back(s.instances[range.first_row].blas);
             const bool has_row = range.kind != PrimitiveKind::instance && range.kind != PrimitiveKind::medium &&
-                                 range.kind != PrimitiveKind::foreign;
+                                 range.kind != PrimitiveKind::user_defined;
             for (std::uint64_t e = 0; has_row && e < range.count; ++e)
                 s.unassigned += flat::material_of(s, range, e) == MaterialId::none ? 1 : 0;
         }
@@ -157,7 +157,7 @@ std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto&... tables) {
         return (std::size_t{0} + ... + (tables.size() * sizeof(tables[0])));
     };
-    std::size_t sum = sizeof(s) + bytes(s.meshes, s.foreign, s.materials, s.kept);
+    std::size_t sum = sizeof(s) + bytes(s.meshes, s.user_defined, s.materials, s.kept);
     flat::each_table(s, [&](const auto& table) { sum += bytes(table); });
     for (const flat::Mesh& mesh : s.meshes) {
         const MeshView& a = mesh.arrays;
@@ -204,7 +204,7 @@ flat::Scene flatten(const limn::Scene& scene) {
     out.untagged = sink.records().untagged;
     const EnvironmentRecord environment = sink.records().environment;
     move_tables(std::move(sink).take(), out);
-    if (!out.foreign.empty())  // their records point into the described objects
+    if (!out.user_defined.empty())  // their records point into the described objects
         for (const auto& object : scene.objects()) out.kept.push_back(object);
     out.name = scene.name;
     out.background_bottom = scene.background.bottom;

@@ -96,11 +96,11 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
                     std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
                 });
     });
-    sum.table(r.instances, [&](const InstanceRecord& i) { sum.add(i.group); });
+    sum.table(r.instances, [&](const InstanceRecord& i) { sum.add(i.blas); });
     sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });
-    sum.table(r.foreign, [&](const ForeignRecord& f) { sum.add(f.bounds); });
-    sum.table(r.groups, [&](const GroupRecord& group) {
-        sum.table(group.ranges, [&](const PrimitiveRange& range) {
+    sum.table(r.user_defined, [&](const UserDefinedRecord& f) { sum.add(f.bounds); });
+    sum.table(r.blases, [&](const BlasRecord& blas) {
+        sum.table(blas.ranges, [&](const PrimitiveRange& range) {
             sum.add(range.kind, range.first_row, range.first_number, range.count);
         });
     });

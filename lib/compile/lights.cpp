@@ -12,10 +12,10 @@ namespace limn::compiler {
 namespace {
 
 // A texture that cannot be sampled, as a whole or in part: it may ask for what only a traced hit knows.
-bool is_foreign(const flat::Scene& scene, TextureId id) {
+bool is_user_defined(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
-    return t.kind == TextureKind::foreign ||
-           (t.kind == TextureKind::checker && (is_foreign(scene, t.even) || is_foreign(scene, t.odd)));
+    return t.kind == TextureKind::user_defined ||
+           (t.kind == TextureKind::checker && (is_user_defined(scene, t.even) || is_user_defined(scene, t.odd)));
 }
 
 // A brightness that stands for the whole texture when lights are weighed against each other; a wrong guess costs noise,
@@ -34,7 +34,7 @@ double typical_brightness(const flat::Scene& scene, TextureId id) {
         case TextureKind::noise:
         case TextureKind::turbulence:
         case TextureKind::marble: return max_component(t.color) / 2;
-        case TextureKind::foreign: break;  // not sampled
+        case TextureKind::user_defined: break;  // not sampled
     }
     return 0;
 }
@@ -57,7 +57,7 @@ constexpr std::size_t kMostOwn = std::size_t{1} << 14;
 // Of moving instances around an emitter: where it may be is known from all combinations of their ends.
 constexpr int kMostMoving = 4;
 
-// The way from a group to the scene: the composed matrices at both ends of the shutter, and what they were composed of.
+// The way from a BLAS to the scene: the composed matrices at both ends of the shutter, and what they were composed of.
 struct Seen {
     Transform at0, at1;
     std::vector<std::uint32_t> instances;  // rows, outermost first
@@ -74,11 +74,11 @@ class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
         for (const MaterialRecord& m : scene.materials) {
-            const bool is_sampled = m.emission != TextureId::none && !is_foreign(scene, m.emission);
+            const bool is_sampled = m.emission != TextureId::none && !is_user_defined(scene, m.emission);
             brightness_.push_back(is_sampled ? typical_brightness(scene, m.emission) : 0);
         }
-        emits_ = groups_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
-        visit(GroupId::root, 0, {});
+        emits_ = blases_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
+        visit(BlasId::root, 0, {});
         add_sources();
         add_environment();
         build_light_tree(std::move(items_), scene.lights);
@@ -136,11 +136,11 @@ private:
         return false;
     }
 
-    void visit(GroupId id, std::uint64_t first_number, const Seen& seen) {
+    void visit(BlasId id, std::uint64_t first_number, const Seen& seen) {
         if (!emits_[static_cast<std::size_t>(id)] || items_.size() >= kMaxLights) return;
-        const flat::Group group = flat::group_at(scene_, id);
-        for (std::uint32_t i = 0; i < group.range_count; ++i) {
-            const std::uint32_t row = group.first_range + i;
+        const flat::Blas blas = flat::blas_at(scene_, id);
+        for (std::uint32_t i = 0; i < blas.range_count; ++i) {
+            const std::uint32_t row = blas.first_range + i;
             const PrimitiveRange range = scene_.ranges[row];
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance)
@@ -160,7 +160,7 @@ private:
             if (++seen.moving > kMostMoving) return;
             seen.straight = seen.straight && same_but_for_translation(m0, m1);
         }
-        visit(instance.group, number, seen);
+        visit(instance.blas, number, seen);
     }
 
     // The lights of one range, seen through instances.
@@ -275,7 +275,7 @@ private:
 
     flat::Scene& scene_;
     std::vector<double> brightness_;  // by material; 0: does not emit
-    std::vector<bool> emits_;         // by group
+    std::vector<bool> emits_;         // by BLAS
     std::vector<LightItem> items_;
 };
 

@@ -35,11 +35,11 @@ double half_area(const Box& box) {
 
 class Lister {
 public:
-    explicit Lister(flat::Scene& scene) : scene_(scene), root_(flat::group_at(scene, GroupId::root)) {}
+    explicit Lister(flat::Scene& scene) : scene_(scene), root_(flat::blas_at(scene, BlasId::root)) {}
 
     // False if not all can be listed.
     bool list_all() {
-        if (!is_in_range() || scene_.stored_primitives > PrimitiveList::kMost || !add_group(root_, 0, {})) return false;
+        if (!is_in_range() || scene_.stored_primitives > PrimitiveList::kMost || !add_blas(root_, 0, {})) return false;
         if (entries_.empty() || entries_.size() > PrimitiveList::kMost) return false;
         pack();
         scene_.list.is_all = true;
@@ -87,12 +87,12 @@ private:
 
     bool add_instance(const PrimitiveRange& range, std::uint64_t number) {
         const flat::Instance& instance = scene_.instances[range.first_row];
-        return !instance.moving && add_group(flat::group_at(scene_, instance.group), number, range.first_row);
+        return !instance.moving && add_blas(flat::blas_at(scene_, instance.blas), number, range.first_row);
     }
 
-    // Whether all of the group can be listed.
-    bool add_group(const flat::Group& group, std::uint64_t first_number, std::optional<std::uint32_t> instance) {
-        for (const PrimitiveRange& range : flat::ranges_of(scene_, group)) {
+    // Whether all of the BLAS can be listed.
+    bool add_blas(const flat::Blas& blas, std::uint64_t first_number, std::optional<std::uint32_t> instance) {
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, blas)) {
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance) {
                 if (instance || !add_instance(range, number)) return false;
@@ -201,7 +201,7 @@ private:
     }
 
     flat::Scene& scene_;
-    const flat::Group& root_;
+    const flat::Blas& root_;
     std::vector<PrimitiveList::Entry> entries_;
 };
 

@@ -22,7 +22,7 @@ std::uint32_t row_of(const flat::Scene& scene, std::size_t object) {
     const bool is_last = object + 1 == scene.first_of_object.size();
     const std::uint64_t end = is_last ? scene.primitives : scene.first_of_object[object + 1];
     // The last of those that begin here: what came before is empty.
-    const std::span ranges = flat::ranges_of(scene, scene.groups.front());
+    const std::span ranges = flat::ranges_of(scene, scene.blases.front());
     const auto after = std::ranges::upper_bound(ranges, first, {}, &PrimitiveRange::first_number);
     if (after == ranges.begin() || end == first || (after - 1)->kind != PrimitiveKind::instance ||
         (after - 1)->first_number != first || (after - 1)->count != end - first)
@@ -53,7 +53,7 @@ void restore_arrays(flat::Scene& scene, flat::Mesh& mesh) {
 }
 
 void drop_what_moves(flat::Scene& scene) {
-    for (const PrimitiveRange& range : flat::ranges_of(scene, scene.groups.front())) {
+    for (const PrimitiveRange& range : flat::ranges_of(scene, scene.blases.front())) {
         if (range.kind != PrimitiveKind::mesh) continue;
         flat::Mesh& mesh = scene.meshes[range.first_row];
         if (mesh.arrays.triangles.empty()) restore_arrays(scene, mesh);
@@ -96,7 +96,7 @@ void move(flat::Scene& scene, std::span<const MovedObject> moved) {
         const MovedObject& m = moved[i];
         place_instance(scene.instances[rows[i]], m.world_from_object, m.at_time1.value_or(m.world_from_object));
     });
-    build_group_tree(scene, scene.groups.front());
+    build_blas_tree(scene, scene.blases.front());
     derive(scene);
     scene.compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -20,13 +20,13 @@ void place_instance(flat::Instance& instance, const Transform& at_time0, const T
 // arrays that the trees repeat.
 void derive(flat::Scene& scene);
 
-// Builds the tree of every group. \pre the tables and the groups' ranges are filled
+// Builds the tree of every BLAS. \pre the tables and the BLASes' ranges are filled
 void build_trees(flat::Scene& scene);
 
-// Of that, the tree over the primitives of one group: the BLAS of an instance, or the scene's own. Sets the group's
-// root, bounds, extent and scale; of the scene itself Scene::list, too. The groups of its instances are built already.
+// Of that, the tree over the primitives of one BLAS: the BLAS of an instance, or the scene's own. Sets the BLAS's
+// root, bounds, extent and scale; of the scene itself Scene::list, too. The BLASes of its instances are built already.
 // \throws ArgumentError if there are too many
-void build_group_tree(flat::Scene& scene, flat::Group& group);
+void build_blas_tree(flat::Scene& scene, flat::Blas& blas);
 
 // Lists every medium where instances put it. \pre the trees are built
 void place_media(flat::Scene& scene);
@@ -35,8 +35,8 @@ void place_media(flat::Scene& scene);
 void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
 
 // Fills scene.lights with every emitter that can be sampled: the sources, the environment, triangles, quads and spheres
-// of a diffuse light, not under a moving instance, spheres not under one that bends them, none with a foreign texture.
-// What is left out is found by scattering alone.
+// of a diffuse light, not under a moving instance, spheres not under one that bends them, none with a user-defined
+// texture. What is left out is found by scattering alone.
 void collect_lights(flat::Scene& scene);
 
 }  // namespace limn::compiler

@@ -11,17 +11,17 @@ namespace limn {
 class FloatEnvironment {
 public:
     FloatEnvironment() : callers_(__builtin_ia32_stmxcsr()) {
-        if (is_foreign()) __builtin_ia32_ldmxcsr(kDefault);
+        if (is_changed()) __builtin_ia32_ldmxcsr(kDefault);
     }
     ~FloatEnvironment() {
-        if (is_foreign()) __builtin_ia32_ldmxcsr(callers_);
+        if (is_changed()) __builtin_ia32_ldmxcsr(callers_);
     }
     FloatEnvironment(const FloatEnvironment&) = delete;
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
 private:
     static constexpr unsigned kDefault = 0x1f80, kFlags = 0x3f;  // of MXCSR; flags are what has been raised so far
-    bool is_foreign() const { return (callers_ & ~kFlags) != kDefault; }
+    bool is_changed() const { return (callers_ & ~kFlags) != kDefault; }
     unsigned callers_;
 };
 

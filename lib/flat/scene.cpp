@@ -4,13 +4,13 @@
 
 namespace limn::flat {
 
-Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
+Place locate(const Scene& scene, std::uint64_t number, BlasId id) {
     Place place;
     for (;;) {
-        const Group& group = group_at(scene, id);
-        const auto begin = scene.ranges.begin() + group.first_range;
+        const Blas& blas = blas_at(scene, id);
+        const auto begin = scene.ranges.begin() + blas.first_range;
         const auto after =
-            std::upper_bound(begin, begin + group.range_count, number,
+            std::upper_bound(begin, begin + blas.range_count, number,
                              [](std::uint64_t n, const PrimitiveRange& r) { return n < r.first_number; });
         const auto range = after - 1;
         place.range = static_cast<std::uint32_t>(range - scene.ranges.begin());
@@ -18,7 +18,7 @@ Place locate(const Scene& scene, std::uint64_t number, GroupId id) {
         number = place.element;
         if (range->kind == PrimitiveKind::instance) {
             place.instances[place.depth++] = range->first_row;
-            id = scene.instances[range->first_row].group;
+            id = scene.instances[range->first_row].blas;
         } else if (range->kind == PrimitiveKind::medium) {
             place.index_matched = true;
             id = scene.medium_shapes[range->first_row].boundary;

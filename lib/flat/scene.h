@@ -1,5 +1,5 @@
 // The compiled scene: plain tables and typed ids. No virtual functions, no pointer to a described object but those of
-// foreign shapes, which are called through their thunks.
+// user-defined shapes, which are called through their thunks.
 #pragma once
 
 #include <algorithm>
@@ -44,12 +44,12 @@ static_assert(sizeof(Reference) == 8);
 struct Mesh : MeshRecord {
     std::vector<std::uint32_t> places, slots;
 };
-using Foreign = ForeignRecord;
+using UserDefined = UserDefinedRecord;
 
 struct Instance {
     Transform world_from_object0, world_from_object1;
     Transform object_from_world;  // of a still one
-    GroupId group = GroupId::root;
+    BlasId blas = BlasId::root;
     bool moving = false;
     InverseError lost{};  // by object_from_world
 };
@@ -59,8 +59,8 @@ inline Transform world_from_object(const Instance& instance, double time) {
                            : instance.world_from_object0;
 }
 
-// Primitives under one tree. Numbers count from 0 in each group.
-struct Group {
+// Primitives under one tree. Numbers count from 0 in each BLAS.
+struct Blas {
     Child root = kNothing;
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
@@ -82,9 +82,9 @@ struct Medium {
 };
 
 struct Features {
-    bool moving_instances = false, foreign_shapes = false;
-    bool foreign_materials = false, foreign_textures = false;
-    bool texture_coordinates = false;  // may be asked for by a texture or a foreign material
+    bool moving_instances = false, user_defined_shapes = false;
+    bool user_defined_materials = false, user_defined_textures = false;
+    bool texture_coordinates = false;  // may be asked for by a texture or a user-defined material
     bool tangents = false;             // the same of Surface::dp_du and dp_dv
     bool background = false;
 };
@@ -101,9 +101,9 @@ struct Scene {
     primitives::Tables rows;  // of kinds with one for each primitive
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
-    std::vector<Foreign> foreign;
+    std::vector<UserDefined> user_defined;
 
-    std::vector<Group> groups;  // [0] is the scene itself
+    std::vector<Blas> blases;  // [0] is the scene itself
     std::vector<PrimitiveRange> ranges;
     std::vector<Reference> references;
     HugeVector<Node> nodes;
@@ -129,7 +129,7 @@ struct Scene {
 
     // Of each object, or null: of the material slots of its meshes but the first.
     std::vector<std::shared_ptr<const std::vector<std::string>>> material_names;
-    std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and foreign objects
+    std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and user-defined objects
     Features features;
     unsigned kinds = 0;  // of primitives in the trees: see bit()
     std::string feature_names;
@@ -155,8 +155,8 @@ struct Place {
     bool index_matched = false;  // part of a medium's boundary
 };
 
-// \pre number < primitives of the group
-Place locate(const Scene& scene, std::uint64_t number, GroupId group = GroupId::root);
+// \pre number < primitives of the BLAS
+Place locate(const Scene& scene, std::uint64_t number, BlasId blas = BlasId::root);
 
 // The object that a primitive belongs to.
 inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
@@ -166,7 +166,8 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
     return static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
 }
 
-// Of one primitive; none for those without a row of their own, and for foreign shapes, which tell theirs with each hit.
+// Of one primitive; none for those without a row of their own, and for user-defined shapes, which tell theirs with each
+// hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
 // Exactly as described.
@@ -181,10 +182,10 @@ void with_primitive(const Scene& scene, const PrimitiveRange& range, std::uint64
         primitives::with_row(scene.rows, range.kind, range.first_row + element, visit);
 }
 
-inline const Group& group_at(const Scene& s, GroupId id) { return s.groups[static_cast<std::size_t>(id)]; }
+inline const Blas& blas_at(const Scene& s, BlasId id) { return s.blases[static_cast<std::size_t>(id)]; }
 
-inline std::span<const PrimitiveRange> ranges_of(const Scene& s, const Group& group) {
-    return std::span(s.ranges).subspan(group.first_range, group.range_count);
+inline std::span<const PrimitiveRange> ranges_of(const Scene& s, const Blas& blas) {
+    return std::span(s.ranges).subspan(blas.first_range, blas.range_count);
 }
 
 }  // namespace limn::flat

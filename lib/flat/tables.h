@@ -9,7 +9,7 @@ namespace limn::flat {
 template <class S, class Function>
 void each_table(S& s, const Function& function) {
     std::apply([&](auto&... rows) { (function(rows), ...); }, s.rows);
-    function(s.instances), function(s.groups), function(s.ranges), function(s.references);
+    function(s.instances), function(s.blases), function(s.ranges), function(s.references);
     function(s.nodes), function(s.blocks);
     function(s.first_of_object), function(s.object_of);
     function(s.medium_shapes), function(s.media), function(s.medium_instances);

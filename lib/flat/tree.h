@@ -13,7 +13,7 @@
 
 namespace limn::flat {
 
-// Boxes are scaled by Group::scale and rounded outward to float. A leaf is named by where its first block starts, in
+// Boxes are scaled by Blas::scale and rounded outward to float. A leaf is named by where its first block starts, in
 // pairs of words.
 using accel::Node, accel::Child, accel::kLeaf, accel::kNothing, accel::kWidth;
 

@@ -21,7 +21,7 @@ Feature feature_of(NearestPoint::Part part) {
 
 std::optional<ClosestPoint> CompiledScene::closest_point(const Point3& point, double max_distance, double time) const {
     const FloatEnvironment environment;
-    if (scene_->features.foreign_shapes)
+    if (scene_->features.user_defined_shapes)
         throw ArgumentError("closest_point: the scene has user-defined shapes, which cannot be asked");
     if (!is_finite(point) || !(max_distance >= 0) || !std::isfinite(time)) return std::nullopt;
     const trace::NearestSurface found = trace::closest_point(*scene_, point, max_distance, time);

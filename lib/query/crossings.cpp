@@ -61,7 +61,7 @@ std::size_t CompiledScene::count_intersections(const Ray& ray) const {
 std::int64_t CompiledScene::winding_number(const Ray& ray) const { return count(*scene_, ray, false).outward; }
 
 PointLocation CompiledScene::locate(const Point3& point, double time) const {
-    const Vec3 direction = way_out(flat::group_at(*scene_, GroupId::root).bounds, point);
+    const Vec3 direction = way_out(flat::blas_at(*scene_, BlasId::root).bounds, point);
     const trace::PassageCount found = count(*scene_, {.origin = point, .direction = direction, .time = time}, true);
     return {.winding_number = found.outward, .on_surface = found.touched != kNoPrimitive, .primitive = found.touched};
 }

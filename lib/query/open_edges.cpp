@@ -22,7 +22,7 @@ struct HashOfPoint {
     }
 };
 
-// The edges of one group's faces, by the numbers of their ends.
+// The edges of one BLAS's faces, by the numbers of their ends.
 class Edges {
 public:
     void add_face(std::initializer_list<Point3> corners) {
@@ -54,15 +54,15 @@ private:
 
 class OpenEdges {
 public:
-    explicit OpenEdges(const flat::Scene& scene) : scene_(scene), of_group_(scene.groups.size(), kUnknown) {}
+    explicit OpenEdges(const flat::Scene& scene) : scene_(scene), of_blas_(scene.blases.size(), kUnknown) {}
 
-    std::uint64_t of(GroupId id) {
-        std::uint64_t& known = of_group_[static_cast<std::size_t>(id)];
+    std::uint64_t of(BlasId id) {
+        std::uint64_t& known = of_blas_[static_cast<std::size_t>(id)];
         if (known != kUnknown) return known;
         Edges edges;
         std::uint64_t sum = 0;
-        for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::group_at(scene_, id))) {
-            if (range.kind == PrimitiveKind::instance) sum += of(scene_.instances[range.first_row].group);
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::blas_at(scene_, id))) {
+            if (range.kind == PrimitiveKind::instance) sum += of(scene_.instances[range.first_row].blas);
             if (range.kind == PrimitiveKind::medium) sum += of(scene_.medium_shapes[range.first_row].boundary);
             if (range.kind == PrimitiveKind::disk) sum += range.count;  // a rim
             if (flat::bit(range.kind) & flat::kPlanarKinds) add_faces(range, edges);
@@ -89,14 +89,14 @@ private:
     }
 
     const flat::Scene& scene_;
-    std::vector<std::uint64_t> of_group_;
+    std::vector<std::uint64_t> of_blas_;
 };
 
 }  // namespace
 
 std::uint64_t CompiledScene::open_edges() const {
     const FloatEnvironment environment;
-    return OpenEdges(*scene_).of(GroupId::root);
+    return OpenEdges(*scene_).of(BlasId::root);
 }
 
 }  // namespace limn

@@ -64,8 +64,8 @@ void require_own(const flat::Scene& s) {
     const auto refuse = [](const char* what) {
         throw ArgumentError(std::string("CompiledScene::save: the scene has user-defined ") + what);
     };
-    if (!s.foreign.empty()) refuse("shapes");
-    if (s.features.foreign_textures) refuse("textures");
+    if (!s.user_defined.empty()) refuse("shapes");
+    if (s.features.user_defined_textures) refuse("textures");
     for (const MaterialRecord& m : s.materials)
         if (known_material(m.kind) == nullptr) refuse("materials");
 }

@@ -9,20 +9,20 @@ namespace limn::query {
 
 namespace {
 
-void on_foreign(const flat::Foreign& shape, Ray ray, double t, SurfaceHit& out) {
+void on_user_defined(const flat::UserDefined& shape, Ray ray, double t, SurfaceHit& out) {
     // Called once more for what traversal did not keep; a pure shape answers as it did then.
     ray.t_max = t;
-    ForeignHit foreign;
+    UserDefinedHit hit;
     out = {};
-    if (!shape.hit(*shape.object, ray, foreign)) return;
+    if (!shape.hit(*shape.object, ray, hit)) return;
     Surface& s = out.surface;
-    s.position = ray.at(foreign.t);
-    s.position_error = ray_error(ray, foreign.t) + foreign.position_error;
-    s.normal = foreign.normal;
-    s.shading_normal = foreign.shading_normal == Normal3{} ? foreign.normal : foreign.shading_normal;
-    s.uv = foreign.uv;
-    s.material = foreign.material;
-    out.index_matched = foreign.index_matched;
+    s.position = ray.at(hit.t);
+    s.position_error = ray_error(ray, hit.t) + hit.position_error;
+    s.normal = hit.normal;
+    s.shading_normal = hit.shading_normal == Normal3{} ? hit.normal : hit.shading_normal;
+    s.uv = hit.uv;
+    s.material = hit.material;
+    out.index_matched = hit.index_matched;
 }
 
 // Of what lies in a plane, where u and v are the weights of its edges.
@@ -61,8 +61,8 @@ void set_mesh_tangents(const MeshView& mesh, std::size_t element, Surface& s) {
 void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const PlanarHit& found,
                   Parts parts, SurfaceHit& out) {
     const PrimitiveRange& range = scene.ranges[place.range];
-    if (range.kind == PrimitiveKind::foreign)
-        return on_foreign(scene.foreign[range.first_row + place.element], ray, found.t, out);
+    if (range.kind == PrimitiveKind::user_defined)
+        return on_user_defined(scene.user_defined[range.first_row + place.element], ray, found.t, out);
     flat::with_primitive(scene, range, place.element, [&](const auto& primitive) {
         primitive.surface(ray, found, parts.uv, out.surface);
         if (parts.tangents) set_tangents(primitive, out.surface);
@@ -75,7 +75,7 @@ void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray&
     if (parts.tangents) set_mesh_tangents(mesh.arrays, place.element, out.surface);
 }
 
-// From the space of an instanced group to that around it.
+// From the space of an instanced BLAS to that around it.
 void leave_instance(const flat::Instance& instance, double time, Parts parts, Surface& hit) {
     Transform m_now, inv_now;
     if (instance.moving) {
@@ -93,7 +93,7 @@ void leave_instance(const flat::Instance& instance, double time, Parts parts, Su
     if (parts.tangents) hit.dp_du = transform_vector(m, hit.dp_du), hit.dp_dv = transform_vector(m, hit.dp_dv);
 }
 
-// What foreign shapes need to know of a ray, and what is enough for others.
+// What user-defined shapes need to know of a ray, and what is enough for others.
 Ray ray_of(const RayFrame& frame) { return frame.with_frame(); }
 const Ray& ray_of(const Ray& ray) { return ray; }
 
@@ -139,7 +139,7 @@ void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& raw,
     Surface& s = out.surface;
     out.index_matched = false;
     const PrimitiveRange& range = scene.ranges[place.range];
-    if (range.kind == PrimitiveKind::foreign) {
+    if (range.kind == PrimitiveKind::user_defined) {
         hit_within(scene, place, 0, RayFrame(ray), found, parts, out);
     } else {
         hit_within(scene, place, 0, ray, found, parts, out);

@@ -11,7 +11,7 @@ namespace limn::query {
 // instances.
 struct SurfaceHit {
     Surface surface;
-    bool index_matched = false;  // the boundary of a medium, or a foreign shape that says so
+    bool index_matched = false;  // the boundary of a medium, or a user-defined shape that says so
 };
 
 // What may be left out: texture coordinates of a sphere, which cost more than the rest of it, and dp_du and dp_dv.

@@ -60,27 +60,27 @@ void RecordSink::mesh(MeshRecord record, const std::shared_ptr<const void>& owne
 
 void RecordSink::instance(const InstanceRecord& record) {
     shape(PrimitiveKind::instance, &SceneRecords::instances, record,
-          records_.groups[static_cast<std::size_t>(record.group)].primitives);
+          records_.blases[static_cast<std::size_t>(record.blas)].primitives);
 }
 
 void RecordSink::medium(const MediumRecord& record) {
     shape(PrimitiveKind::medium, &SceneRecords::media, record,
-          records_.groups[static_cast<std::size_t>(record.boundary)].primitives);
+          records_.blases[static_cast<std::size_t>(record.boundary)].primitives);
 }
 
-GroupId RecordSink::group(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill) {
-    if (const auto known = groups_.find(object.get()); known != groups_.end()) {
+BlasId RecordSink::blas(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill) {
+    if (const auto known = blases_.find(object.get()); known != blases_.end()) {
         if (known->second.open) throw ArgumentError("scene: an object contains itself");
         return known->second.id;
     }
-    const GroupId id{next_row(records_.groups.size())};
+    const BlasId id{next_row(records_.blases.size())};
     keep(object);
-    records_.groups.emplace_back();
-    groups_.emplace(object.get(), GroupState{id, true});
+    records_.blases.emplace_back();
+    blases_.emplace(object.get(), BlasState{id, true});
     const std::size_t outer = std::exchange(current_, static_cast<std::size_t>(id));
     fill(*this);
     current_ = outer;
-    groups_.at(object.get()).open = false;
+    blases_.at(object.get()).open = false;
     return id;
 }
 
@@ -100,21 +100,21 @@ void RecordSink::leave(const void* object) { entered_.erase(object); }
 void RecordSink::keep(const std::shared_ptr<const void>& owner) { records_.kept.push_back(owner); }
 
 void RecordSink::append(PrimitiveKind kind, std::size_t row, std::uint64_t count) {
-    GroupRecord& group = records_.groups[current_];
-    const std::uint64_t first_number = group.primitives;
+    BlasRecord& blas = records_.blases[current_];
+    const std::uint64_t first_number = blas.primitives;
     if (count > std::numeric_limits<std::uint64_t>::max() / 2 - first_number)
         throw ArgumentError("scene: too many primitives");
-    group.primitives += count;
+    blas.primitives += count;
     const bool one_row =
         kind == PrimitiveKind::mesh || kind == PrimitiveKind::instance || kind == PrimitiveKind::medium;
-    if (!one_row && !group.ranges.empty()) {
-        PrimitiveRange& last = group.ranges.back();
+    if (!one_row && !blas.ranges.empty()) {
+        PrimitiveRange& last = blas.ranges.back();
         if (last.kind == kind && last.first_row + last.count == row) {
             ++last.count;
             return;
         }
     }
-    group.ranges.push_back({kind, next_row(row), first_number, count});
+    blas.ranges.push_back({kind, next_row(row), first_number, count});
 }
 
 }  // namespace limn

@@ -26,7 +26,7 @@ CameraSamples::CameraSamples(const flat::Scene& scene, const FilmInfo& info)
       window_(info.window()),
       has_lens_or_motion_(info.camera.aperture_angle > 0 ||
                           (scene.kinds & flat::bit(PrimitiveKind::moving_sphere)) != 0 ||
-                          scene.features.moving_instances || scene.features.foreign_shapes) {}
+                          scene.features.moving_instances || scene.features.user_defined_shapes) {}
 
 // A pixel's numbers go by its place in the whole picture.
 Path CameraSamples::path(int x, int y, std::uint32_t sample) const {

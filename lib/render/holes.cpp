@@ -10,7 +10,7 @@ namespace limn::transport {
 double Holes::opacity_of(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit) {
     const flat::Place place = flat::locate(scene, hit.primitive);
     const PrimitiveRange& range = scene.ranges[place.range];
-    if (range.kind == PrimitiveKind::foreign) return 1;
+    if (range.kind == PrimitiveKind::user_defined) return 1;
     const MaterialId material = flat::material_of(scene, range, place.element);
     if (material == MaterialId::none || !shade::has_holes(scene.materials[static_cast<std::size_t>(material)]))
         return 1;

@@ -94,7 +94,7 @@ Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s) {
         case TextureKind::turbulence:
             return t.color * pattern::turbulence_factor(*scene.lattices[t.data], t.scale, s.position);
         case TextureKind::marble: return t.color * pattern::marble(*scene.lattices[t.data], t.scale, s.position);
-        case TextureKind::foreign: return t.value(*t.object, s);
+        case TextureKind::user_defined: return t.value(*t.object, s);
     }
     return {};
 }

@@ -30,7 +30,7 @@ std::optional<Hit> ConstantMedium::hit(const Ray& ray) const {
 }
 
 void ConstantMedium::lower(RecordSink& sink) const {
-    const GroupId boundary = sink.group(boundary_, [&](RecordSink& inner) { boundary_->lower(inner); });
+    const BlasId boundary = sink.blas(boundary_, [&](RecordSink& inner) { boundary_->lower(inner); });
     sink.medium({boundary, lower_material(sink, phase_), density_});
 }
 

@@ -4,7 +4,7 @@ namespace limn {
 
 namespace {
 
-bool call_hit(const Hittable& object, const Ray& ray, ForeignHit& out) {
+bool call_hit(const Hittable& object, const Ray& ray, UserDefinedHit& out) {
     const std::optional<Hit> hit = object.hit(ray);
     if (!hit) return false;
     out.t = hit->t;
@@ -23,7 +23,7 @@ bool call_hit(const Hittable& object, const Ray& ray, ForeignHit& out) {
 
 void Hittable::lower(RecordSink& sink) const {
     sink.identify(dynamic_cast<const Tagged*>(this));
-    sink.foreign({bounds(), this, &call_hit});
+    sink.user_defined({bounds(), this, &call_hit});
 }
 
 }  // namespace limn

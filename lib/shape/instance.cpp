@@ -87,8 +87,8 @@ std::optional<Hit> Instance::hit(const Ray& ray) const {
 }
 
 void Instance::lower(RecordSink& sink) const {
-    const GroupId group = sink.group(object_, [&](RecordSink& inner) { object_->lower(inner); });
-    sink.instance({world_from_object0_, world_from_object1_, group, moving_});
+    const BlasId blas = sink.blas(object_, [&](RecordSink& inner) { object_->lower(inner); });
+    sink.instance({world_from_object0_, world_from_object1_, blas, moving_});
 }
 
 }  // namespace limn

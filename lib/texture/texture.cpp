@@ -5,7 +5,7 @@ namespace limn {
 TextureRecord Texture::lower(RecordSink& sink) const {
     sink.identify(dynamic_cast<const Tagged*>(this));
     TextureRecord record;
-    record.kind = TextureKind::foreign;
+    record.kind = TextureKind::user_defined;
     record.object = this;
     record.value = [](const Texture& texture, const Surface& s) { return texture.value(s); };
     return record;

@@ -24,7 +24,7 @@ HWY_INLINE hn::Vec<D> load_from(D d, const Ray& ray) {
 
 // `ray` is what frame.ray holds: where it has just been copied to it cannot be loaded from at once; nor can `out`,
 // whose parts are stored one by one, be copied.
-HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group& group, BoxRay& out) {
+HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Blas& blas, BoxRay& out) {
 #if HWY_MAX_BYTES >= 32
     const hn::FixedTag<double, 4> wide;
     const hn::FixedTag<float, 4> d;
@@ -35,7 +35,7 @@ HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group&
     hn::Store(direction, d, out.direction);
     hn::Store(hn::DemoteTo(d, hn::Sub(origin, hn::PromoteTo(wide, high))), d, out.low);
     float wider = 0;
-    if (HWY_UNLIKELY(!out.is_ordinary(frame, group, wider))) return out.adapt(frame, group);
+    if (HWY_UNLIKELY(!out.is_ordinary(frame, blas, wider))) return out.adapt(frame, blas);
     const auto least = hn::Set(d, BoxRay::kLeast);
     const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::CopySign(hn::Max(hn::Abs(direction), least), direction));
     const auto shift = hn::Neg(hn::Mul(high, inverse));
@@ -49,7 +49,7 @@ HWY_INLINE void set_up(const Ray& ray, const RayFrame& frame, const flat::Group&
     out.t_min = out.lower(ray.t_min);
 #else
     static_cast<void>(ray);
-    out.adapt(frame, group);
+    out.adapt(frame, blas);
 #endif
 }
 

@@ -16,23 +16,23 @@ void BoxRay::set_planes(float wider, const float* from) {
     }
 }
 
-void BoxRay::adapt(const RayFrame& frame, const flat::Group& group) {
+void BoxRay::adapt(const RayFrame& frame, const flat::Blas& blas) {
     const Ray& ray = frame.ray;
     is_taken_as_it_is = false;
     t_error = origin_error = direction_error = 0;
     scale = 1;
-    extent = static_cast<float>(group.extent);
+    extent = static_cast<float>(blas.extent);
     const auto size = [](const Vec3& v) { return largest_magnitude(v.x, v.y, v.z); };
     const double unit = std::ldexp(1.0, std::min(-std::ilogb(size(ray.direction)), 1000));
     const Vec3 along = unit * ray.direction;  // its largest coordinate in [1, 2)
     const double along_error = unit * frame.direction_error;
-    t_scale = group.scale / unit;
+    t_scale = blas.scale / unit;
     t_start = 0;
 
-    Point3 at = Point3{} + group.scale * (ray.origin - Point3{}), origin = ray.origin;
-    const double box_extent = group.scale * group.extent;
+    Point3 at = Point3{} + blas.scale * (ray.origin - Point3{}), origin = ray.origin;
+    const double box_extent = blas.scale * blas.extent;
     double box_reach = size(at - Point3{}) + box_extent;
-    double lost = group.scale * frame.origin_error, t_lost = 0;
+    double lost = blas.scale * frame.origin_error, t_lost = 0;
     if (box_reach > static_cast<double>(kFar) * box_extent) {
         // From where the ray comes closest to the middle.
         t_start = dot(Point3{} - at, along) / dot(along, along);
@@ -40,7 +40,7 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Group& group) {
         lost += 0x1p-48 * box_reach + along_error * std::abs(t_start);
         t_lost = 0x1p-30 * box_reach;
         box_reach = size(at - Point3{}) + box_extent;
-        origin = Point3{} + (1 / group.scale) * (at - Point3{});
+        origin = Point3{} + (1 / blas.scale) * (at - Point3{});
     }
     const double wider = static_cast<double>(kWider) * box_reach + 2 * (lost + along_error * box_reach);
     if (wider + t_lost < 0x1p50 && along_error < 0x1p-3 && size(along) >= 1 && t_scale > 0x1p-1000 &&
@@ -51,8 +51,8 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Group& group) {
             direction[a] = static_cast<float>(along[a]);
         }
         reach = largest(high) + extent;
-        scale = static_cast<float>(smaller(group.scale, 0x1p100));
-        origin_error = static_cast<float>(lost / group.scale);
+        scale = static_cast<float>(smaller(blas.scale, 0x1p100));
+        origin_error = static_cast<float>(lost / blas.scale);
         direction_error = static_cast<float>(along_error);
         t_error = static_cast<float>(t_lost);
         const float box_from[3] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};

@@ -1,4 +1,4 @@
-// A ray as the boxes of a group see it, in float.
+// A ray as the boxes of a BLAS see it, in float.
 #pragma once
 
 #include <hwy/base.h>
@@ -34,10 +34,10 @@ struct BoxRay {
     // roundings of about v - origin, not of v.
     alignas(16) float direction[4], high[4], low[4];
     float reach;   // R, in space as it is
-    float extent;  // Group::extent
+    float extent;  // Blas::extent
     float t_min;
     float t_error;                        // of what is reported as t, beyond 2^-23 of it: of a ray that starts anew
-    float scale;                          // of the boxes: Group::scale
+    float scale;                          // of the boxes: Blas::scale
     float origin_error, direction_error;  // as in RayFrame, the direction's when the longest coordinate is 1
     bool is_taken_as_it_is;
     unsigned octant;          // bit a: direction[a] is negative
@@ -45,15 +45,15 @@ struct BoxRay {
 
     // Whether the ray is taken as it is. Sets what does not depend on axes, and `wider`. \pre direction, high and low
     // are set
-    HWY_INLINE bool is_ordinary(const RayFrame& frame, const flat::Group& group, float& wider) {
+    HWY_INLINE bool is_ordinary(const RayFrame& frame, const flat::Blas& blas, float& wider) {
         const float length = largest(direction);
-        extent = static_cast<float>(group.extent);
+        extent = static_cast<float>(blas.extent);
         reach = largest(high) + extent;
         t_error = origin_error = direction_error = 0;
         scale = 1;
         t_scale = 1, t_start = 0;
         wider = kWider * reach;
-        is_taken_as_it_is = group.scale == 1 && length > 0x1p-10f && length < 0x1p10f && reach < kFar * extent;
+        is_taken_as_it_is = blas.scale == 1 && length > 0x1p-10f && length < 0x1p10f && reach < kFar * extent;
         if (HWY_UNLIKELY(frame.outer != nullptr)) {
             origin_error = static_cast<float>(frame.origin_error) * (1 + 0x1p-20f);
             direction_error = 2 * static_cast<float>(frame.direction_error) / length;
@@ -63,7 +63,7 @@ struct BoxRay {
         return is_taken_as_it_is;
     }
 
-    void adapt(const RayFrame& frame, const flat::Group& group);
+    void adapt(const RayFrame& frame, const flat::Blas& blas);
 
     // t as it is here, but for its rounding to float.
     float upper(double t) const {

@@ -34,7 +34,7 @@ double similarity_of(const Transform& m) {
     return std::sqrt(square);
 }
 
-// A group as it stands in the world, seen from the point, in units in which all is of size 1 at most.
+// A BLAS as it stands in the world, seen from the point, in units in which all is of size 1 at most.
 struct Seen {
     Vec3 origin;         // of the world
     const Transform* m;  // null: the world's own
@@ -75,26 +75,26 @@ struct Seen {
 class Walk {
 public:
     Walk(const flat::Scene& scene, const Point3& point, double max_distance, double time) : scene_(scene), time_(time) {
-        const double size = std::max(max_abs(point - Point3{}), flat::group_at(scene, GroupId::root).extent);
+        const double size = std::max(max_abs(point - Point3{}), flat::blas_at(scene, BlasId::root).extent);
         unit_ = std::ldexp(1.0, std::clamp(-std::ilogb(std::max(size, 0x1p-900)), -1000, 900));
         origin_ = unit_ * (point - Point3{});
         const double limit = unit_ * max_distance;
         best_squared_ = limit * limit * (1 + 0x1p-50);
     }
 
-    void visit(GroupId id, const Transform* m, std::uint64_t first_number) {
-        const flat::Group& group = flat::group_at(scene_, id);
-        if (group.root == flat::kNothing) return;
+    void visit(BlasId id, const Transform* m, std::uint64_t first_number) {
+        const flat::Blas& blas = flat::blas_at(scene_, id);
+        if (blas.root == flat::kNothing) return;
         const Seen seen{origin_, m, unit_};
         std::array<Entry, accel::kMaxWideDepth*(flat::kWidth - 1) + flat::kWidth> stack;
-        stack[0] = {0, group.root};
+        stack[0] = {0, blas.root};
         for (std::size_t size = 1; size > 0;) {
             const Entry entry = stack[--size];
             if (entry.squared > best_squared_) continue;
             if ((entry.child & flat::kLeaf) != 0)
-                visit_leaf(entry.child, group, seen, first_number);
+                visit_leaf(entry.child, blas, seen, first_number);
             else
-                push_children(scene_.nodes[entry.child], group, seen, stack.data(), size);
+                push_children(scene_.nodes[entry.child], blas, seen, stack.data(), size);
         }
     }
 
@@ -131,10 +131,10 @@ private:
         flat::Child child;
     };
 
-    void push_children(const flat::Node& node, const flat::Group& group, const Seen& seen, Entry* stack,
+    void push_children(const flat::Node& node, const flat::Blas& blas, const Seen& seen, Entry* stack,
                        std::size_t& size) const {
         const std::size_t first = size;
-        const double unscale = 1 / group.scale;
+        const double unscale = 1 / blas.scale;
         for (std::size_t slot = 0; slot < flat::kWidth && node.child[slot] != flat::kNothing; ++slot) {
             const double squared = to_box(seen, unscale, [&](std::size_t p) { return node.planes[p][slot]; });
             if (squared > best_squared_) continue;
@@ -154,7 +154,7 @@ private:
         return seen.to_box(lower, upper);
     }
 
-    void visit_leaf(flat::Child child, const flat::Group& group, const Seen& seen, std::uint64_t first_number) {
+    void visit_leaf(flat::Child child, const flat::Blas& blas, const Seen& seen, std::uint64_t first_number) {
         flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
         for (;;) {
             const flat::Block header = block.header();
@@ -164,7 +164,7 @@ private:
                     const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
                     take(on_triangle(seen, v), first_number + scene_.ranges[header.range].first_number + id);
                 } else {
-                    visit_reference(scene_.references[id], block, lane, group, seen, first_number);
+                    visit_reference(scene_.references[id], block, lane, blas, seen, first_number);
                 }
             }
             if (header.last) return;
@@ -173,18 +173,18 @@ private:
     }
 
     void visit_reference(const flat::Reference& reference, const flat::BlockView& block, std::uint32_t lane,
-                         const flat::Group& group, const Seen& seen, std::uint64_t first_number) {
+                         const flat::Blas& blas, const Seen& seen, std::uint64_t first_number) {
         const PrimitiveRange& range = scene_.ranges[reference.range];
         const std::uint64_t number = first_number + range.first_number + reference.element;
         if (range.kind != PrimitiveKind::instance)
             return visit_row(seen, range.kind, range.first_row + reference.element, 0, number);
         const std::size_t count = block.header().count;
         const double squared =
-            to_box(seen, 1 / group.scale, [&](std::size_t p) { return block.number(count, p, lane); });
+            to_box(seen, 1 / blas.scale, [&](std::size_t p) { return block.number(count, p, lane); });
         if (squared > best_squared_) return;
         const flat::Instance& instance = scene_.instances[range.first_row];
         const Transform m = placed(instance, seen.m, time_);
-        visit(instance.group, &m, number);
+        visit(instance.blas, &m, number);
     }
 
     void visit_row(const Seen& seen, PrimitiveKind kind, std::size_t row, std::size_t element, std::uint64_t number) {
@@ -231,7 +231,7 @@ private:
 NearestSurface closest_point(const flat::Scene& scene, const Point3& point, double max_distance, double time) {
     Walk walk(scene, point, max_distance, time);
     if (!scene.list.is_all) walk.visit_list();
-    walk.visit(GroupId::root, nullptr, 0);
+    walk.visit(BlasId::root, nullptr, 0);
     for (const flat::Medium& medium : scene.media) walk.visit_medium(medium, nullptr, 0);
     return walk.nearest();
 }

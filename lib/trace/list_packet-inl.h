@@ -43,7 +43,7 @@ public:
         };
         const RayFloats t_min = limited(t_min_);
         const ListLimits limits(t_min, limited(t_max_));
-        const auto extent = static_cast<float>(flat::group_at(scene_, GroupId::root).extent);
+        const auto extent = static_cast<float>(flat::blas_at(scene_, BlasId::root).extent);
         const ListRay ray(in_float(origin_), in_float(direction_), extent);
         store(limits.bound, bound_);
         const std::uint32_t there = (1u << count_) - 1;

@@ -20,7 +20,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
     const auto in_float = [](const auto& v) HWY_ATTR {
         return Vector<RayFloats>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     };
-    const auto extent = static_cast<float>(flat::group_at(scene, GroupId::root).extent);
+    const auto extent = static_cast<float>(flat::blas_at(scene, BlasId::root).extent);
     const ListRay seen(in_float(ray.origin), in_float(ray.direction), extent);
     if (HWY_UNLIKELY(!any(seen.is_ordinary))) {
         intersect_all_listed(scene, frame, query);

@@ -1,4 +1,4 @@
-// Rays of much the same way through one group, a lane each. Per-target include guard, as Highway has it.
+// Rays of much the same way through one BLAS, a lane each. Per-target include guard, as Highway has it.
 #if defined(LIMN_TRACE_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_PACKET_INL_H
 #undef LIMN_TRACE_PACKET_INL_H
@@ -71,10 +71,10 @@ template <class Query>
 class PacketTraversal {
 public:
     // All is kept by reference. \pre the rays are ordinary, of one octant and one longest axis; 0 < count <= kPacket
-    PacketTraversal(const flat::Scene& scene, const flat::Group& group, const BoxRay* rays, const RayFrame* frames,
+    PacketTraversal(const flat::Scene& scene, const flat::Blas& blas, const BoxRay* rays, const RayFrame* frames,
                     std::size_t count, Query* queries, DeferredHits* deferred)
         : scene_(scene),
-          group_(group),
+          blas_(blas),
           rays_(rays),
           frames_(frames),
           queries_(queries),
@@ -98,9 +98,9 @@ public:
     }
 
     void run() {
-        if (group_.root == flat::kNothing) return;
+        if (blas_.root == flat::kNothing) return;
         const PacketBoxes boxes(rays_, count_);
-        flat::Child next = group_.root;
+        flat::Child next = blas_.root;
         float farthest = farthest_bound();
         for (;;) {
             while (!(next & flat::kLeaf)) next = boxes.visit(scene_, next, farthest, stack_);
@@ -215,7 +215,7 @@ private:
     }
 
     const flat::Scene& scene_;
-    const flat::Group& group_;
+    const flat::Blas& blas_;
     const BoxRay* rays_;
     const RayFrame* frames_;
     Query* queries_;

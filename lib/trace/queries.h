@@ -20,7 +20,7 @@ struct Closest {
     double limit() const { return t_max; }
     void lower_limit(double t) { t_max = smaller(t_max, t); }
     bool ended() const { return false; }
-    bool passes(const ForeignHit&) const { return false; }
+    bool passes(const UserDefinedHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
         if (hit.t < best.t || (hit.t == best.t && number < best.primitive))
             best = {{hit.t, number}, hit.u, hit.v, matched};
@@ -37,7 +37,7 @@ struct Any {
 
     double limit() const { return t_max; }
     bool ended() const { return found; }
-    bool passes(const ForeignHit& hit) const { return passes_boundaries && hit.index_matched; }
+    bool passes(const UserDefinedHit& hit) const { return passes_boundaries && hit.index_matched; }
     bool report(const PlanarHit&, std::uint64_t, bool, bool = false) { return found = true; }
 };
 
@@ -48,7 +48,7 @@ struct Every {
 
     double limit() const { return t_max; }
     bool ended() const { return false; }
-    bool passes(const ForeignHit&) const { return false; }
+    bool passes(const UserDefinedHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
         crossings.push_back({hit.t, inward, matched, number, hit.u, hit.v});
         return false;
@@ -65,7 +65,7 @@ struct Passages : PassageCount {
 
     double limit() const { return t_max; }
     bool ended() const { return false; }
-    bool passes(const ForeignHit&) const { return false; }
+    bool passes(const UserDefinedHit&) const { return false; }
     void touch(std::uint64_t number) { touched = std::min(touched, number); }
     bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
         ++count, outward += inward ? -1 : 1;

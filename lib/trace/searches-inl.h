@@ -26,9 +26,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// A group of primitives, numbered from `first` on, against a ray.
-#define LIMN_DECLARE_SEARCH(name, Query)                                                                        \
-    void name(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+// A BLAS of primitives, numbered from `first` on, against a ray.
+#define LIMN_DECLARE_SEARCH(name, Query)                                                                       \
+    void name(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
               Query& query);
 LIMN_FOR_EACH_SEARCH(LIMN_DECLARE_SEARCH)
 #undef LIMN_DECLARE_SEARCH

@@ -1,4 +1,4 @@
-// One ray through one group. Per-target include guard, as Highway has it.
+// One ray through one BLAS. Per-target include guard, as Highway has it.
 #if defined(LIMN_TRACE_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_TRAVERSAL_INL_H
 #undef LIMN_TRACE_TRAVERSAL_INL_H
@@ -28,10 +28,10 @@ class Traversal {
 public:
     // `ray`, which is the frame's, `frame` and `query` are kept by reference. `deferred` takes the sure hits of a
     // batch, and is null for single rays.
-    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Group& group, const BoxRay& ray, const RayFrame& frame,
+    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Blas& blas, const BoxRay& ray, const RayFrame& frame,
                          std::uint64_t first_number, Query& query, DeferredHits* deferred)
         : scene_(scene),
-          group_(group),
+          blas_(blas),
           frame_(frame),
           box_ray_(ray),
           first_number_(first_number),
@@ -68,8 +68,8 @@ public:
 
     // True if the query ended the search.
     bool run() {
-        if (group_.root == flat::kNothing) return false;
-        flat::Child next = group_.root;
+        if (blas_.root == flat::kNothing) return false;
+        flat::Child next = blas_.root;
         for (;;) {
             while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
             if (next != flat::kNothing && leaf(next)) return true;
@@ -87,7 +87,7 @@ private:
     static constexpr bool has_spheres() { return (kKinds & kRoundKinds) != 0; }
     // Where t may overflow, and a hit be none.
     static constexpr double kEndless = 1e300;
-    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : group_.packed_error; }
+    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : blas_.packed_error; }
 
     // A hit for sure, not intersected exactly yet.
     struct Pending {
@@ -241,14 +241,14 @@ private:
                 const flat::Instance& instance = scene_.instances[range.first_row];
                 update_limit();
                 return inside(instance, frame_, [&](const RayFrame& frame) {
-                    return is_usable(frame.ray) && run_inside(flat::group_at(scene_, instance.group), frame, number);
+                    return is_usable(frame.ray) && run_inside(flat::blas_at(scene_, instance.blas), frame, number);
                 });
             }
         }
-        if constexpr (has(PrimitiveKind::foreign)) {
-            if (range.kind == PrimitiveKind::foreign) {
+        if constexpr (has(PrimitiveKind::user_defined)) {
+            if (range.kind == PrimitiveKind::user_defined) {
                 update_limit();
-                return intersect_user_defined(scene_.foreign[row], number);
+                return intersect_user_defined(scene_.user_defined[row], number);
             }
         }
         constexpr unsigned kOthers = kKinds & ~flat::bit(PrimitiveKind::mesh);  // see above
@@ -256,10 +256,10 @@ private:
                                    [&](const auto& shape) { return intersect_shape(shape, number); });
     }
 
-    bool run_inside(const flat::Group& group, const RayFrame& frame, std::uint64_t number) {
+    bool run_inside(const flat::Blas& blas, const RayFrame& frame, std::uint64_t number) {
         BoxRay ray;
-        set_up(frame.ray, frame, group, ray);
-        return Traversal(scene_, group, ray, frame, number, query_, deferred_).run();
+        set_up(frame.ray, frame, blas, ray);
+        return Traversal(scene_, blas, ray, frame, number, query_, deferred_).run();
     }
 
     template <class Shape>
@@ -291,10 +291,10 @@ private:
         return report_hits(sphere, frame_, number, query_);
     }
 
-    bool intersect_user_defined(const flat::Foreign& shape, std::uint64_t number) {
+    bool intersect_user_defined(const flat::UserDefined& shape, std::uint64_t number) {
         Ray rest = frame_.with_frame();  // it may consist of limn's own shapes
         rest.t_max = query_.limit();
-        ForeignHit hit;
+        UserDefinedHit hit;
         while (shape.hit(*shape.object, rest, hit)) {
             if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
             const bool passes = query_.passes(hit);
@@ -307,7 +307,7 @@ private:
     }
 
     const flat::Scene& scene_;
-    const flat::Group& group_;
+    const flat::Blas& blas_;
     const RayFrame& frame_;
     const BoxRay& box_ray_;
     std::optional<PlanarRay> planar_;

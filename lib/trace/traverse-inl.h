@@ -26,7 +26,7 @@ constexpr unsigned kinds(Kinds... kind) {
 
 // The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
 constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
-constexpr unsigned kMeshesAndBoxes = kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::foreign);
+constexpr unsigned kMeshesAndBoxes = kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::user_defined);
 constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
 constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
@@ -47,23 +47,23 @@ HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
 }
 
 template <unsigned kKinds, class Query>
-HWY_INLINE void search_group(const flat::Scene& scene, const flat::Group& group, const Ray& ray, const RayFrame& frame,
-                             std::uint64_t first_number, Query& query, DeferredHits* deferred) {
+HWY_INLINE void search_blas(const flat::Scene& scene, const flat::Blas& blas, const Ray& ray, const RayFrame& frame,
+                            std::uint64_t first_number, Query& query, DeferredHits* deferred) {
     BoxRay box;
-    set_up(ray, frame, group, box);
-    Traversal<kKinds, Query>(scene, group, box, frame, first_number, query, deferred).run();
+    set_up(ray, frame, blas, box);
+    Traversal<kKinds, Query>(scene, blas, box, frame, first_number, query, deferred).run();
 }
 
 template <class Query>
-void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
+void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
-    if (id == GroupId::root && !scene.list.empty()) {
+    if (id == BlasId::root && !scene.list.empty()) {
         search_list(scene, ray, frame, query);
         if (scene.list.is_all || query.ended()) return;
     }
-    const flat::Group& group = flat::group_at(scene, id);
+    const flat::Blas& blas = flat::blas_at(scene, id);
     with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-        search_group<kKinds>(scene, group, ray, frame, first_number, query, nullptr);
+        search_blas<kKinds>(scene, blas, ray, frame, first_number, query, nullptr);
     });
 }
 
@@ -77,7 +77,7 @@ float packet_spread(const flat::Scene& scene) {
 }
 
 // Whether the rays go much the same way, so that they meet much the same boxes.
-bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Group& root) {
+bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Blas& root) {
     const Ray& first = rays[0];
     const double near = double{spread} * max_abs(first.direction), beside = double{spread} * root.extent;
     for (std::size_t i = 1; i < count; ++i)
@@ -91,7 +91,7 @@ template <class Query>
 class Interleaved {
 public:
     Interleaved(const flat::Scene& scene, DeferredHits* deferred)
-        : scene_(scene), root_(flat::group_at(scene, GroupId::root)), deferred_(deferred) {}
+        : scene_(scene), root_(flat::blas_at(scene, BlasId::root)), deferred_(deferred) {}
 
     HWY_INLINE void add(const Ray& ray, Query& query) {
         if (root_.root == flat::kNothing) return;
@@ -129,7 +129,7 @@ private:
     }
 
     const flat::Scene& scene_;
-    const flat::Group& root_;
+    const flat::Blas& root_;
     DeferredHits* const deferred_;
     std::size_t active_ = 0;
     std::array<std::uint8_t, kSlots> order_ = [] {
@@ -154,7 +154,7 @@ std::uint32_t search_list(const flat::Scene& scene, const Ray* rays, std::size_t
 template <class Query>
 bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries,
                    DeferredHits* deferred) {
-    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    const flat::Blas& root = flat::blas_at(scene, BlasId::root);
     std::array<BoxRay, kPacket> boxes;
     std::vector<RayFrame> frames;
     frames.reserve(kPacket);
@@ -171,7 +171,7 @@ bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count,
 
 template <class Query>
 void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, DeferredHits* deferred) {
-    const flat::Group& root = flat::group_at(scene, GroupId::root);
+    const flat::Blas& root = flat::blas_at(scene, BlasId::root);
     const float spread = packet_spread(scene);
     HWY_ALIGN Interleaved<Query> interleaved(scene, deferred);
     for (std::size_t first = 0; first < count; first += kPacket) {
@@ -190,7 +190,7 @@ void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Q
                 if (kKinds == kMeshes && scene.is_larger_than_cache)
                     interleaved.add(rays[i], queries[i]);
                 else
-                    search_group<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i], deferred);
+                    search_blas<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i], deferred);
             }
         });
     }
@@ -202,17 +202,17 @@ void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size
     search_many(scene, rays, count, queries, &deferred);
     deferred.finish(count, [&](std::size_t i) HWY_ATTR {
         queries[i] = {rays[i].t_max};
-        search(scene, GroupId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
+        search(scene, BlasId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
     });
 }
 void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries) {
     search_many(scene, rays, count, queries, nullptr);
 }
 
-#define LIMN_DEFINE_SEARCH(name, Query)                                                                         \
-    void name(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
-              Query& query) {                                                                                   \
-        search(scene, id, ray, frame, first, query);                                                            \
+#define LIMN_DEFINE_SEARCH(name, Query)                                                                        \
+    void name(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+              Query& query) {                                                                                  \
+        search(scene, id, ray, frame, first, query);                                                           \
     }
 LIMN_FOR_EACH_SEARCH(LIMN_DEFINE_SEARCH)
 #undef LIMN_DEFINE_SEARCH

@@ -20,18 +20,18 @@ namespace limn::trace {
 namespace {
 
 // search(scene, id, ray, frame, first, query) by the kind of query.
-#define LIMN_EXPORT_SEARCH(name, Query)                                                                           \
-    HWY_EXPORT(name);                                                                                             \
-    void search(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
-                Query& query) {                                                                                   \
-        HWY_DYNAMIC_DISPATCH(name)(scene, id, ray, frame, first, query);                                          \
+#define LIMN_EXPORT_SEARCH(name, Query)                                                                          \
+    HWY_EXPORT(name);                                                                                            \
+    void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
+                Query& query) {                                                                                  \
+        HWY_DYNAMIC_DISPATCH(name)(scene, id, ray, frame, first, query);                                         \
     }
 LIMN_FOR_EACH_SEARCH(LIMN_EXPORT_SEARCH)
 #undef LIMN_EXPORT_SEARCH
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
-Hit nearest(const flat::Scene& scene, GroupId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
+Hit nearest(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
     Closest query{frame.ray.t_max};
     search(scene, id, ray, frame, first_number, query);
     return query.best;
@@ -57,14 +57,14 @@ void find_any(const flat::Scene& scene, std::span<const Ray> rays, bool passes_b
     for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
 }
 
-GroupId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
+BlasId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
     return scene.medium_shapes[medium.shape].boundary;
 }
 
 // A search of the scene, then of all boundaries of media, which are flagged where they are listed in `out`.
 template <class Query>
 void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vector<Crossing>* out) {
-    search(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+    search(scene, BlasId::root, ray, RayFrame(ray), 0, query);
     const std::size_t before = out != nullptr ? out->size() : 0;
     for (const flat::Medium& medium : scene.media) {
         if (query.ended()) return;
@@ -83,12 +83,12 @@ bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
 }  // namespace
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
-    return nearest(scene, GroupId::root, ray, RayFrame(ray), 0);
+    return nearest(scene, BlasId::root, ray, RayFrame(ray), 0);
 }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any query{ray.t_max};
-    search(scene, GroupId::root, ray, RayFrame(ray), 0, query);
+    search(scene, BlasId::root, ray, RayFrame(ray), 0, query);
     return query.found;
 }
 

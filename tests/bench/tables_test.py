@@ -35,7 +35,7 @@ def raw(scenes=None, more=1.0, aside=1.0):
             "truth": [{"scene": "soup", "rays": "primary", "judged": 40, "hits": 9, "wrong": 0, "first": ""}],
             "instructions": {"whole": {"primary_single": 100.0 * more},
                              "without": {"media": {"counts": counts, "times": times}},
-                             "foreign": {"counts": {"primary_single": 100.0 * more * aside}, "times": times}},
+                             "user_defined": {"counts": {"primary_single": 100.0 * more * aside}, "times": times}},
             "head": {"command": "x", "date": "today", "commit": "c", "processor": "p", "cores": 2, "sources": "s",
                      "minutes": 1}}
 
@@ -85,6 +85,7 @@ class Report(unittest.TestCase):
         self.assertIn("**0.50 (0.40..0.60)**", text)
         self.assertIn("| soup | primary | 2 | 2.00 | 2.00 | 2.00 |", text)
         self.assertIn("5 reach their goal", text)
+        self.assertIn("| soup | 0.50 | 1.30 | 1.30 | – | 1.00 | 1.41 |", text)
         self.assertNotIn("None", text)
 
 

@@ -65,7 +65,7 @@ TEST_CASE("CompiledScene: a box in float is the smallest around the one in doubl
         for (std::size_t k = 0; k <= flat::kMaxBlock; ++k) scene.add(ball);  // a leaf alone has no node
         const CompiledScene compiled = compile(scene);
         const flat::Node& node = compiled.flat().nodes.front();
-        const double scale = compiled.flat().groups.front().scale;
+        const double scale = compiled.flat().blases.front().scale;
         Box box = ball->bounds();
         for (std::size_t a = 0; a < 3; ++a) {
             const float lower = node.planes[a][0], upper = node.planes[3 + a][0];

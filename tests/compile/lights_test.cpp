@@ -102,10 +102,10 @@ TEST_CASE("Lights: a quad is a rectangle where its corners are right angles, she
 TEST_CASE("Lights: seen through instances they stand where the instances put them", "[compile][lights]") {
     const Transform outer = Transform::translate({10, 20, 30}),
                     inner = Transform::rotate_z(90) * Transform::scale(2, 2, 2);
-    const Object group = std::make_shared<HittableList>(
+    const Object blas = std::make_shared<HittableList>(
         std::vector<Object>{unit_quad(grey()), unit_quad(white_lamp()),
                             std::make_shared<Sphere>(Point3{1, 0, 0}, Point3{1, 1, 0}, 3.0, white_lamp())});
-    const std::vector<Object> objects{unit_quad(grey()), seen(seen(group, inner), outer)};
+    const std::vector<Object> objects{unit_quad(grey()), seen(seen(blas, inner), outer)};
     const auto lights = lights_of(objects);
     REQUIRE(lights.size() == 2);
     // A quarter turn around z takes x to y and y to -x.
@@ -118,7 +118,7 @@ TEST_CASE("Lights: seen through instances they stand where the instances put the
     CHECK(lights[1].radius == Approx(6).epsilon(1e-15));
 }
 
-TEST_CASE("Lights: a group that was described before the one that holds it is found there as well",
+TEST_CASE("Lights: a BLAS that was described before the one that holds it is found there as well",
           "[compile][lights]") {
     const Object quad = unit_quad(white_lamp());
     const Object plain = seen(quad, Transform::translate({1, 0, 0})),

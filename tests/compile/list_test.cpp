@@ -57,7 +57,8 @@ std::vector<Ray> rays_in(const ZooScene& zoo, const CompiledScene& compiled, Ran
     return rays;
 }
 
-// Such a room with more in it than can be listed: a fine mesh, and by turns many small shapes, moving and foreign ones.
+// Such a room with more in it than can be listed: a fine mesh, and by turns many small shapes, moving and user-defined
+// ones.
 ZooScene furnished(std::uint64_t seed) {
     ZooScene zoo = room(seed);
     Random random(50 + seed);
@@ -232,8 +233,9 @@ TEST_CASE("Lists: planes and weights of edges are those of the primitive, to flo
     }
 }
 
-TEST_CASE("Lists: scenes that are large, moving, thin, nested, foreign or of extreme size are not listed as a whole",
-          "[compile][list]") {
+TEST_CASE(
+    "Lists: scenes that are large, moving, thin, nested, user-defined or of extreme size are not listed as a whole",
+    "[compile][list]") {
     const auto is_listed = [](const std::vector<Object>& objects) {
         return compile(zoo_of("", objects).scene).flat().list.is_all;
     };

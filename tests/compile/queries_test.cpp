@@ -311,7 +311,7 @@ TEST_CASE("compile: an object that contains itself is refused", "[compile]") {
         std::optional<Hit> hit(const Ray&) const override { return std::nullopt; }
         void lower(RecordSink& sink) const override {
             sink.instance(
-                {Transform{}, Transform{}, sink.group(self.lock(), [&](RecordSink& inner) { lower(inner); }), false});
+                {Transform{}, Transform{}, sink.blas(self.lock(), [&](RecordSink& inner) { lower(inner); }), false});
         }
         std::weak_ptr<const Hittable> self;
     };

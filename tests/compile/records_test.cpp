@@ -31,15 +31,15 @@ TEST_CASE("RecordSink: shapes of one kind in a row share a range, another kind o
     for (int i = 0; i < 3; ++i) sink.triangle({});
     for (int i = 0; i < 2; ++i) sink.quad({});
     sink.triangle({});
-    for (int i = 0; i < 2; ++i) sink.foreign({});
+    for (int i = 0; i < 2; ++i) sink.user_defined({});
     CHECK(sink.primitives() == 8);
     const SceneRecords& records = sink.records();
-    CHECK((records.triangles.size() == 4 && records.quads.size() == 2 && records.foreign.size() == 2));
+    CHECK((records.triangles.size() == 4 && records.quads.size() == 2 && records.user_defined.size() == 2));
     const PrimitiveRange expected[] = {{PrimitiveKind::triangle, 0, 0, 3},
                                        {PrimitiveKind::quad, 0, 3, 2},
                                        {PrimitiveKind::triangle, 3, 5, 1},
-                                       {PrimitiveKind::foreign, 0, 6, 2}};
-    const auto& ranges = records.groups.at(0).ranges;
+                                       {PrimitiveKind::user_defined, 0, 6, 2}};
+    const auto& ranges = records.blases.at(0).ranges;
     REQUIRE(ranges.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) CHECK(same(ranges[i], expected[i]));
 }
@@ -47,7 +47,7 @@ TEST_CASE("RecordSink: shapes of one kind in a row share a range, another kind o
 TEST_CASE("RecordSink: still and moving spheres stand in one table, in ranges of their own", "[compile][records]") {
     RecordSink sink;
     for (const SphereRecord& s : {kBall, kMoving, kMoving, kBall}) sink.sphere(s);
-    const auto& ranges = sink.records().groups.at(0).ranges;
+    const auto& ranges = sink.records().blases.at(0).ranges;
     CHECK(sink.records().spheres.size() == 4);
     REQUIRE(ranges.size() == 3);
     CHECK(same(ranges[0], {PrimitiveKind::sphere, 0, 0, 1}));
@@ -62,16 +62,16 @@ TEST_CASE("RecordSink: a mesh, an instance or a medium is a row of its own, with
     const auto owner = something();
     sink.mesh(record_of(cube), owner);
     sink.mesh(record_of(cube), owner);
-    const GroupId group = sink.group(something(), [](RecordSink& inner) {
+    const BlasId blas = sink.blas(something(), [](RecordSink& inner) {
         inner.sphere(kBall);
         inner.quad({});
         CHECK(inner.primitives() == 2);
     });
-    sink.instance({{}, {}, group, false});
-    sink.instance({{}, {}, group, false});
-    sink.medium({group, MaterialId::none, 1});
-    sink.medium({group, MaterialId::none, 1});
-    const auto& ranges = sink.records().groups.at(0).ranges;
+    sink.instance({{}, {}, blas, false});
+    sink.instance({{}, {}, blas, false});
+    sink.medium({blas, MaterialId::none, 1});
+    sink.medium({blas, MaterialId::none, 1});
+    const auto& ranges = sink.records().blases.at(0).ranges;
     const PrimitiveRange expected[] = {{PrimitiveKind::mesh, 0, 0, 12},     {PrimitiveKind::mesh, 1, 12, 12},
                                        {PrimitiveKind::instance, 0, 24, 2}, {PrimitiveKind::instance, 1, 26, 2},
                                        {PrimitiveKind::medium, 0, 28, 2},   {PrimitiveKind::medium, 1, 30, 2}};
@@ -80,15 +80,15 @@ TEST_CASE("RecordSink: a mesh, an instance or a medium is a row of its own, with
     CHECK(sink.primitives() == 32);
 }
 
-TEST_CASE("RecordSink: a shared group, material, texture, image or lattice is written once", "[compile][records]") {
+TEST_CASE("RecordSink: a shared BLAS, material, texture, image or lattice is written once", "[compile][records]") {
     RecordSink sink;
     int described = 0;
     const auto a = something(), b = something();
     const auto fill = [&](RecordSink& inner) { ++described, inner.quad({}); };
-    const GroupId first = sink.group(a, fill), second = sink.group(b, fill);
-    CHECK((first == GroupId{1} && second == GroupId{2}));
-    CHECK((sink.group(a, fill) == first && described == 2));
-    CHECK(sink.primitives() == 0);  // they are of their groups, not of the scene
+    const BlasId first = sink.blas(a, fill), second = sink.blas(b, fill);
+    CHECK((first == BlasId{1} && second == BlasId{2}));
+    CHECK((sink.blas(a, fill) == first && described == 2));
+    CHECK(sink.primitives() == 0);  // they are of their BLASes, not of the scene
     const auto material = [&] { return ++described, MaterialRecord{.parameter = 7}; };
     const auto texture = [&] { return ++described, scaled(9); };
     described = 0;
@@ -128,7 +128,7 @@ TEST_CASE("RecordSink: what records point to lives as long as they do", "[compil
         sink.material(owners[0], [] { return MaterialRecord{}; });
         sink.texture(owners[1], [] { return TextureRecord{}; });
         sink.mesh({}, owners[2]);
-        sink.group(owners[3], [](RecordSink&) {});
+        sink.blas(owners[3], [](RecordSink&) {});
         *records = std::move(sink).take();
     }
     for (const auto& object : seen) CHECK_FALSE(object.expired());
@@ -136,19 +136,19 @@ TEST_CASE("RecordSink: what records point to lives as long as they do", "[compil
     for (const auto& object : seen) CHECK(object.expired());
 }
 
-TEST_CASE("RecordSink: a group inside itself is refused, beside itself not", "[compile][records]") {
+TEST_CASE("RecordSink: a BLAS inside itself is refused, beside itself not", "[compile][records]") {
     RecordSink sink;
     const auto a = something(), b = something();
-    CHECK_THROWS_AS(sink.group(a, [&](RecordSink& inner) { inner.group(a, [](RecordSink&) {}); }), ArgumentError);
+    CHECK_THROWS_AS(sink.blas(a, [&](RecordSink& inner) { inner.blas(a, [](RecordSink&) {}); }), ArgumentError);
     RecordSink other;
-    const GroupId shared = other.group(b, [](RecordSink& inner) { inner.quad({}); });
-    other.group(a, [&](RecordSink& inner) {
-        inner.instance({{}, {}, inner.group(b, [](RecordSink&) {}), false});
+    const BlasId shared = other.blas(b, [](RecordSink& inner) { inner.quad({}); });
+    other.blas(a, [&](RecordSink& inner) {
+        inner.instance({{}, {}, inner.blas(b, [](RecordSink&) {}), false});
         inner.instance({{}, {}, shared, false});
     });
     other.quad({});  // of the scene again
     CHECK(other.primitives() == 1);
-    CHECK(other.records().groups.at(2).primitives == 2);
+    CHECK(other.records().blases.at(2).primitives == 2);
 }
 
 TEST_CASE("RecordSink: an object may be entered again once it is left, not before", "[compile][records]") {
@@ -164,11 +164,11 @@ TEST_CASE("RecordSink: an object may be entered again once it is left, not befor
 
 TEST_CASE("RecordSink: more primitives than numbers are refused", "[compile][records]") {
     RecordSink sink;
-    GroupId id = sink.group(something(), [](RecordSink& inner) {
+    BlasId id = sink.blas(something(), [](RecordSink& inner) {
         for (int i = 0; i < 1024; ++i) inner.quad({});
     });
     const auto deeper = [&](int copies) {
-        id = sink.group(something(), [&](RecordSink& inner) {
+        id = sink.blas(something(), [&](RecordSink& inner) {
             for (int i = 0; i < copies; ++i) inner.instance({{}, {}, id, false});
         });
     };

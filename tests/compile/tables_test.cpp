@@ -76,30 +76,30 @@ flat::Scene flatten(const std::vector<Object>& objects) { return compiler::flatt
 
 }  // namespace
 
-TEST_CASE("Trees: each primitive of a group stands in one leaf of its tree, under boxes that narrow",
+TEST_CASE("Trees: each primitive of a BLAS stands in one leaf of its tree, under boxes that narrow",
           "[compile][tables]") {
     for (const ZooScene& zoo :
          {zoo_mixed(410), zoo_mixed(411), zoo_instances(), zoo_media(), zoo_mesh(), zoo_of_kind("spheres", 0, 200, 412),
           zoo_of("one", {ball({}, 1)}), zoo_of("none", {})}) {
         const flat::Scene scene = compiler::flatten(zoo.scene);
         std::size_t references = 0;
-        for (const flat::Group& group : scene.groups) {
+        for (const flat::Blas& blas : scene.blases) {
             Seen seen;
-            visit(scene, group.root, seen);
+            visit(scene, blas.root, seen);
             for (const auto& [place, times] : seen) {
                 CHECK(times == 1);
-                CHECK((place.first >= group.first_range && place.first < group.first_range + group.range_count));
+                CHECK((place.first >= blas.first_range && place.first < blas.first_range + blas.range_count));
             }
             std::size_t expected = 0;
-            for (std::uint32_t i = 0; i < group.range_count; ++i) {
-                const PrimitiveRange& range = scene.ranges[group.first_range + i];
-                if (range.kind == PrimitiveKind::instance)  // of a group that holds nothing but media: none
-                    expected += !flat::group_at(scene, scene.instances[range.first_row].group).bounds.is_empty();
+            for (std::uint32_t i = 0; i < blas.range_count; ++i) {
+                const PrimitiveRange& range = scene.ranges[blas.first_range + i];
+                if (range.kind == PrimitiveKind::instance)  // of a BLAS that holds nothing but media: none
+                    expected += !flat::blas_at(scene, scene.instances[range.first_row].blas).bounds.is_empty();
                 else if (range.kind != PrimitiveKind::medium)
                     expected += range.count;
             }
             references += seen.size();
-            const std::size_t listed = &group == &scene.groups.front() ? listed_beside_tree(scene) : 0;
+            const std::size_t listed = &blas == &scene.blases.front() ? listed_beside_tree(scene) : 0;
             if (scene.degenerate == 0) CHECK(seen.size() + listed == expected);
         }
         std::size_t of_meshes = 0;
@@ -115,22 +115,22 @@ TEST_CASE("Trees: in a node the boxes are those of the shapes, rounded outward t
         const auto triangle =
             std::make_shared<Triangle>(Point3{x, 0.5, 0.5}, Point3{x + std::abs(x), 1, 0.75}, Point3{x, 1, 1}, nullptr);
         const flat::Scene scene = flatten(std::vector<Object>(flat::kMaxBlock + 1, triangle));
-        const flat::Node& node = scene.nodes.at(scene.groups.at(0).root);
-        const double lower = x, upper = x + std::abs(x), scale = scene.groups[0].scale;
+        const flat::Node& node = scene.nodes.at(scene.blases.at(0).root);
+        const double lower = x, upper = x + std::abs(x), scale = scene.blases[0].scale;
         const float inf = std::numeric_limits<float>::infinity();
         CHECK((node.planes[0][0] <= scale * lower && std::nextafter(node.planes[0][0], inf) > scale * lower));
         CHECK((node.planes[3][0] >= scale * upper && std::nextafter(node.planes[3][0], -inf) < scale * upper));
-        CHECK(scene.groups[0].bounds == Box{{lower, 0.5, 0.5}, {upper, 1, 1}});
-        CHECK(scene.groups[0].extent == std::max(1.0, std::max(std::abs(lower), std::abs(upper))));
+        CHECK(scene.blases[0].bounds == Box{{lower, 0.5, 0.5}, {upper, 1, 1}});
+        CHECK(scene.blases[0].extent == std::max(1.0, std::max(std::abs(lower), std::abs(upper))));
     }
 }
 
 TEST_CASE("locate: each number leads to its range, element and instances, outermost first", "[compile][tables]") {
     const Object mesh = std::make_shared<Mesh>(cube_mesh(), nullptr);
     const Object quad = std::make_shared<Quad>(Point3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, nullptr);
-    const Object group =
+    const Object blas =
         std::make_shared<HittableList>(std::vector<Object>{quad, mesh, ball({}, 1), ball({9, 0, 0}, 2)});
-    const Object inner = std::make_shared<Instance>(group, Transform::translate({1, 0, 0}));
+    const Object inner = std::make_shared<Instance>(blas, Transform::translate({1, 0, 0}));
     const Object pair = std::make_shared<HittableList>(std::vector<Object>{ball({}, 3), inner, inner});
     const Object outer = std::make_shared<Instance>(pair, Transform::translate({2, 0, 0}));
     const flat::Scene scene = flatten({quad, outer, std::make_shared<ConstantMedium>(inner, 1, Color{}), ball({}, 4)});

@@ -107,7 +107,7 @@ private:
                                    t.wrap == Wrap::clamp ? " clamp" : "");
             case TextureKind::noise:
             case TextureKind::turbulence:
-            case TextureKind::foreign: break;
+            case TextureKind::user_defined: break;
         }
         return "something else";
     }

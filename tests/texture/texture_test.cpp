@@ -38,7 +38,7 @@ TEST_CASE("Texture: a user's own is packed as a record that calls it", "[texture
     RecordSink sink;
     const auto mine = std::make_shared<Height>();
     const TextureRecord& packed = record(sink, lower_texture(sink, mine));
-    REQUIRE(packed.kind == TextureKind::foreign);
+    REQUIRE(packed.kind == TextureKind::user_defined);
     REQUIRE(packed.object == mine.get());
     Surface s;
     s.position = {1, 2, 3};

@@ -20,8 +20,8 @@ struct RayHit {
     std::uint32_t object = 0;  ///< in the order of Scene::add
     /// The primitive's number within the object: the triangle of a mesh, the place in a list.
     std::uint64_t element = 0;
-    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; foreign: its own; sphere: 0
-    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; foreign: its own; sphere: 0
+    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; user-defined: its own; sphere: 0
+    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; user-defined: its own; sphere: 0
     bool index_matched = false;   ///< the boundary of a medium
     std::uint64_t primitive = 0;  ///< the primitive's number within the scene
 };

@@ -21,27 +21,27 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-class GroupTree {
+class BlasTree {
 public:
-    explicit GroupTree(flat::Scene& scene) : scene_(scene) {}
+    explicit BlasTree(flat::Scene& scene) : scene_(scene) {}
 
-    void build(flat::Group& group) {
-        if (&group == &scene_.groups.front())
+    void build(flat::Blas& blas) {
+        if (&blas == &scene_.blases.front())
             scene_.below_root = {scene_.nodes.size(), scene_.blocks.size(),     scene_.references.size(),
                                  scene_.kinds,        scene_.stored_primitives, scene_.degenerate};
-        for (std::uint32_t i = 0; i < group.range_count; ++i) add(group.first_range + i);
+        for (std::uint32_t i = 0; i < blas.range_count; ++i) add(blas.first_range + i);
         measure_others();
-        group.bounds = bounds_;
-        group.extent = extent_;
+        blas.bounds = bounds_;
+        blas.extent = extent_;
         // Where float serves, boxes stay as they are.
-        group.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
-        if (&group == &scene_.groups.front()) list();
-        group.packed_error = accel::round_up(note_what_is_left());
-        scale_boxes(group.scale);
+        blas.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
+        if (&blas == &scene_.blases.front()) list();
+        blas.packed_error = accel::round_up(note_what_is_left());
+        scale_boxes(blas.scale);
         // A leaf takes two to three times as long as a node (docs/performance.md).
         accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
-        group.cost = bvh.cost;
-        group.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
+        blas.cost = bvh.cost;
+        blas.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
     }
 
 private:
@@ -104,12 +104,12 @@ private:
     void measure(Candidate& other) const {
         const PrimitiveRange& range = scene_.ranges[other.reference.range];
         const std::uint32_t row = range.first_row + other.reference.element;
-        if (range.kind == PrimitiveKind::foreign) {
-            other.box = scene_.foreign[row].bounds;
+        if (range.kind == PrimitiveKind::user_defined) {
+            other.box = scene_.user_defined[row].bounds;
         } else if (range.kind == PrimitiveKind::instance) {
             const flat::Instance& instance = scene_.instances[row];
             other.box = instance_bounds(instance.world_from_object0, instance.world_from_object1,
-                                        flat::group_at(scene_, instance.group).bounds);
+                                        flat::blas_at(scene_, instance.blas).bounds);
         } else {
             primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
                 other.box = primitive.bounds(), other.packed_error = primitive.packed_error();
@@ -167,6 +167,6 @@ private:
 
 }  // namespace
 
-void build_group_tree(flat::Scene& scene, flat::Group& group) { GroupTree(scene).build(group); }
+void build_blas_tree(flat::Scene& scene, flat::Blas& blas) { BlasTree(scene).build(blas); }
 
 }  // namespace limn::compiler

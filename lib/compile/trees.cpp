@@ -11,25 +11,25 @@ namespace limn::compiler {
 
 namespace {
 
-std::vector<bool> groups_with_media(const flat::Scene& scene) {
-    return groups_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; });
+std::vector<bool> blases_with_media(const flat::Scene& scene) {
+    return blases_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; });
 }
 
 class TreeBuilder {
 public:
     explicit TreeBuilder(flat::Scene& scene)
-        : scene_(scene), height_(scene.groups.size(), kUnbuilt), holds_media_(groups_with_media(scene)) {}
+        : scene_(scene), height_(scene.blases.size(), kUnbuilt), holds_media_(blases_with_media(scene)) {}
 
     // A BLAS before those above it: an instance needs the bounds of its own. Returns how many instances nest below.
-    std::uint32_t build(GroupId id) {
+    std::uint32_t build(BlasId id) {
         const auto index = static_cast<std::size_t>(id);
         if (height_[index] != kUnbuilt) return height_[index];
         std::uint32_t height = 0;
-        for (const PrimitiveRange& range : flat::ranges_of(scene_, scene_.groups[index])) {
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, scene_.blases[index])) {
             if (range.kind == PrimitiveKind::instance) {
-                height = std::max(height, 1 + build(scene_.instances[range.first_row].group));
+                height = std::max(height, 1 + build(scene_.instances[range.first_row].blas));
             } else if (range.kind == PrimitiveKind::medium) {
-                const GroupId boundary = scene_.medium_shapes[range.first_row].boundary;
+                const BlasId boundary = scene_.medium_shapes[range.first_row].boundary;
                 height = std::max(height, build(boundary));
                 if (holds_media_[static_cast<std::size_t>(boundary)])
                     throw ArgumentError("scene: the boundary of a medium contains a medium");
@@ -38,7 +38,7 @@ public:
         if (height > flat::kMaxNesting)
             throw ArgumentError("scene: instances nest deeper than " + std::to_string(flat::kMaxNesting));
         height_[index] = height;
-        build_group_tree(scene_, scene_.groups[index]);
+        build_blas_tree(scene_, scene_.blases[index]);
         return height;
     }
 
@@ -46,25 +46,25 @@ private:
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;
-    std::vector<std::uint32_t> height_;  // by group
-    std::vector<bool> holds_media_;      // by group
+    std::vector<std::uint32_t> height_;  // by BLAS
+    std::vector<bool> holds_media_;      // by BLAS
 };
 
 // Walks every path of instances that leads to a medium.
 class MediumPlacer {
 public:
-    explicit MediumPlacer(flat::Scene& scene) : scene_(scene), holds_media_(groups_with_media(scene)) {
-        visit(GroupId::root, 0);
+    explicit MediumPlacer(flat::Scene& scene) : scene_(scene), holds_media_(blases_with_media(scene)) {
+        visit(BlasId::root, 0);
     }
 
 private:
-    void visit(GroupId id, std::uint64_t first_number) {
+    void visit(BlasId id, std::uint64_t first_number) {
         if (!holds_media_[static_cast<std::size_t>(id)]) return;
-        for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::group_at(scene_, id))) {
+        for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::blas_at(scene_, id))) {
             const std::uint64_t number = first_number + range.first_number;
             if (range.kind == PrimitiveKind::instance) {
                 path_.push_back(range.first_row);
-                visit(scene_.instances[range.first_row].group, number);
+                visit(scene_.instances[range.first_row].blas, number);
                 path_.pop_back();
             } else if (range.kind == PrimitiveKind::medium) {
                 place(range.first_row, number);
@@ -79,7 +79,7 @@ private:
         medium.instance_count = static_cast<std::uint32_t>(path_.size());
         medium.first_number = number;
         medium.scattered = largest_albedo(scene_.medium_shapes[shape].phase);
-        medium.bounds = flat::group_at(scene_, scene_.medium_shapes[shape].boundary).bounds;
+        medium.bounds = flat::blas_at(scene_, scene_.medium_shapes[shape].boundary).bounds;
         for (auto row = path_.rbegin(); row != path_.rend(); ++row) {
             const flat::Instance& instance = scene_.instances[*row];
             medium.bounds = instance_bounds(instance.world_from_object0, instance.world_from_object1, medium.bounds);
@@ -103,7 +103,7 @@ private:
 
 }  // namespace
 
-void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(GroupId::root); }
+void build_trees(flat::Scene& scene) { TreeBuilder(scene).build(BlasId::root); }
 
 void place_media(flat::Scene& scene) { MediumPlacer{scene}; }
 
