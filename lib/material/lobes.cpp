@@ -1,7 +1,6 @@
 #include "material/lobes.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "bsdf/lobe.h"
 
@@ -25,11 +24,16 @@ namespace limn {
     }
 LIMN_FOR_EACH_LOBE(LIMN_DECLARE_LOBE)
 
-const KnownMaterial* known_material(std::string_view kind) {
+std::span<const KnownMaterial> known_materials() {
 #define LIMN_LIST_LOBE(name, kind) {kind, &name::kLobe},
     static constexpr KnownMaterial kAll[] = {LIMN_FOR_EACH_LOBE(LIMN_LIST_LOBE){"diffuse-light", nullptr}};
-    const auto* const found = std::ranges::find(kAll, kind, &KnownMaterial::kind);
-    return found != std::end(kAll) ? found : nullptr;
+    return kAll;
+}
+
+const KnownMaterial* known_material(std::string_view kind) {
+    const std::span all = known_materials();
+    const auto found = std::ranges::find(all, kind, &KnownMaterial::kind);
+    return found != all.end() ? &*found : nullptr;
 }
 
 }  // namespace limn

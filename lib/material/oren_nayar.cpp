@@ -23,7 +23,7 @@ struct RoughDiffuse {
     template <class N>
     static HWY_INLINE N directional_albedo(N cosine, N a, N r) {
         const N sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-        // 1 - sine^3 over the cosine, without the cancellation at grazing angles.
+        // (1 - sine^3) / cosine, without the cancellation at grazing angles.
         const N rest = cosine * (1.0 + sine + sine * sine) / (1.0 + sine);
         const N g = sine * (angle_of<N>({sine, cosine}) - sine * cosine) + (2.0 / 3) * (sine * (rest - 1.0));
         return a + r * a * g / kPi;
@@ -42,7 +42,8 @@ struct RoughDiffuse {
             return rho * single + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * multiple;
         };
         const N pdf = select(above, cos_i / kPi, 0.0);
-        return {pdf * Vector<N>{of(s.albedo.x), of(s.albedo.y), of(s.albedo.z)}, pdf};
+        const Vector<N> value = pdf * Vector<N>{of(s.albedo.x), of(s.albedo.y), of(s.albedo.z)};
+        return {weight_where(above, value), pdf};  // below, the formulas may divide by 0
     }
     // By the cosine.
     template <class N>

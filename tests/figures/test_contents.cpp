@@ -19,14 +19,14 @@ class Writer {
 public:
     explicit Writer(const Scene& scene) {
         for (const auto& object : scene.objects()) object->lower(sink_);
-        for (const PrimitiveRange& range : r_.groups[0].ranges)
-            for (std::uint64_t i = 0; i < (range.kind == PrimitiveKind::mesh || is_group(range) ? 1 : range.count); ++i)
+        for (const PrimitiveRange& range : r_.blases[0].ranges)
+            for (std::uint64_t i = 0; i < (range.kind == PrimitiveKind::mesh || is_blas(range) ? 1 : range.count); ++i)
                 lines += line(range.kind, range.first_row + i) + "\n";
     }
     std::string lines;
 
 private:
-    static bool is_group(const PrimitiveRange& range) {
+    static bool is_blas(const PrimitiveRange& range) {
         return range.kind == PrimitiveKind::instance || range.kind == PrimitiveKind::medium;
     }
 
@@ -55,20 +55,20 @@ private:
                 const auto& m = i.world_from_object0.rows;
                 return fmt::format("x ({:g}, {:g}, {:g}), z ({:g}, {:g}, {:g}), origin ({:g}, {:g}, {:g}){}: {}",
                                    m[0][0], m[1][0], m[2][0], m[0][2], m[1][2], m[2][2], m[0][3], m[1][3], m[2][3],
-                                   i.moving ? " moving" : "", group(i.group));
+                                   i.moving ? " moving" : "", blas(i.blas));
             }
             case PrimitiveKind::medium: {
                 const MediumRecord& m = r_.media[row];
-                return fmt::format("{} of density {:g} in {}", material(m.phase), m.density, group(m.boundary));
+                return fmt::format("{} of density {:g} in {}", material(m.phase), m.density, blas(m.boundary));
             }
             default: break;
         }
         return "something else";
     }
 
-    // A group of quads by its corners, another by its only member.
-    std::string group(GroupId id) const {
-        const PrimitiveRange& range = r_.groups[static_cast<std::size_t>(id)].ranges.at(0);
+    // A BLAS of quads by its corners, another by its only member.
+    std::string blas(BlasId id) const {
+        const PrimitiveRange& range = r_.blases[static_cast<std::size_t>(id)].ranges.at(0);
         if (range.kind != PrimitiveKind::quad) return line(range.kind, range.first_row);
         Box box;
         for (std::size_t i = 0; i < range.count; ++i) {

@@ -18,7 +18,7 @@ namespace {
 std::string small_scene(const std::string& path) {
     limn::flat::Scene scene;
     std::get<0>(scene.rows).emplace_back(limn::SphereRecord{});
-    scene.groups.resize(1), scene.ranges.resize(2), scene.nodes.resize(1), scene.blocks.resize(9);
+    scene.blases.resize(1), scene.ranges.resize(2), scene.nodes.resize(1), scene.blocks.resize(9);
     scene.name = "name";
     scene.materials.resize(2);
     scene.materials[0].kind = "lambertian";

@@ -94,7 +94,7 @@ TEST_CASE("Environment: a map of 1 is a furnace for every material", "[render][e
         {"mirror", std::make_shared<Metal>(white, 0)},
         {"metal", std::make_shared<Metal>(white, 0.1)},
         {"glass", std::make_shared<Dielectric>(1.5)},
-        {"rough diffuse", std::make_shared<OrenNayar>(white, 0.0)}};
+        {"rough diffuse", std::make_shared<OrenNayar>(white, 0.8)}};
     for (const int width : {1, 32}) {
         const EnvironmentMap map(Image(width, width, white), kTurned);
         for (const auto& [name, material] : materials) {

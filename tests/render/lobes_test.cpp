@@ -6,6 +6,7 @@
 #include "catch.h"
 #include "core/spawn.h"
 #include "limn/limn.h"
+#include "material/lobes.h"
 #include "render/sampler.h"
 #include "sampling/sobol.h"
 #include "shade/stages.h"
@@ -67,27 +68,40 @@ Surface random_surface(Random& random, bool inside) {
     const Vec3 normal = random.chance(0.1) ? Vec3{0, 0, random.sign()} : random.unit();
     s.normal = s.shading_normal = Normal3(normal);
     if (random.chance(0.5)) s.shading_normal = Normal3(normalize(normal + 0.3 * random.in_cube()));
+    if (random.chance(0.7)) s.dp_du = random.in_cube(), s.dp_dv = random.in_cube();
     return s;
 }
 
 const Color kAlbedo{0.75, 0.5, 0.125};
 
-std::vector<std::shared_ptr<const Material>> materials() {
-    return {std::make_shared<Lambertian>(kAlbedo), std::make_shared<Isotropic>(kAlbedo),
-            std::make_shared<Metal>(kAlbedo, 0),   std::make_shared<Metal>(kAlbedo, 0.4),
-            std::make_shared<Metal>(kAlbedo, 1),   std::make_shared<Dielectric>(1.5),
-            std::make_shared<Dielectric>(1),       std::make_shared<Dielectric>(0.7, Fresnel::schlick)};
+// Two of each lobe.
+using Materials = std::array<std::shared_ptr<const Material>, 2>;
+std::vector<Materials> materials() {
+    const Color other{0.2, 0.9, 1};
+    const Roughness uneven{.2, .9};
+    return {{std::make_shared<Lambertian>(kAlbedo), std::make_shared<Lambertian>(other)},
+            {std::make_shared<Isotropic>(kAlbedo), std::make_shared<Isotropic>(other)},
+            {std::make_shared<Metal>(kAlbedo, 0), std::make_shared<Metal>(other, 0.4)},
+            {std::make_shared<Metal>(kAlbedo, 1), std::make_shared<Metal>(other, 0.1)},
+            {std::make_shared<Dielectric>(1.5), std::make_shared<Dielectric>(0.7, Fresnel::schlick)},
+            {std::make_shared<Dielectric>(1), std::make_shared<Dielectric>(1.2)},
+            {std::make_shared<OrenNayar>(kAlbedo, 0.3), std::make_shared<OrenNayar>(other, 1)},
+            {std::make_shared<RoughConductor>(kAlbedo, 0.5), std::make_shared<RoughConductor>(other, uneven)},
+            {std::make_shared<RoughDielectric>(1.5, 0.4), std::make_shared<RoughDielectric>(0.7, uneven)},
+            {std::make_shared<Plastic>(kAlbedo, 0.1), std::make_shared<Plastic>(other, uneven, 1.3)},
+            {std::make_shared<MetallicRoughness>(kAlbedo, 0.3, 0.4),
+             std::make_shared<MetallicRoughness>(other, 0.9, 0.7, 1.3)}};
 }
 
-// A material in a scene of its own.
+// Two materials in a scene of their own.
 struct Compiled {
     CompiledScene scene;
-    std::shared_ptr<const Material> material;
+    Materials materials;
 
-    explicit Compiled(const std::shared_ptr<const Material>& m) : scene(compile(of(m))), material(m) {}
-    static Scene of(const std::shared_ptr<const Material>& m) {
+    explicit Compiled(const Materials& two) : scene(compile(of(two))), materials(two) {}
+    static Scene of(const Materials& two) {
         Scene scene;
-        scene.add(std::make_shared<Sphere>(Point3{}, 1, m));
+        for (const auto& m : two) scene.add(std::make_shared<Sphere>(Point3{}, 1, m));
         return scene;
     }
     const bsdf::Lobe& lobe() const { return *scene.flat().materials[0].lobe; }
@@ -103,7 +117,7 @@ struct Batch {
         vertices.count = count;
         for (std::size_t i = 0; i < count; ++i) {
             surfaces[i] = random_surface(random, !compiled.lobe().one_sided && random.chance(0.5));
-            surfaces[i].material.id = 0;
+            surfaces[i].material.id = static_cast<std::uint32_t>(random.index(2));
             outs[i] = random.unit();
             if (dot(outs[i], surfaces[i].normal) < 0) outs[i] = -outs[i];
             const Vec3 incoming = -random.log_uniform(1e-3, 1e3) * outs[i];
@@ -143,9 +157,19 @@ TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][s
     });
 }
 
+TEST_CASE("Lobes: those of all of limn's materials are compared", "[render][shading][lobes]") {
+    const std::vector<Materials> all = materials();
+    for (const KnownMaterial& known : known_materials()) {
+        INFO(known.kind);
+        CHECK((known.lobe == nullptr || std::any_of(all.begin(), all.end(), [&](const Materials& two) {
+                   return &Compiled(two).lobe() == known.lobe;
+               })));
+    }
+}
+
 TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render][shading][lobes]") {
-    for (const auto& material : materials()) {
-        const Compiled compiled(material);
+    for (const Materials& two : materials()) {
+        const Compiled compiled(two);
         INFO(compiled.scene.flat().materials[0].kind);
         on_every_target([&] {
             Random random(5);
@@ -169,6 +193,7 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
                 CHECK((counts.all == next->count && counts.unusable == 0));
                 for (std::size_t i = 0; i < v.count; ++i) {
                     const Random3 numbers{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
+                    const Material* const material = two[b.surfaces[i].material.id].get();
                     const auto alone = material->sample(b.surfaces[i], b.outs[i], numbers);
                     const Vec3 direction = v.direction.get<Vec3>(i);
                     samples += alone ? alone->direction != direction || alone->pdf != v.pdf[i] ||
@@ -268,8 +293,9 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
             for (std::size_t i = 0; i < kShaded; ++i) {
                 const auto alone =
                     sample_point(light, b.surfaces[i].position, b.vertices.numbers[1][i], b.vertices.numbers[2][i]);
-                const ScatterValue f =
-                    alone ? compiled.material->value(b.surfaces[i], b.outs[i], alone->direction) : ScatterValue{};
+                const ScatterValue f = alone ? compiled.materials[b.surfaces[i].material.id]->value(
+                                                   b.surfaces[i], b.outs[i], alone->direction)
+                                             : ScatterValue{};
                 if (is_black(f.value)) continue;
                 ++lit;
                 weights += row >= shadows->count || shadows->path[row] != i;

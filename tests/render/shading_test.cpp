@@ -4,6 +4,7 @@
 #include "limn/material/metal.h"
 #include "limn/material/metallic_roughness.h"
 #include "limn/material/normal_map.h"
+#include "limn/material/oren_nayar.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
 #include "limn/material/rough_dielectric.h"
@@ -11,6 +12,7 @@
 #include "limn/texture/image_texture.h"
 #include "limn/texture/perlin.h"
 #include "limn/texture/solid.h"
+#include "material/lobes.h"
 #include "property.h"
 #include "render/path.h"
 #include "support/pictures.h"
@@ -69,6 +71,7 @@ std::vector<MaterialPtr> materials() {
             std::make_shared<Dielectric>(1.3, Fresnel::schlick),
             std::make_shared<DiffuseLight>(checker),
             std::make_shared<Isotropic>(checker),
+            std::make_shared<OrenNayar>(checker, 0.6),
             std::make_shared<RoughConductor>(checker, 0, Color{.2, .7, 1}),
             std::make_shared<RoughConductor>(checker, 0.5),
             std::make_shared<RoughConductor>(Color{1, .5, 0}, Roughness{.2, .9}, Color{.2, .7, 1}),
@@ -171,12 +174,22 @@ TEST_CASE("Shading: a packed material emits, samples and scatters as the describ
 
 TEST_CASE("Shading: lights are sampled for what scatters into more than a direction", "[render][shading]") {
     const Packed packed(materials());
-    const bool specular[] = {false, true,  false, false, true,  true, false, false, true,  false, false, false,
-                             false, false, false, false, false, true, false, false, false, false, false};
+    const bool specular[] = {false, true,  false, false, true,  true,  false, false, false, true,  false, false,
+                             false, false, false, false, false, false, true,  false, false, false, false, false};
     REQUIRE(std::size(specular) == packed.rows.size());
     for (std::size_t i = 0; i < packed.rows.size(); ++i) {
         CAPTURE(i);
         CHECK(shade::is_specular(packed.scene.flat(), packed.rows[i]) == specular[i]);
+    }
+}
+
+TEST_CASE("Shading: all of limn's materials are compared", "[render][shading]") {
+    const Packed packed(materials());
+    for (const KnownMaterial& known : known_materials()) {
+        INFO(known.kind);
+        CHECK(std::any_of(packed.rows.begin(), packed.rows.end(), [&](const MaterialRef& row) {
+            return shade::lobe_of(packed.scene.flat(), row) == known.lobe;
+        }));
     }
 }
 
