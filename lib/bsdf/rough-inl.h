@@ -25,7 +25,8 @@ struct ShadingFrame {
         const Mask<N> is_tangent = squared > 1e-12 * length_squared(s.dp_du);
         x = select(is_tangent, along / sqrt(squared), Basis<N>(z).x);
         y = cross(z, x);
-        // A surface that is seen around its interpolated normal's horizon looks as it does at the horizon.
+        // A surface that is seen around its interpolated normal's horizon looks as it does at the horizon: at the first
+        // cosine of the albedo tables.
         out = to_local(s.out);
         out.z = max(out.z, 1e-4);
         out = normalize(out);
@@ -56,7 +57,7 @@ HWY_INLINE Wide<D> mean_albedo(const AlbedoTable* const* tables, Wide<D> row) {
                         [&](std::size_t i, double r, double) { return tables[i] ? tables[i]->mean_at(r) : 0; });
 }
 
-// f |cos| of what is not scattered once, spread evenly over what misses of each direction: more scattering among facets
+// f |cos| of what is not scattered once: (1 - E(out)) (1 - E(in)) / (1 - mean E) cos / pi. More scattering among facets
 // (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017), or a white base under a coat (Kelemen and
 // Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling, Eurographics 2001).
 // \param missing_out,missing_in 1 - the albedo of either direction

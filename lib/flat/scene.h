@@ -1,5 +1,5 @@
-// The compiled scene: plain tables and typed ids. No virtual functions, no pointer to a described object but those of
-// user-defined shapes, which are called through their thunks.
+// The compiled scene: plain tables and typed ids. No virtual functions, no pointer to a described object but to
+// user-defined shapes, materials and textures, which are called through their thunks.
 #pragma once
 
 #include <algorithm>

@@ -48,7 +48,8 @@ using Indices = hn::Rebind<std::int32_t, Doubles::Tag>;
 // before the receiver. Measured in the Cornell box: with 1e4 triangles as its lamp 2 takes a third less time per error
 // than going down to the leaves, with 200 balls a twentieth; 1.5 to 5 are within 6 % of it.
 constexpr double kAlikeSquared = 2.0 * 2.0, kAlikeSpread = 0.9;
-// Beside lights nearby distant ones are chosen at least so often, and at most as much less than always.
+// Where there are lights in the tree and distant ones, either kind is chosen with this probability at least, because a
+// wall may hide the other. Where one kind brings all the light, and is expected to, that costs a quarter more samples.
 constexpr double kLeastShare = 0.2;
 // A number that was less than 1 stays so.
 constexpr double kLargestPick = 1 - 0x1p-53;

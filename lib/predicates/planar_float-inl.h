@@ -14,8 +14,9 @@ namespace limn::HWY_NAMESPACE {
 
 // ShearedRay in float: its axes are permuted, the origin is a sum of two floats. With u = 2^-24 and M the largest
 // coordinate of a vertex seen from the origin, such a coordinate is off by 2 u M and by what `absolute` says; the shear
-// by 4 u; a sheared coordinate, by the reasoning there, by (2 + 2 + 4 + 3) u M and twice that; products of two add 2 u
-// P^2, P <= 2 M: E = relative M + absolute, determinants by 4 (P + E) E.
+// by 4 u; a sheared coordinate, by the reasoning there, by 11 u M (2 + 2 of the coordinates, 4 of the shear, 3 of
+// rounding) and twice `absolute`; products of two add 2 u P^2, P <= 2 M: E = relative M + absolute, determinants by 4
+// (P + E) E.
 template <class N>
 struct PlanarFloatRay {
     static constexpr std::size_t kNumbers = 14;

@@ -24,6 +24,7 @@ double max_sample_share(const Film& film) {
     shares.reserve(film.pixels());
     for (int y = 0; y < film.height(); ++y)
         for (int x = 0; x < film.width(); ++x) shares.push_back(film.largest_share(x, y));
+    // Not the largest: one pixel in a thousand may hold a firefly.
     const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(shares.size() - 1));
     std::nth_element(shares.begin(), shares.begin() + rank, shares.end());
     return shares[static_cast<std::size_t>(rank)];
@@ -121,6 +122,8 @@ std::int64_t grown(std::int64_t samples, double factor) {
                     samples + kRound);
 }
 
+// A step is what --error may overshoot by, and each check risks a stop that luck alone brings: see
+// docs/speed-against-error.md.
 std::int64_t next_milestone(std::int64_t milestone) { return grown(milestone, 1.25); }
 
 // The last one at or before so many samples.
@@ -138,7 +141,8 @@ int as_samples(std::int64_t samples) {
 
 bool is_milestone(int samples) { return last_milestone(samples) == samples; }
 
-// The error falls no faster than with the square of the samples: by that, a milestone may be skipped or not.
+// The error falls no faster than with the square of the samples: a milestone that it could not reach the target at is
+// not followed by closer checks, others by one every 3 %.
 int next_check(int samples, double upper, double target) {
     if (samples < SamplePlan::kFirstPass) return SamplePlan::kFirstPass;
     const std::int64_t milestone = last_milestone(samples), next = next_milestone(milestone);
@@ -149,7 +153,7 @@ int next_check(int samples, double upper, double target) {
 }
 
 // Each round costs every machine a start, so that they are fewer than checks, and their steps as large as the same rule
-// allows.
+// allows: 5 % at least, and a factor of 4 at most because the estimate is rough where much is missing.
 int next_round(int samples, double upper, double target) {
     const double growth = std::isfinite(upper) ? std::clamp(std::sqrt(upper / target), 1.05, 4.0) : 2;
     return as_samples(grown(std::max(samples, SamplePlan::kFirstPass), growth));

@@ -67,10 +67,10 @@ void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame&
     });
 }
 
-constexpr float kPacketTriangles = 4;
+constexpr float kPacketTriangles = 4;  // across; 4 x 4 are as many as a packet has lanes
 
-// How far rays may part, in their directions and of the extent, to be traced together: over more triangles than there
-// are lanes a packet does more work than its rays one by one.
+// The largest difference of directions, relative to one, and of origins, relative to the extent, of rays that are
+// traced as a packet: over more triangles than there are lanes it does more work than its rays one by one.
 float packet_spread(const flat::Scene& scene) {
     const auto across = std::sqrt(static_cast<float>(scene.stored_primitives));  // triangles from side to side
     return std::min(1 / 16.0f, kPacketTriangles / across);

@@ -151,7 +151,7 @@ public:
     static CompiledScene load(const std::string& path);
 
     const SceneStats& stats() const { return stats_; }  ///< counts and sizes
-    /// What is compiled in, separated by spaces: "sphere quad mesh instance motion medium foreign-shape texture ..."
+    /// What is compiled in, separated by spaces: "sphere quad mesh instance moving-instance foreign-shape texture ..."
     const std::string& features() const;
     const std::string& name() const;  ///< Scene::name
     /// Of all that its pictures depend on: the same wherever and however it was compiled. User-defined objects are in

@@ -134,8 +134,8 @@ public:
     /// The variance of the mean, estimated without bias from the difference of the replicates: one degree of freedom.
     /// \pre each has a sample
     Color variance(int x, int y) const;
-    /// What that variance would be if all samples were independent: the points of a replicate are not, but this
-    /// estimate has a degree of freedom for all samples but one. \pre there are two
+    /// The variance of the mean if all samples were independent. Sobol points are not, so it is biased, but it has n -
+    /// 1 degrees of freedom instead of one. \pre there are two
     Color independent_variance(int x, int y) const;
     /// The largest share that one sample has of the pixel's luminance, 0 to 1.
     double largest_share(int x, int y) const;
