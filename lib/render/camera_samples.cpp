@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "render/sampler.h"
+#include "scene/camera_rays.h"
 
 namespace limn::transport {
 
 namespace {
 
 // The camera's numbers: those of the first group.
-void draw_first(std::span<Path> paths, std::size_t dimensions, sampling::Row* numbers) {
+void draw_first(std::span<const Path> paths, std::size_t dimensions, sampling::Row* numbers) {
     std::uint64_t base[sampling::kShaded] = {};
     std::uint32_t index[sampling::kShaded] = {}, group[sampling::kShaded] = {};
     for (std::size_t i = 0; i < paths.size(); ++i)
@@ -35,7 +36,7 @@ Path CameraSamples::path(int x, int y, std::uint32_t sample) const {
     return {Sampler(info_.seed, pixel, sample, info_.sampler)};
 }
 
-void CameraSamples::set_rays(std::span<Path> paths, const Pixels& pixels) const {
+void CameraSamples::make_rays(std::span<const Path> paths, const Pixels& pixels, shade::Segments& rays) const {
     // In the pixel, on the lens, in time.
     const std::size_t dimensions = has_lens_or_motion_ ? 5 : 2;
     sampling::Row numbers[5] = {};
@@ -44,11 +45,15 @@ void CameraSamples::set_rays(std::span<Path> paths, const Pixels& pixels) const 
         draw_first(some, dimensions, numbers);
         for (std::size_t i = 0; i < some.size(); ++i) {
             const auto [x, y] = pixels[first + i];
-            const double dx = info_.antialias ? numbers[0][i] : 0.5;
-            const double dy = info_.antialias ? numbers[1][i] : 0.5;
-            some[i].ray =
-                camera_.ray(window_.left + x + dx, window_.top + y + dy, numbers[2][i], numbers[3][i], numbers[4][i]);
+            numbers[0][i] = window_.left + x + (info_.antialias ? numbers[0][i] : 0.5);
+            numbers[1][i] = window_.top + y + (info_.antialias ? numbers[1][i] : 0.5);
         }
+        auto &from = rays.origin, &to = rays.direction;
+        camera::make_rays(camera_, {some.size(),
+                                    {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]},
+                                    {from.x + first, from.y + first, from.z + first},
+                                    {to.x + first, to.y + first, to.z + first},
+                                    rays.time + first});
     }
 }
 

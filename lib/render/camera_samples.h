@@ -22,8 +22,8 @@ public:
 
     // The path of a sample, still without its ray.
     Path path(int x, int y, std::uint32_t sample) const;
-    // Sets the rays of paths, which belong to these pixels.
-    void set_rays(std::span<Path> paths, const Pixels& pixels) const;
+    // The rays of paths, which belong to these pixels, become the first rows. \pre there are kBatch at most
+    void make_rays(std::span<const Path> paths, const Pixels& pixels, shade::Segments& rays) const;
     // Through the middle of a pixel, of the lens and of the shutter.
     Ray middle_ray(int x, int y) const;
 

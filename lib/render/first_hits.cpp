@@ -1,6 +1,7 @@
 #include "limn/render/first_hits.h"
 
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "core/spawn.h"
@@ -49,13 +50,14 @@ public:
     void find(int y) const {
         transport::Pixels pixels(FirstHits::kRays);
         std::vector<transport::Path> paths;
+        const auto rays = std::make_unique<shade::Segments>();
         for (int x = 0; x < hits_.albedo.width(); ++x) {
             find_middle(x, y);
             paths.clear();
             for (std::uint32_t i = 0; i < FirstHits::kRays; ++i) paths.push_back(samples_.path(x, y, i));
             pixels.assign(FirstHits::kRays, {x, y});
-            samples_.set_rays(paths, pixels);
-            find_means(x, y, paths);
+            samples_.make_rays(paths, pixels, *rays);
+            find_means(x, y, *rays);
         }
     }
 
@@ -73,14 +75,15 @@ private:
         hits_.primitive[i] = static_cast<std::int64_t>(found->hit.element);
     }
 
-    void find_means(int x, int y, std::span<const transport::Path> paths) const {
+    void find_means(int x, int y, const shade::Segments& rays) const {
         Color albedo;
         Vec3 normal;
-        for (const transport::Path& path : paths) {
-            const std::optional<SurfaceHit> found = first_surface(scene_, path.ray);
+        for (std::size_t i = 0; i < FirstHits::kRays; ++i) {
+            const Ray ray = rays.ray(i);
+            const std::optional<SurfaceHit> found = first_surface(scene_, ray);
             if (!found) continue;
             albedo += shade::albedo(scene_.flat(), found->surface);
-            normal = normal + Vec3(shade::shading_normal(scene_.flat(), found->surface, path.ray.direction));
+            normal = normal + Vec3(shade::shading_normal(scene_.flat(), found->surface, ray.direction));
         }
         hits_.albedo.set(x, y, albedo / FirstHits::kRays);
         hits_.normal.set(x, y, Color{normal.x, normal.y, normal.z} / FirstHits::kRays);

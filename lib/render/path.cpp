@@ -53,8 +53,6 @@ PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estima
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
 // a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
 void PathTracer::trace(std::span<Path> paths) {
-    for (; paths.size() > sampling::kBatch; paths = paths.subspan(sampling::kBatch))
-        trace(paths.first(sampling::kBatch));
     begin(paths);
     while (next_->count > 0) {
         std::swap(now_, next_);
@@ -72,15 +70,13 @@ void PathTracer::begin(std::span<Path> paths) {
     shade::Segments& s = *next_;
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
-        const Ray& ray = paths[i].ray;
-        paths[i].radiance = {}, paths[i].clear = 0;
+        const Ray ray = s.ray(i);
         if (!count(ray)) continue;
         const std::size_t row = s.count++;
         s.path[row] = i, s.vertex[row] = 1;
         s.base[row] = paths[i].sampler.base(), s.index[row] = paths[i].sampler.index();
-        s.time[row] = ray.time;
         s.throughput.set(row, Color{1, 1, 1});
-        s.origin.set(row, ray.origin), s.direction.set(row, ray.direction);
+        s.set_ray(row, ray);
         s.scatter_pdf[row] = 0;
     }
     draw_flights(0);
@@ -134,8 +130,7 @@ void PathTracer::draw_flights(std::size_t first) {
 void PathTracer::find_hits() {
     shade::Segments& s = *now_;
     hits_.resize(s.count), ray_list_.resize(s.count);
-    for (std::size_t i = 0; i < s.count; ++i)
-        ray_list_[i] = {s.origin.get<Point3>(i), s.direction.get<Vec3>(i), 0, kInfinity, s.time[i]};
+    for (std::size_t i = 0; i < s.count; ++i) ray_list_[i] = s.ray(i);
     for (std::size_t i = 0; i < s.count; i += trace::kMostRays) {
         const std::size_t some = std::min(trace::kMostRays, s.count - i);
         trace::closest_hits(scene_, std::span(ray_list_).subspan(i, some), &hits_[i]);

@@ -24,7 +24,6 @@ namespace limn::transport {
 // One sample of the radiance along a camera ray.
 struct Path {
     Sampler sampler;
-    Ray ray{};
     Color radiance{};  // the result
     double clear = 0;  // how much light of a background that is left out it would have brought
 };
@@ -38,11 +37,14 @@ public:
     // \param transparent whether the camera does not see the background
     PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator, bool transparent = false);
 
-    // Unbiased but for paths longer than max_depth segments. \pre one kind of sampler
+    // Where the camera rays of the next paths go: origin, direction and time in the first rows.
+    shade::Segments& camera_rays() { return *next_; }
+    // Unbiased but for paths longer than max_depth segments. \pre kBatch at most, one kind of sampler
     void trace(std::span<Path> paths);
     // Of one path.
     Color radiance(const Ray& ray, const Sampler& sampler) {
-        Path path{sampler, ray};
+        camera_rays().set_ray(0, ray);
+        Path path{sampler};
         trace({&path, 1});
         return path.radiance;
     }

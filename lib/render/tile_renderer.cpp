@@ -19,7 +19,7 @@ void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
     Pixels pixels;
     Film::Counts before{tracer.rays(), tracer.unusable_rays(), 0};
     const auto flush = [&] {
-        camera_.set_rays(paths, pixels);
+        camera_.make_rays(paths, pixels, tracer.camera_rays());
         tracer.trace(paths);
         Film::Counts counts{tracer.rays() - before.rays, tracer.unusable_rays() - before.unusable_rays, 0};
         before += counts;

@@ -1,15 +1,71 @@
 #include "limn/scene/camera.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "scene/camera.cpp"
+#include <hwy/foreach_target.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "lanes/functions-inl.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
-#include "limn/core/warp.h"
+#include "sampling/warps-inl.h"
+#include "scene/camera_rays.h"
 
 HWY_BEFORE_NAMESPACE();
+namespace limn::camera::HWY_NAMESPACE {
+
+using namespace sampling::HWY_NAMESPACE;
+
+template <class N>
+struct RayOf {
+    Vector<N> origin, direction;
+    N time;
+};
+
+template <class N>
+HWY_INLINE Vector<N> panorama_direction(const CameraRays::View& view, N across, N upward) {
+    const SineCosine<N> longitude = sine_cosine_of_turns(across / 2.0);
+    const SineCosine<N> latitude = sine_cosine_of_turns(upward / 4.0);
+    const Vector<N> level = longitude.cosine * broadcast<N>(view.forward) + longitude.sine * broadcast<N>(view.right);
+    return latitude.cosine * level + latitude.sine * broadcast<N>(view.up);
+}
+
+template <class N>
+HWY_INLINE RayOf<N> ray(const CameraRays::View& view, N x, N y, N lens_u, N lens_v, N time_u) {
+    // (2x - w) / w rather than 2x/w - 1: exact in the numerator, so that mirrored pixels get mirrored rays.
+    const N across = (2.0 * x - view.width) / view.width, upward = (view.height - 2.0 * y) / view.height;
+    const N time = view.shutter_open + time_u * (view.shutter_close - view.shutter_open);
+    const Vector<N> eye = broadcast<N>(view.eye), forward = broadcast<N>(view.forward);
+    if (view.projection == Projection::panorama) return {eye, panorama_direction(view, across, upward), time};
+    const Vector<N> along_x = broadcast<N>(view.right), along_y = broadcast<N>(view.up);
+    const Vector<N> right = across * view.half_width * along_x, up = upward * view.half_height * along_y;
+    const bool is_perspective = view.projection == Projection::perspective;
+    const Vector<N> origin = is_perspective ? eye : eye + right + up;
+    const Vector<N> pinhole = is_perspective ? forward + right + up : forward;
+    if (view.lens_radius == 0) return {origin, pinhole, time};
+    const Vector<N> on_disc = uniform_disc(lens_u, lens_v);
+    const Vector<N> shift = view.lens_radius * (on_disc.x * along_x + on_disc.y * along_y);
+    // Towards the point that the pinhole ray reaches in the plane of focus.
+    return {origin + shift, pinhole - shift / view.focus_distance, time};
+}
+
+void make_rays(const CameraRays::View& view, const Rows& rows) {
+    for (std::size_t i = 0; i < rows.count; i += kLanes<Doubles>) {
+        const auto number = [&](std::size_t d) HWY_ATTR { return load<Doubles>(rows.numbers[d] + i); };
+        const RayOf<Doubles> r = ray(view, number(0), number(1), number(2), number(3), number(4));
+        store(r.origin.x, rows.origin[0] + i), store(r.direction.x, rows.direction[0] + i);
+        store(r.origin.y, rows.origin[1] + i), store(r.direction.y, rows.direction[1] + i);
+        store(r.origin.z, rows.origin[2] + i), store(r.direction.z, rows.direction[2] + i);
+        store(r.time, rows.time + i);
+    }
+}
+
+}  // namespace limn::camera::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace limn {
 
 namespace {
@@ -33,67 +89,60 @@ double half_height_of(const Camera& camera) {
     return half;
 }
 
-}  // namespace
-
-CameraRays::CameraRays(const Camera& camera, int width, int height)
-    : eye_(camera.look_from),
-      projection_(camera.projection),
-      width_(width),
-      height_(height),
-      shutter_open_(camera.shutter_open),
-      shutter_close_(camera.shutter_close) {
+CameraRays::View view_of(const Camera& camera, int width, int height) {
+    CameraRays::View v{};
+    v.eye = camera.look_from, v.projection = camera.projection;
+    v.width = width, v.height = height;
+    v.shutter_open = camera.shutter_open, v.shutter_close = camera.shutter_close;
     require(width > 0 && height > 0, "width and height must be positive");
     require(is_finite(camera.look_from), "look-from must be finite");
     require(is_finite(camera.look_at), "look-at must be finite");
     require(is_finite(camera.up) && !(camera.up == Vec3{}), "up must be finite and not zero");
     require(camera.vertical_fov > 0 && camera.vertical_fov < 180, "the vertical field of view must lie in (0, 180)");
     require(camera.aperture_angle >= 0 && camera.aperture_angle < 180, "the aperture angle must lie in [0, 180)");
-    require(shutter_open_ >= 0 && shutter_open_ <= shutter_close_ && shutter_close_ <= 1,
+    require(v.shutter_open >= 0 && v.shutter_open <= v.shutter_close && v.shutter_close <= 1,
             "the shutter must satisfy 0 <= open <= close <= 1");
     const Vec3 view = camera.look_at - camera.look_from;
     require(is_finite(view) && !(view == Vec3{}), "look-from and look-at must differ");
-    forward_ = normalize(view);
-    const Vec3 right = cross(forward_, normalize(camera.up));
+    v.forward = normalize(view);
+    const Vec3 right = cross(v.forward, normalize(camera.up));
     // Closer than this to the view direction, "up" would be decided by rounding alone.
     require(length(right) > 16 * kRoundoff, "up must not be parallel to the view direction");
-    right_ = normalize(right);
-    up_ = cross(right_, forward_);
+    v.right = normalize(right);
+    v.up = cross(v.right, v.forward);
 
-    const double aspect = camera.aspect_ratio.value_or(width_ / height_);
+    const double aspect = camera.aspect_ratio.value_or(v.width / v.height);
     require(aspect > 0 && std::isfinite(aspect), "the aspect ratio must be positive and finite");
-    half_height_ = half_height_of(camera);
-    half_width_ = half_height_ * aspect;
-    focus_distance_ = camera.focus_distance.value_or(length(view));
-    require(focus_distance_ > 0 && std::isfinite(focus_distance_), "the focus distance must be positive and finite");
-    lens_radius_ = focus_distance_ * tan_of_half(camera.aperture_angle);
-    require(lens_radius_ == 0 || projection_ != Projection::panorama, "a panorama has no lens: its aperture must be 0");
+    v.half_height = half_height_of(camera);
+    v.half_width = v.half_height * aspect;
+    v.focus_distance = camera.focus_distance.value_or(length(view));
+    require(v.focus_distance > 0 && std::isfinite(v.focus_distance), "the focus distance must be positive and finite");
+    v.lens_radius = v.focus_distance * tan_of_half(camera.aperture_angle);
+    require(v.lens_radius == 0 || v.projection != Projection::panorama,
+            "a panorama has no lens: its aperture must be 0");
     // No ray may begin or lead beyond the largest double.
-    const double frame = half_width_ + half_height_, reach = frame + lens_radius_ / focus_distance_;
-    require(std::isfinite(2 * reach) && std::isfinite(max_abs(eye_) + 2 * frame + 2 * lens_radius_),
+    const double frame = v.half_width + v.half_height, reach = frame + v.lens_radius / v.focus_distance;
+    require(std::isfinite(2 * reach) && std::isfinite(max_abs(v.eye) + 2 * frame + 2 * v.lens_radius),
             "the frame or the lens is too large");
+    return v;
 }
+
+}  // namespace
+
+CameraRays::CameraRays(const Camera& camera, int width, int height) : view_(view_of(camera, width, height)) {}
 
 Ray CameraRays::ray(double x, double y, double lens_u, double lens_v, double time_u) const {
-    // (2x - w) / w rather than 2x/w - 1: exact in the numerator, so that mirrored pixels get mirrored rays.
-    const double across = (2 * x - width_) / width_, upward = (height_ - 2 * y) / height_;
-    const double time = shutter_open_ + time_u * (shutter_close_ - shutter_open_);
-    if (projection_ == Projection::panorama) return {eye_, panorama_direction(across, upward), 0, kInfinity, time};
-    const Vec3 right = across * half_width_ * right_, up = upward * half_height_ * up_;
-    const bool is_perspective = projection_ == Projection::perspective;
-    const Point3 origin = is_perspective ? eye_ : eye_ + right + up;
-    const Vec3 pinhole = is_perspective ? forward_ + right + up : forward_;
-    if (lens_radius_ == 0) return {origin, pinhole, 0, kInfinity, time};
-    const Vec3 on_disc = sample_uniform_disc(lens_u, lens_v);
-    const Vec3 shift = lens_radius_ * (on_disc.x * right_ + on_disc.y * up_);
-    // Towards the point that the pinhole ray reaches in the plane of focus.
-    return {origin + shift, pinhole - shift / focus_distance_, 0, kInfinity, time};
+    const auto [origin, direction, time] = camera::HWY_NAMESPACE::ray(view_, x, y, lens_u, lens_v, time_u);
+    return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, 0, kInfinity, time};
 }
 
-Vec3 CameraRays::panorama_direction(double across, double upward) const {
-    const auto longitude = HWY_NAMESPACE::sine_cosine_of_turns(across / 2);
-    const auto latitude = HWY_NAMESPACE::sine_cosine_of_turns(upward / 4);
-    return latitude.cosine * (longitude.cosine * forward_ + longitude.sine * right_) + latitude.sine * up_;
-}
+namespace camera {
+
+HWY_EXPORT(make_rays);
+
+void make_rays(const CameraRays& camera, const Rows& rows) { HWY_DYNAMIC_DISPATCH(make_rays)(camera.view(), rows); }
+
+}  // namespace camera
 
 Camera frame_box(const Box& box, double aspect_ratio) {
     if (box.is_empty() || !is_finite(box.lower) || !is_finite(box.upper))
@@ -118,4 +167,4 @@ Camera frame_box(const Box& box, double aspect_ratio) {
 }
 
 }  // namespace limn
-HWY_AFTER_NAMESPACE();
+#endif

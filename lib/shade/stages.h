@@ -6,6 +6,7 @@
 
 #include "bsdf/lobe.h"
 #include "lights/lights.h"
+#include "limn/core/ray.h"
 
 namespace limn::shade {
 
@@ -23,6 +24,11 @@ struct Segments : sampling::PathRows<kBatch + kSlack> {
     double depth[kRows] = {};        // optical, in scattering, to where media scatter the path
     double choose[kRows] = {};       // the medium that does
     double hole[kRows] = {};         // uniform: whether surfaces with an opacity stop the path
+
+    Ray ray(std::size_t i) const { return {origin.get<Point3>(i), direction.get<Vec3>(i), 0, kInfinity, time[i]}; }
+    void set_ray(std::size_t i, const Ray& ray) {
+        origin.set(i, ray.origin), direction.set(i, ray.direction), time[i] = ray.time;
+    }
 };
 
 struct ShadowRays {

@@ -69,24 +69,27 @@ std::vector<double> shifted(const std::vector<double>& a, std::size_t by) {
 TEST_CASE("Determinism: a path is the same alone and among any number of others", "[render][determinism]") {
     const CompiledScene scene = busy_scene();
     const CameraRays camera(kView, 40, 40);
-    const auto path_of = [&](std::uint64_t i) {
-        return transport::Path{transport::Sampler(3, i, 1), camera.ray(static_cast<double>(i % 40) + 0.3,
-                                                                       static_cast<double>(i / 40) + 0.6, 0, 0, 0.4)};
+    // Paths first, first + 1, ...
+    const auto traced = [&](transport::PathTracer& tracer, std::size_t first, std::size_t count) {
+        std::vector<transport::Path> paths;
+        for (std::size_t i = first; i < first + count; ++i) {
+            const double x = static_cast<double>(i % 40) + 0.3, y = static_cast<double>(i / 40) + 0.6;
+            tracer.camera_rays().set_ray(paths.size(), camera.ray(x, y, 0, 0, 0.4));
+            paths.push_back({transport::Sampler(3, i, 1)});
+        }
+        tracer.trace(paths);
+        return paths;
     };
     std::vector<Color> alone;
-    for (std::uint64_t i = 0; i < 1600; ++i) {
+    for (std::size_t i = 0; i < 1600; ++i) {
         transport::PathTracer tracer(scene.flat(), 8, Estimator::path);
-        transport::Path path = path_of(i);
-        tracer.trace({&path, 1});
-        alone.push_back(path.radiance);
+        alone.push_back(traced(tracer, i, 1)[0].radiance);
     }
-    for (const std::size_t together : {2u, 17u, 300u, 1600u}) {
+    for (const std::size_t together : {std::size_t{2}, std::size_t{17}, std::size_t{300}, sampling::kBatch}) {
         transport::PathTracer tracer(scene.flat(), 8, Estimator::path);
         std::size_t differing = 0;
         for (std::size_t first = 0; first < alone.size(); first += together) {
-            std::vector<transport::Path> paths;
-            for (std::size_t i = first; i < std::min(first + together, alone.size()); ++i) paths.push_back(path_of(i));
-            tracer.trace(paths);
+            const auto paths = traced(tracer, first, std::min(together, alone.size() - first));
             for (std::size_t i = 0; i < paths.size(); ++i) differing += paths[i].radiance != alone[first + i];
         }
         CHECK(differing == 0);

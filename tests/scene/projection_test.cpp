@@ -1,4 +1,4 @@
-// Orthographic and panoramic cameras.
+// Orthographic and panoramic cameras, and the rays of all of them in batches.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -6,6 +6,8 @@
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/scene/camera.h"
+#include "scene/camera_rays.h"
+#include "support/random_geometry.h"
 
 using namespace limn;
 
@@ -85,5 +87,37 @@ TEST_CASE("Camera: what a projection cannot have is refused", "[scene][camera]")
         flat.view_height = height;
         CHECK_THROWS_AS(CameraRays(flat, 4, 4), ArgumentError);
         CHECK_THROWS_WITH(CameraRays(flat, 4, 4), Catch::Contains("the height of the view"));
+    }
+}
+
+TEST_CASE("Camera: rays that are made together are those that are made one by one, bit for bit", "[scene][camera]") {
+    constexpr std::size_t kMost = 40;  // with room for a vector more
+    test::Random random(102);
+    for (const auto& [projection, aperture] :
+         {std::pair{Projection::perspective, 0.0}, std::pair{Projection::perspective, 3.0},
+          std::pair{Projection::orthographic, 0.0}, std::pair{Projection::orthographic, 3.0},
+          std::pair{Projection::panorama, 0.0}}) {
+        Camera camera = along_minus_z(projection);
+        camera.look_at = {0.3, 0.7, -2}, camera.aperture_angle = aperture;
+        camera.shutter_open = 0.2, camera.shutter_close = 0.7;
+        const CameraRays rays(camera, 200, 100);
+        double numbers[5][kMost], origin[3][kMost], direction[3][kMost], time[kMost];
+        for (double(&row)[kMost] : numbers)
+            for (double& number : row) number = random.uniform();
+        for (std::size_t i = 0; i < kMost; ++i) numbers[0][i] *= 200, numbers[1][i] *= 100;
+        numbers[2][0] = numbers[3][0] = 0.5;  // the middle of the lens
+        for (const std::size_t count : {std::size_t{1}, std::size_t{7}, std::size_t{32}}) {
+            camera::make_rays(rays, {count,
+                                     {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]},
+                                     {origin[0], origin[1], origin[2]},
+                                     {direction[0], direction[1], direction[2]},
+                                     time});
+            for (std::size_t i = 0; i < count; ++i) {
+                const Ray ray = rays.ray(numbers[0][i], numbers[1][i], numbers[2][i], numbers[3][i], numbers[4][i]);
+                CHECK(ray.origin == Point3{origin[0][i], origin[1][i], origin[2][i]});
+                CHECK(ray.direction == Vec3{direction[0][i], direction[1][i], direction[2][i]});
+                CHECK(ray.time == time[i]);
+            }
+        }
     }
 }

@@ -57,19 +57,23 @@ public:
     /// \param time_u in [0, 1): when in the shutter
     Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
 
-    bool has_lens() const { return lens_radius_ > 0; }                   ///< whether lens_u and lens_v matter
-    bool has_shutter() const { return shutter_close_ > shutter_open_; }  ///< whether time_u matters
+    bool has_lens() const { return view_.lens_radius > 0; }                        ///< whether lens_u and lens_v matter
+    bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< whether time_u matters
+
+    /// limn's own: what the rays are made of.
+    struct View {
+        Point3 eye;                          ///< as Camera has it
+        Projection projection;               ///< the same
+        double width, height;                ///< of the picture, in pixels
+        double shutter_open, shutter_close;  ///< as Camera has them
+        Vec3 right, up, forward;             ///< unit
+        double half_width, half_height;      ///< of the frame, which a perspective has at distance 1
+        double lens_radius, focus_distance;  ///< in world units
+    };
+    const View& view() const { return view_; }  ///< limn's own
 
 private:
-    Vec3 panorama_direction(double across, double upward) const;
-
-    Point3 eye_;
-    Vec3 right_, up_, forward_;  // unit
-    Projection projection_;
-    double half_width_, half_height_;  // of the frame, which a perspective has at distance 1
-    double width_, height_;            // in pixels
-    double lens_radius_, focus_distance_;
-    double shutter_open_, shutter_close_;
+    View view_;
 };
 
 /// A pinhole camera of 30 degrees that looks down on a box from the front right (+x, +z) and has the box's bounding
