@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._limn import INVALID_ID, CompiledScene, Scene
+from ._limn import CompiledScene, Scene
 
 Locations = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]
+Rays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
 
 def _rows(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
@@ -30,12 +31,12 @@ def _rows(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     return rows
 
 
-def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """(n, 6) float64."""
+def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> Rays:
+    """Both (n, 3) float64."""
     starts, ways = _rows(origins, "ray_origins"), _rows(directions, "ray_directions")
     if starts.shape != ways.shape:
         raise ValueError(f"ray_directions: must have shape {starts.shape} as ray_origins, not {ways.shape}")
-    return np.concatenate([starts, ways], axis=1)
+    return starts, ways
 
 
 class RayMeshIntersector:
@@ -79,40 +80,43 @@ class RayMeshIntersector:
         Ray after ray, by distance; at an edge or a vertex each triangle that the ray meets. At most max_hits of a ray.
         """
         rays = _rays(ray_origins, ray_directions)
-        index_ray, index_tri, t = self._all(rays, max_hits) if multiple_hits else self._nearest(rays)
+        if multiple_hits:
+            index_ray, index_tri, t = self._all(rays, max_hits)
+        else:
+            triangles, t_hit = self._nearest(rays)
+            index_ray = np.flatnonzero(triangles >= 0)
+            index_tri, t = triangles[index_ray], t_hit[index_ray]
         if not return_locations:
             return index_tri, index_ray
-        return index_tri, index_ray, rays[index_ray, :3] + t[:, None] * rays[index_ray, 3:]
+        locations = rays[1][index_ray]
+        locations *= t[:, None]
+        locations += rays[0][index_ray]
+        return index_tri, index_ray, locations
 
     def intersects_first(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
         """The first triangle that each ray meets, (n,); -1 where it misses."""
-        rays = _rays(ray_origins, ray_directions)
-        index_ray, index_tri, _ = self._nearest(rays)
-        first = np.full(len(rays), -1, np.int64)
-        first[index_ray] = index_tri
-        return first
+        return self._nearest(_rays(ray_origins, ray_directions))[0]
 
     def intersects_any(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether each ray meets the mesh, (n,)."""
         rays = _rays(ray_origins, ray_directions)
-        return self._scene().test_occlusions(rays, self.threads) if len(rays) else np.zeros(0, bool)
+        return self._scene()._any(*rays, self.threads) if len(rays[0]) else np.zeros(0, bool)
 
     def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether each point is inside of the mesh or exactly on it, (n,)."""
         rows = _rows(points, "points")
         return self._scene().contains(rows, self.threads) if len(rows) else np.zeros(0, bool)
 
-    def _all(self, rays: npt.NDArray[np.float64], max_hits: int) -> tuple[Any, Any, Any]:
-        if not len(rays):
+    def _all(self, rays: Rays, max_hits: int) -> tuple[Any, Any, Any]:
+        if not len(rays[0]):
             return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)
-        hits = self._scene().list_intersections(rays, self.threads)
+        hits = self._scene().list_intersections(np.concatenate(rays, axis=1), self.threads)
         ray_ids = hits["ray_ids"]
         kept = np.arange(len(ray_ids)) - hits["ray_splits"][ray_ids] < max_hits
         return ray_ids[kept], hits["primitive_ids"][kept].astype(np.int64), hits["t_hit"][kept]
 
-    def _nearest(self, rays: npt.NDArray[np.float64]) -> tuple[Any, Any, Any]:
-        if not len(rays):
-            return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)
-        hits = self._scene().cast_rays(rays, self.threads)
-        index_ray = np.flatnonzero(hits["primitive_ids"] != INVALID_ID)
-        return index_ray, hits["primitive_ids"][index_ray].astype(np.int64), hits["t_hit"][index_ray]
+    def _nearest(self, rays: Rays) -> tuple[Any, Any]:
+        """The triangle of each ray, -1 for none, and t."""
+        if not len(rays[0]):
+            return np.zeros(0, np.int64), np.zeros(0)
+        return self._scene()._nearest(*rays, self.threads)

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "kept_memory.h"
+
 namespace limn::python {
 
 namespace {
@@ -149,11 +151,22 @@ Rows::Rows(ArrayArgument argument, const char* name, std::size_t width, const ch
 }
 
 nb::object new_array(const std::vector<std::size_t>& shape, const char* type, void*& values) {
+    const nb::module_ numpy = nb::module_::import_("numpy");
+    const nb::object dtype = numpy.attr("dtype")(type);
+    auto bytes = nb::cast<std::size_t>(dtype.attr("itemsize"));
     nb::list lengths;
-    for (const std::size_t length : shape) lengths.append(length);
-    nb::object array = nb::module_::import_("numpy").attr("empty")(nb::tuple(lengths), type);
-    values = nb::cast<nb::ndarray<>>(array).data();
-    return array;
+    for (const std::size_t length : shape) lengths.append(length), bytes *= length;
+    if (bytes < kLeastKept) {
+        nb::object array = numpy.attr("empty")(nb::tuple(lengths), dtype);
+        values = nb::cast<nb::ndarray<>>(array).data();
+        return array;
+    }
+    auto memory = std::make_unique<KeptMemory>(bytes);
+    values = memory->data();
+    const nb::capsule owner(memory.get(), [](void* m) noexcept { delete static_cast<KeptMemory*>(m); });
+    memory.release();
+    const nb::ndarray<nb::numpy, std::uint8_t> all(values, {bytes}, owner);
+    return nb::cast(all).attr("view")(dtype).attr("reshape")(nb::tuple(lengths));
 }
 
 }  // namespace limn::python

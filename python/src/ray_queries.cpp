@@ -2,8 +2,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "limn/query/normals.h"
 #include "parallel.h"
 #include "queries.h"
 
@@ -14,9 +16,16 @@ namespace {
 constexpr const char* kRays = "an array of rays, shape (..., 6)";
 
 // Rays as they were given, and their ends.
-struct RayRows {
+class RayRows {
+public:
     Rows rows;
-    double t_min, t_max;
+    std::optional<Rows> directions;  // where `rows` are origins alone
+    double t_min = 0, t_max = kInfinity;
+
+    // Origins and directions. \pre of the same shape
+    RayRows(ArrayArgument origins, ArrayArgument ways)
+        : rows(origins, "ray_origins", 3, "an array, shape (n, 3)"),
+          directions(std::in_place, ways, "ray_directions", 3, "an array, shape (n, 3)") {}
 
     RayRows(ArrayArgument rays, NumberArgument lowest, NumberArgument highest, const char* lowest_name,
             const char* highest_name)
@@ -29,16 +38,25 @@ struct RayRows {
     template <class Work>
     void for_all(int threads, const Work& work) const {
         rows.visit([&](const auto* numbers) {
-            for_all_rows(rows.count(), threads, [&](std::size_t first, std::size_t count) {
-                thread_local std::vector<Ray> rays;
-                rays.resize(count);
-                for (std::size_t i = 0; i < count; ++i) {
-                    const auto* r = numbers + 6 * (first + i);
-                    rays[i] = {
-                        .origin = {r[0], r[1], r[2]}, .direction = {r[3], r[4], r[5]}, .t_min = t_min, .t_max = t_max};
-                }
-                work(first, std::span<const Ray>(rays));
-            });
+            if (!directions) return for_all(threads, numbers, numbers + 3, 6, work);
+            directions->visit([&](const auto* ways) { for_all(threads, numbers, ways, 3, work); });
+        });
+    }
+
+private:
+    // `stride` numbers from one origin and one direction to the next.
+    template <class T, class U, class Work>
+    void for_all(int threads, const T* origins, const U* ways, std::size_t stride, const Work& work) const {
+        for_all_rows(rows.count(), threads, [&](std::size_t first, std::size_t count) {
+            thread_local std::vector<Ray> rays;
+            rays.resize(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const T* const o = origins + stride * (first + i);
+                const U* const d = ways + stride * (first + i);
+                rays[i] = {
+                    .origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}, .t_min = t_min, .t_max = t_max};
+            }
+            work(first, std::span<const Ray>(rays));
         });
     }
 };
@@ -51,6 +69,9 @@ nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads)
         thread_local std::vector<RayHit> hits;
         hits.resize(some.size());
         scene.closest_hit(some, hits);
+        thread_local std::vector<Vec3> normals;
+        normals.resize(some.size());
+        outward_normals(scene, some, hits, normals);
         for (std::size_t i = 0; i < some.size(); ++i) {
             const std::size_t row = first + i;
             t_hit.values[row] = static_cast<T>(hits[i].t);
@@ -58,7 +79,7 @@ nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads)
                 met.set_nothing(row);
             } else {
                 met.set(row, hits[i]);
-                store(met.primitive_normals.values + 3 * row, outward_normal(scene, some[i], hits[i]));
+                store(met.primitive_normals.values + 3 * row, normals[i]);
             }
         }
     });
@@ -66,6 +87,23 @@ nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads)
     answer["t_hit"] = t_hit.array;
     met.put_into(answer);
     return answer;
+}
+
+// What limn.trimesh asks: the triangle of each ray, -1 for none, and t.
+nb::object nearest(const CompiledScene& scene, const RayRows& rays, int threads) {
+    const NewArray<std::int64_t> triangles = new_array<std::int64_t>(rays.rows.shape());
+    const NewArray<double> t_hit = new_array<double>(rays.rows.shape());
+    rays.for_all(threads, [&](std::size_t first, std::span<const Ray> some) {
+        thread_local std::vector<RayHit> hits;
+        hits.resize(some.size());
+        scene.closest_hit(some, hits);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const bool missed = hits[i].t == kInfinity;
+            triangles.values[first + i] = missed ? -1 : static_cast<std::int64_t>(hits[i].element);
+            t_hit.values[first + i] = hits[i].t;
+        }
+    });
+    return nb::make_tuple(triangles.array, t_hit.array);
 }
 
 nb::object test_occlusions(const CompiledScene& scene, const RayRows& rays, int threads) {
@@ -153,6 +191,24 @@ Returns:
     primitive_ids (...) uint32: the triangle of a mesh, as in its array; 4294967295 where the ray misses.
     primitive_uvs (..., 2): the weights of the triangle's second and third vertex.
     primitive_normals (..., 3): the unit normal of the outward side; zero where the ray misses.)");
+    type.def(
+        "_nearest",
+        [](const CompiledScene& scene, ArrayArgument origins, ArrayArgument directions, CountArgument threads) {
+            return nearest(scene, {origins, directions}, thread_count(threads));
+        },
+        given("ray_origins"), given("ray_directions"), given("threads"),
+        nb::sig("def _nearest(self, ray_origins: numpy.typing.NDArray, ray_directions: numpy.typing.NDArray, "
+                "threads: int) -> tuple[numpy.typing.NDArray, numpy.typing.NDArray]"),
+        "The triangle that each ray hits first, -1 for none, and t. Both arrays (n, 3) float64. For limn.trimesh.");
+    type.def(
+        "_any",
+        [](const CompiledScene& scene, ArrayArgument origins, ArrayArgument directions, CountArgument threads) {
+            return test_occlusions(scene, {origins, directions}, thread_count(threads));
+        },
+        given("ray_origins"), given("ray_directions"), given("threads"),
+        nb::sig("def _any(self, ray_origins: numpy.typing.NDArray, ray_directions: numpy.typing.NDArray, "
+                "threads: int) -> numpy.typing.NDArray"),
+        "test_occlusions with arrays as _nearest takes them.");
     type.def(
         "test_occlusions",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,
