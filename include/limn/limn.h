@@ -42,6 +42,7 @@
 #include "limn/material/rough_dielectric.h"
 #include "limn/material/roughness.h"
 #include "limn/query/compiled_scene.h"
+#include "limn/query/normals.h"
 #include "limn/query/queries.h"
 #include "limn/record_sink.h"
 #include "limn/records.h"

@@ -1,6 +1,7 @@
 // surface_at(): how far off the true surface the position may be, and which side is which.
 #include "catch.h"
 #include "limn/query/compiled_scene.h"
+#include "limn/query/normals.h"
 #include "support/real.h"
 #include "support/scene_zoo.h"
 #include "support/tally.h"
@@ -260,4 +261,38 @@ TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, materia
     CHECK(s.position_error.z >= 0.125);
     CHECK(s.position_error.x > 0);  // at least the rounding of ray.at(t)
     CHECK(s.position_error.x < 1e-12);
+}
+
+TEST_CASE("outward_normals: those of surface_at, from whichever side a ray came; zero for a miss",
+          "[compile][surface]") {
+    int hits = 0, misses = 0, inside = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        Random random(seed);
+        std::vector<Object> objects;
+        for (int i = 0; i < 10; ++i) objects.push_back(random_object(random, 2));
+        const ZooScene zoo = zoo_of("zoo", objects);
+        const CompiledScene compiled = compile(zoo.scene);
+        std::vector<Ray> rays;
+        for (int i = 0; i < 1000; ++i) rays.push_back(random_ray(random, zoo.targets));
+        std::vector<RayHit> found(rays.size());
+        compiled.closest_hit(rays, found);
+        std::vector<Vec3> normals(rays.size(), Vec3{1, 2, 3});
+        outward_normals(compiled, rays, found, normals);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (found[i].t == kInfinity) {
+                ++misses;
+                CHECK(normals[i] == Vec3{});
+                continue;
+            }
+            const Surface s = compiled.surface_at(rays[i], found[i]);
+            ++hits, inside += s.front_face ? 0 : 1;
+            CHECK(normals[i] == (s.front_face ? 1.0 : -1.0) * Vec3(s.normal));
+        }
+    }
+    CHECK((hits > 1000 && misses > 1000 && inside > 100));
+    const CompiledScene empty = compile(Scene{});
+    const std::vector<Ray> two(2);
+    const std::vector<RayHit> one(1);
+    std::vector<Vec3> normals(2);
+    CHECK_THROWS_AS(outward_normals(empty, two, one, normals), ArgumentError);
 }

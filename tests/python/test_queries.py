@@ -218,6 +218,24 @@ class Behaviour(unittest.TestCase):
         gc.collect()
         self.assertLess(resident() - before, 3e6)
 
+    def test_large_answers_keep_their_memory_until_they_go(self):
+        scene = compiled(box())
+        at = lambda x: np.tile([x, .5, 9, 0, 0, -1.0], (300_000, 1))
+        first = scene.cast_rays(at(.5))
+        kept = {name: array.copy() for name, array in first.items()}
+        second = scene.cast_rays(at(9))
+        for name, array in first.items():
+            self.assertTrue(np.array_equal(array, kept[name]), name)
+        part = first["primitive_normals"][7:9]
+        del first
+        gc.collect()
+        for _ in range(4):  # these may get what has gone, but not what is still seen
+            third = scene.cast_rays(at(.25))
+            self.assertTrue(np.array_equal(part, kept["primitive_normals"][7:9]))
+            self.assertTrue((third["t_hit"] == 8).all())
+            del third
+        self.assertTrue(np.isinf(second["t_hit"]).all())
+
     def test_the_description_may_go_and_change(self):
         scene = limn.Scene()
         number = scene.add_triangles(*box())
