@@ -1,5 +1,6 @@
 // surface_at(): how far off the true surface the position may be, and which side is which.
 #include "catch.h"
+#include "limn/core/error.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/query/normals.h"
 #include "support/real.h"
