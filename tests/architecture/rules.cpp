@@ -48,7 +48,7 @@ const std::vector<Library>& libraries() {
         row("Random123", "Random123/.*", R"(\br123\b)", "lib/render/.*"),
         row("xxHash", "xxhash\\.h", R"(\bXXH\w+)", R"(lib/core/checksum\.cpp)"),
         row("Highway", "hwy/.*", R"(\bhwy\b)",
-            "lib/(bsdf|lanes|lights|material|predicates|sampling|scene|shade|trace)/.*"),
+            R"(lib/((bsdf|lanes|lights|material|predicates|sampling|scene|shade|trace)/.*|query/normals\.cpp))"),
         row("fmt", "fmt/.*", R"(\bfmt\s*::)", "apps/.*"),
         row("CLI11", "CLI/.*", R"(\bCLI\s*::)", "apps/.*"),
         row("nlohmann-json", "nlohmann/.*", R"(\bnlohmann\b)", "lib/io/gltf.*"),

@@ -264,7 +264,7 @@ TEST_CASE("surface_at: a user's own shape gives its normal, coordinates, materia
     CHECK(s.position_error.x < 1e-12);
 }
 
-TEST_CASE("outward_normals: those of surface_at, from whichever side a ray came; zero for a miss",
+TEST_CASE("outward_normals: those of surface_at, from whichever side a ray came, zero for a miss",
           "[compile][surface]") {
     int hits = 0, misses = 0, inside = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
