@@ -41,7 +41,7 @@ void judge_nearest(Tally& tally, const CompiledScene& scene, const std::vector<s
     ++tally.rays, ++tally.judged;
     const auto nearest = scene.closest_point(p);
     if (!nearest) return tally.fault(as_ray, "none");
-    Real truth = kInfinity;
+    Real truth = to_triangle(corners[nearest->element], p);  // no less than the true one
     for (const auto& k : corners) {
         if (length(k[0] - p) - length(k[1] - k[0]) - length(k[2] - k[0]) > 1.001 * static_cast<double>(truth)) continue;
         const Real distance = to_triangle(k, p);

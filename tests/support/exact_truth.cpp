@@ -1,5 +1,6 @@
 #include "support/exact_truth.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -234,10 +235,17 @@ int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const
         const int ahead = sign(dot(to_a, cross(to_b, to_c))) * wa;
         return ahead == 0 ? 2 : ahead > 0 ? wa : 0;
     };
-    const Real3 o(origin), d(direction), to_a = Real3(a) - o, to_b = Real3(b) - o, to_c = Real3(c) - o;
-    const Real size = (length(to_a) + length(to_b) + length(to_c)) * (1 + length(d)),
-               bound = Real(1e-29) * size * size * size;
-    const int told = passage(to_a, to_b, to_c, d, [&](Real x) { return x > bound ? 1 : x < -bound ? -1 : 0; });
+    // Filters: the bounds are many times what rounding may do, where nothing underflows.
+    const auto filtered = [&](const auto& to_a, const auto& to_b, const auto& to_c, const auto& d, double epsilon) {
+        const auto size = (length(to_a) + length(to_b) + length(to_c)) * (1 + length(d)),
+                   bound = epsilon * size * size * size;
+        if (!(bound > 1e-290)) return 2;
+        return passage(to_a, to_b, to_c, d, [&](const auto& x) { return x > bound ? 1 : x < -bound ? -1 : 0; });
+    };
+    const int in_double = filtered(a - origin, b - origin, c - origin, direction, 1e-12);
+    if (in_double != 2) return in_double;
+    const Real3 o(origin);
+    const int told = filtered(Real3(a) - o, Real3(b) - o, Real3(c) - o, Real3(direction), 1e-29);
     if (told != 2) return told;
     const Vector moved =
         Vector(origin) + least_move({a - Point3{}, b - Point3{}, c - Point3{}, origin - Point3{}, direction});
@@ -247,6 +255,9 @@ int exact_moved_passage(const Point3& a, const Point3& b, const Point3& c, const
 }
 
 bool exactly_on_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis)  // outside of the box of the corners
+        if (p[axis] < std::min({a[axis], b[axis], c[axis]}) || p[axis] > std::max({a[axis], b[axis], c[axis]}))
+            return false;
     const Vector o(p), to_a = Vector(a) - o, to_b = Vector(b) - o, to_c = Vector(c) - o;
     const Vector n = cross(to_b - to_a, to_c - to_a);
     return dot(to_a, n).sign() == 0 && dot(n, cross(to_a, to_b)).sign() >= 0 && dot(n, cross(to_b, to_c)).sign() >= 0 &&
