@@ -121,6 +121,13 @@ TEST_CASE("Films: shards are merged to the picture of one run, in any order", "[
         REQUIRE(merged.status == 0);
         render.check_same("whole", "resumed");
     }
+    // What no film knows is traced by a render that takes no sample more.
+    const Words all = {"merge", "1.film", "2.film", "3.film", "--quiet", "--film", "all.film"};
+    REQUIRE(run(LIMN_PROGRAM, all, render.folder.path()).status == 0);
+    REQUIRE(render({"--spp", "12", "--resume", "all.film", "-o", "hits.exr", "--channels", "depth"}).status == 0);
+    CHECK(load_image(render.folder.path("hits.exr")) == load_image(render.folder.path("whole.exr")));
+    CHECK(load_image_info(render.folder.path("hits.exr")).channels.size() == 4);
+
     const auto refused = [&](const Words& words, int status, const std::string& message) {
         const Outcome outcome = run(LIMN_PROGRAM, Words{"merge"} + words, render.folder.path());
         CAPTURE(words, outcome.err);
