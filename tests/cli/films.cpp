@@ -175,6 +175,27 @@ TEST_CASE("Films: --error over shards, in rounds", "[cli][films]") {
     CHECK(report["stopped_by"] == "error");
 }
 
+TEST_CASE("Films: a clock that goes back changes nothing", "[cli][films]") {
+    const Render render;
+    REQUIRE(render(Words{"--spp", "12"} + render.written("whole")).status == 0);
+    REQUIRE(render({"--spp", "8", "--film", "a.film"}).status == 0);
+    render.folder.write("a.film.lock", "");
+    render.folder.write(".limn-0.tmp", "");
+    // To the resumed render, all that is there was written tomorrow.
+    const auto tomorrow = std::filesystem::file_time_type::clock::now() + std::chrono::hours(24);
+    for (const std::string& name : render.folder.names())
+        std::filesystem::last_write_time(render.folder.path(name), tomorrow);
+    const Outcome resumed =
+        render(Words{"--spp", "12", "--resume", "a.film", "--checkpoint", "a.film", "--every", "0.01"} +
+               render.written("resumed"));
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+    render.check_same("whole", "resumed");
+    CHECK(render.folder.names() ==
+          Names{"a.film", "house.obj", "resumed.exr", "resumed.json", "whole.exr", "whole.json"});
+    CHECK(std::filesystem::last_write_time(render.folder.path("a.film")) < tomorrow);
+}
+
 TEST_CASE("Films: what cannot be continued or written is refused before it costs anything", "[cli][films]") {
     const Render render;
     REQUIRE(render({"--spp", "4", "--film", "a.film"}).status == 0);
