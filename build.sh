@@ -67,7 +67,7 @@ program_packages=(
 # And what the suite needs: the default targets are all of these.
 install_needs() {
     install_missing "${program_packages[@]}" pkg-config python3 python3-dev python3-venv catch2 librapidcheck-dev \
-        libboost-dev
+        libboost-dev make parallel
 }
 
 build() {

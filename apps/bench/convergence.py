@@ -1,9 +1,10 @@
 """Speed against error, limn beside its peers: the generated part of docs/speed-against-error.md, and its plot.
 
-Ten scenes, described once (transport_scenes.cpp) and written for each renderer (peers/). Everybody renders a converged
-reference in two halves, then a ladder of growing sample counts on one thread, with several seeds, all taking turns.
-Raw numbers go to build/convergence/results.json, from which --again writes the report anew. Interrupted, it goes on
-with the scene where it was. References are kept as long as scene and renderer stay the same.
+Fourteen scenes, described once (transport_scenes.cpp) and written for each renderer that can express them (peers/).
+Everybody renders a converged reference in two halves, then a ladder of growing sample counts on one thread, with
+several seeds, all taking turns. Raw numbers go to build/convergence/results.json, from which --again writes the report
+anew. Interrupted, it goes on with the scene where it was. References are kept as long as scene and renderer stay the
+same.
 
 Needs limn's programs in build/release/bin, matplotlib, numpy and OpenImageIO for Python; Mitsuba, Blender and LuxCore
 come from PyPI into build/peers where they can. Run through ./build.sh convergence [--full] [--scene NAME ...]

@@ -19,14 +19,19 @@ namespace limn::app {
 
 namespace {
 
+constexpr const char* kOfFirstHits = "albedo, normal, position, depth, object, primitive";
+
 // Names of channels with commas between them, each once.
-std::vector<std::string> parse_channels(const std::string& text) {
+std::vector<std::string> parse_channels(const std::string& text, bool has_scene) {
     std::vector<std::string> names;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string name = text.substr(begin, end - begin);
-        if (name != "error" && name != "samples" && !FirstHits::knows(name))
-            refuse("--channels", text, "must be of error, samples, albedo, normal, position, depth, object, primitive");
+        const bool is_of_film = name == "error" || name == "samples";
+        if (!has_scene && !is_of_film)
+            refuse("--channels", text, "must be of error, samples: the others are of the scene, which no film holds");
+        if (!is_of_film && !FirstHits::knows(name))
+            refuse("--channels", text, fmt::format("must be of error, samples, {}", kOfFirstHits));
         if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
         names.push_back(name);
         begin = end + 1;
@@ -100,7 +105,7 @@ std::vector<std::string> PictureOptions::all_outputs() const {
     return all;
 }
 
-void add_picture_options(Options& options, PictureOptions& o, const std::string& outputs) {
+void add_picture_options(Options& options, PictureOptions& o, bool has_scene, const std::string& outputs) {
     options.add({.name = "-o,--output",
                  .value = "FILE",
                  .help = "A picture to write, .exr or .png; may be repeated",
@@ -114,11 +119,13 @@ void add_picture_options(Options& options, PictureOptions& o, const std::string&
                 file_name("--film", o.film));
     options.add({.name = "--channels",
                  .value = "LIST",
-                 .help = "Further channels of an EXR, with commas between them: error, each pixel's estimated relMSE; "
-                         "samples, how many it has; of the surface that the camera sees first albedo, normal, "
-                         "position, depth, object, primitive",
+                 .help = fmt::format(
+                     "Further channels of an EXR, with commas between them: error, each pixel's estimated relMSE; "
+                     "samples, how many it has; {}",
+                     has_scene ? fmt::format("of the surface that the camera sees first {}", kOfFirstHits)
+                               : "the others of a render are of the scene, which no film holds"),
                  .preset = "none"},
-                [&o](const std::string& s) { o.channels = parse_channels(s); });
+                [&o, has_scene](const std::string& s) { o.channels = parse_channels(s, has_scene); });
     options.add({.name = "--exposure",
                  .value = "STOPS",
                  .help = "Show a PNG brighter, by 2 to the STOPS, or darker",

@@ -30,8 +30,9 @@ struct PictureOptions {
 };
 
 /// Adds the options, bound to `values`, which must outlive the parsing.
+/// \param has_scene whether --channels can be of the first hits
 /// \param outputs what is written without -o and --film, for --help; empty: nothing
-void add_picture_options(Options& options, PictureOptions& values, const std::string& outputs = "");
+void add_picture_options(Options& options, PictureOptions& values, bool has_scene, const std::string& outputs = "");
 
 /// Whether one of the channels is of the scene's first hits.
 bool wants_first_hits(const PictureOptions& options);

@@ -180,7 +180,7 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
 }  // namespace
 
 void add_render_options(Options& options, RenderOptions& o, const std::string& outputs) {
-    add_picture_options(options, o, outputs);
+    add_picture_options(options, o, true, outputs);
     add_numbers(options, o);
     options.add_flag("--no-antialias", o.no_antialias, "Trace all camera rays through the centres of the pixels");
     add_films(options, o);

@@ -28,7 +28,6 @@ void check(const Arguments& a) {
     std::vector<std::string> outputs = a.all_outputs();
     if (!a.plan.empty()) outputs.push_back(a.plan);
     if (outputs.empty()) throw ArgumentError("-o is missing: nothing would be written");
-    if (wants_first_hits(a)) throw ArgumentError("--channels: a film knows error and samples alone");
     check_distinct(outputs, a.films);
     check_picture_options(a);
     if (!a.plan.empty()) check_text_path(a.plan);
@@ -61,7 +60,7 @@ int merge_command(int argc, const char* const* argv) {
                          "limn render --plan",
                  .preset = "none"},
                 file_name("--plan", a.plan));
-    add_picture_options(options, a);
+    add_picture_options(options, a, false);
     if (!options.parse(argc, argv)) return kDone;
     check(a);
 

@@ -85,19 +85,20 @@ private:
     };
 
     void check_extensions() {
-        static const std::set<std::string> known{"KHR_lights_punctual",  "KHR_materials_emissive_strength",
-                                                 "KHR_materials_ior",    "KHR_materials_transmission",
-                                                 "KHR_materials_unlit",  "KHR_mesh_quantization",
-                                                 "KHR_texture_transform"};
+        static const std::set<std::string> known{"KHR_lights_punctual",   "KHR_materials_emissive_strength",
+                                                 "KHR_materials_ior",     "KHR_materials_transmission",
+                                                 "KHR_mesh_quantization", "KHR_texture_transform"};
         const GltfValue required = document_["extensionsRequired"], used = document_["extensionsUsed"];
         for (std::size_t i = 0; i < required.size(); ++i) {
             const std::string name = required[i].text_or("");
-            if (!known.contains(name) && !name.starts_with("KHR_materials_"))
-                required[i].fail("the extension " + name + " is not read");
+            if (!known.contains(name)) required[i].fail("the extension " + name + " is not read");
         }
-        for (std::size_t i = 0; i < used.size(); ++i)
-            if (!known.contains(used[i].text_or("")))
-                model_.warnings.push_back("the extension " + used[i].text_or("") + " is not used");
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            const std::string name = used[i].text_or("");
+            if (known.contains(name)) continue;
+            const std::string instead = name == "KHR_materials_unlit" ? ": its materials are lit like the others" : "";
+            model_.warnings.push_back("the extension " + name + " is not used" + instead);
+        }
     }
 
     // The nodes of the scene, or of the first, or those that are no other's children.

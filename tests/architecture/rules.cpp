@@ -216,6 +216,18 @@ Violations check_pointers(const SourceTree& tree) {
     return found;
 }
 
+Violations check_clocks(const SourceTree& tree) {
+    static const std::regex date(
+        R"(\b(system_clock|high_resolution_clock|file_clock|utc_clock|last_write_time|CLOCK_REALTIME|)"
+        R"(gettimeofday|localtime|gmtime|mktime|st_[acm]time?|std::time|time\(nullptr\)|time\(0\)))");
+    Violations found;
+    for (const SourceFile& file : tree)
+        if (is_public(file) || is_lib(file) || file.path.starts_with("apps/common/") ||
+            file.path.starts_with("apps/limn/"))
+            find_all(file, date, "a date can go back", found);
+    return found;
+}
+
 Violations check_lengths(const SourceTree& tree) {
     static const std::regex figure(R"(examples/figures/fig\d\d_\w+\.cpp)"), custom(R"(examples/custom_\w+\.cpp)");
     Violations found;

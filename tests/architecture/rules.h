@@ -34,6 +34,10 @@ Violations check_flat(const SourceTree& tree);
 /// object is read through a pointer to another type but as bytes: compilers make use of both being undefined.
 Violations check_pointers(const SourceTree& tree);
 
+/// Nothing that renders asks for the date, of its clock or of a file: it may go back. What takes time is told by
+/// std::chrono::steady_clock.
+Violations check_clocks(const SourceTree& tree);
+
 /// Files can be read in one sitting: 400 lines; 80 in cmake/, 25 and 60 for the examples, 60 of code for a figure.
 Violations check_lengths(const SourceTree& tree);
 

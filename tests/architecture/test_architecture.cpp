@@ -56,6 +56,8 @@ TEST_CASE("No pointer reaches beyond the member that it was taken of", "[archite
     require_none(check_pointers(the_house()));
 }
 
+TEST_CASE("Nothing that renders asks for the date", "[architecture]") { require_none(check_clocks(the_house())); }
+
 TEST_CASE("Every file can be read in one sitting", "[architecture]") { require_none(check_lengths(the_house())); }
 
 TEST_CASE("The floors stand in the architecture paper word for word", "[architecture]") {
@@ -228,6 +230,20 @@ TEST_CASE("A pointer that reaches beyond its member is reported", "[architecture
                      "reinterpret_cast<const float*>",
                      "lib/shade/light_choice.cpp:3: objects are read as what they are, or as bytes: "
                      "reinterpret_cast<const float*>"});
+}
+
+TEST_CASE("A question for the date is reported", "[architecture]") {
+    const SourceTree tree{
+        {"lib/core/a.cpp", "const auto now = std::chrono::system_clock::now();\n"},
+        {"include/limn/core/a.h", "inline bool old() { return last_write_time(\"a\") < b; }\n"},
+        {"apps/limn/a.cpp", "const auto seed = time(nullptr);\nif (a.st_mtime > b.st_mtim.tv_sec) c();\n"},
+        {"apps/common/a.cpp", "const auto now = std::chrono::steady_clock::now();\nray.time(0.5);\n"},
+        {"apps/bench/a.cpp", "const auto now = std::chrono::system_clock::now();\n"}};
+    CHECK(check_clocks(tree) == Violations{"lib/core/a.cpp:1: a date can go back: system_clock",
+                                           "include/limn/core/a.h:1: a date can go back: last_write_time",
+                                           "apps/limn/a.cpp:1: a date can go back: time(nullptr)",
+                                           "apps/limn/a.cpp:2: a date can go back: st_mtime",
+                                           "apps/limn/a.cpp:2: a date can go back: st_mtim"});
 }
 
 TEST_CASE("A file that is too long is reported", "[architecture]") {

@@ -121,6 +121,13 @@ TEST_CASE("Films: shards are merged to the picture of one run, in any order", "[
         REQUIRE(merged.status == 0);
         render.check_same("whole", "resumed");
     }
+    // What no film knows is traced by a render that takes no sample more.
+    const Words all = {"merge", "1.film", "2.film", "3.film", "--quiet", "--film", "all.film"};
+    REQUIRE(run(LIMN_PROGRAM, all, render.folder.path()).status == 0);
+    REQUIRE(render({"--spp", "12", "--resume", "all.film", "-o", "hits.exr", "--channels", "depth"}).status == 0);
+    CHECK(load_image(render.folder.path("hits.exr")) == load_image(render.folder.path("whole.exr")));
+    CHECK(load_image_info(render.folder.path("hits.exr")).channels.size() == 4);
+
     const auto refused = [&](const Words& words, int status, const std::string& message) {
         const Outcome outcome = run(LIMN_PROGRAM, Words{"merge"} + words, render.folder.path());
         CAPTURE(words, outcome.err);
@@ -166,6 +173,27 @@ TEST_CASE("Films: --error over shards, in rounds", "[cli][films]") {
     CHECK(report["error"]["ci95_high"] <= 1e-4);
     CHECK(report["error"]["reached"] == true);
     CHECK(report["stopped_by"] == "error");
+}
+
+TEST_CASE("Films: a clock that goes back changes nothing", "[cli][films]") {
+    const Render render;
+    REQUIRE(render(Words{"--spp", "12"} + render.written("whole")).status == 0);
+    REQUIRE(render({"--spp", "8", "--film", "a.film"}).status == 0);
+    render.folder.write("a.film.lock", "");
+    render.folder.write(".limn-0.tmp", "");
+    // To the resumed render, all that is there was written tomorrow.
+    const auto tomorrow = std::filesystem::file_time_type::clock::now() + std::chrono::hours(24);
+    for (const std::string& name : render.folder.names())
+        std::filesystem::last_write_time(render.folder.path(name), tomorrow);
+    const Outcome resumed =
+        render(Words{"--spp", "12", "--resume", "a.film", "--checkpoint", "a.film", "--every", "0.01"} +
+               render.written("resumed"));
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+    render.check_same("whole", "resumed");
+    CHECK(render.folder.names() ==
+          Names{"a.film", "house.obj", "resumed.exr", "resumed.json", "whole.exr", "whole.json"});
+    CHECK(std::filesystem::last_write_time(render.folder.path("a.film")) < tomorrow);
 }
 
 TEST_CASE("Films: what cannot be continued or written is refused before it costs anything", "[cli][films]") {

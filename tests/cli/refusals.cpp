@@ -108,6 +108,14 @@ TEST_CASE("limn: the defaults in --help are those of the library, and of a figur
     CHECK(line_of(figure, "-o,--output FILE").ends_with("(default: tiny.exr and tiny.png)"));
 }
 
+TEST_CASE("limn: --help names the channels that a command can write, and no others", "[cli]") {
+    const std::string render = line_of(limn({"render", "--help"}).out, "--channels LIST"),
+                      merge = line_of(limn({"merge", "--help"}).out, "--channels LIST");
+    for (const char* of_film : {"error", "samples"}) CHECK((contains(render, of_film) && contains(merge, of_film)));
+    for (const char* of_scene : {"albedo", "normal", "position", "depth", "object", "primitive"})
+        CHECK((contains(render, of_scene) && !contains(merge, of_scene)));
+}
+
 TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and nothing on stdout", "[cli]") {
     const Folder folder;
     const std::string model = folder.write("house.obj", house_obj()), out = folder.path("out.exr");
@@ -144,7 +152,8 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"render", model, "-o", out, "--preview", "0"}, "--preview 0: must be over 0"},
         {{"render", model, "--film", folder.path("a.film"), "--preview", "1"}, "--preview: there is no -o"},
         {{"render", model, "-o", out, "--exposure", "bright"}, "--exposure bright"},
-        {{"merge", model, "-o", out, "--channels", "albedo"}, "--channels: a film knows error and samples alone"},
+        {{"merge", model, "-o", out, "--channels", "error,albedo"},
+         "--channels error,albedo: must be of error, samples: the others are of the scene, which no film holds"},
         {{"trace", "-"}, "MODEL -: standard input cannot be the rays too"},
         {{"render", model, "-o", folder.path("out.png"), "--channels", "error"}, "--channels: only an EXR"},
         {{"render", model, "-o", out, "--resume"}, "--resume"},

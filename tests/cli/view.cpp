@@ -1,4 +1,10 @@
 // What `limn render` shows, and of which pixels.
+#include <signal.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
 #include "catch.h"
 #include "house.h"
 #include "limn/io/image_io.h"
@@ -185,14 +191,41 @@ TEST_CASE("limn render: a model without triangles is refused", "[cli]") {
     CHECK(folder.names() == std::set<std::string>{"a.obj"});
 }
 
-TEST_CASE("limn render: --preview writes the whole picture while it renders", "[cli]") {
+bool happens_within_a_minute(const std::function<bool()>& event) {
+    const auto last = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!event()) {
+        if (std::chrono::steady_clock::now() > last) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
+
+TEST_CASE("limn render: --preview replaces each picture while it renders, again and again, by a whole one", "[cli]") {
     const House house;
-    const Outcome outcome = limn({"render", house.model(), "-o", house.path(), "-o", house.path("a.png"), "--size",
-                                  "32x24", "--preview", "0.02", "--time-limit", "0.5"});
-    INFO(outcome.err);
-    CHECK(outcome.status == 0);
-    CHECK(load_image(house.path("a.png")).width() == 32);
-    CHECK(load_image(house.path()).width() == 32);
+    const std::string exr = house.path(), png = house.path("a.png");
+    OnTerminal program(LIMN_PROGRAM, {"render", house.model(), "-o", exr, "-o", png, "--size", "32x24", "--quiet",
+                                      "--spp", "1000000000", "--preview", "0.02"});
+    Names names = {"a.exr", "a.png", "house.obj"};
+    // A second name keeps what is there, and tells when another file has taken its place.
+    for (const std::string& path : {exr, png}) {
+        REQUIRE(happens_within_a_minute([&] { return std::filesystem::exists(path); }));
+        for (int i = 1; i <= 3; ++i) {
+            const std::string name = std::to_string(i) + std::filesystem::path(path).extension().string();
+            const std::string kept = house.path(name);
+            std::filesystem::create_hard_link(path, kept);
+            names.insert(name);
+            REQUIRE(happens_within_a_minute([&] { return !std::filesystem::equivalent(path, kept); }));
+            const Image image = load_image(kept);
+            CHECK((image.width() == 32 && image.height() == 24));
+        }
+    }
+    const Image first = load_image(house.path("1.exr"));
+    CHECK(happens_within_a_minute([&] { return load_image(exr) != first; }));  // whenever it is read
+    program.send(SIGINT);
+    const Outcome outcome = program.finish();
+    CHECK(outcome.status == 130);  // until then it rendered
+    CHECK(outcome.err.empty());
+    CHECK(house.folder().names() == names);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What befalls long renders: killed processes, full disks, damaged films. Writes docs/long-renders.md.
+"""What befalls long renders: killed processes, full disks, damaged films, parts in any order. Writes docs/long-renders.md.
 
     run.py    all of it, as ./build.sh faults does: goes on where it was interrupted
 
@@ -197,6 +197,26 @@ def two_renders():
     return {"tried": 1, "wrong": int(not ok), "said": "the second is refused" if ok else "the second is NOT refused"}
 
 
+def orders():
+    """Shards of figure 16 at its own size, merged in several orders: each picture is that of one run."""
+    figure = [str(BIN / "fig16_volume_cornell_box"), "--quiet", "--spp", "16"]
+    count = 7
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        run([*figure, *outputs("whole")], folder).check_returncode()
+        whole = result(folder, "whole")
+        films = [f"{i}.film" for i in range(1, count + 1)]
+        for i, film in enumerate(films, 1):
+            run([*figure, "--shard", f"{i}/{count}", "--film", film], folder).check_returncode()
+        tried = [films, films[::-1], random.Random(5).sample(films, count)]
+        wrong = 0
+        for order in tried:
+            done = run([str(BIN / "limn"), "merge", *order, "--quiet", *outputs("merged")], folder)
+            wrong += done.returncode != 0 or result(folder, "merged") != whole
+    return {"tried": len(tried), "wrong": wrong, "said": "pixels, channels, estimate, samples and rays of one run: "
+                                                         f"{len(tried) - wrong} of {len(tried)}"}
+
+
 def main():
     head = reports.origin("faults")
     kept = reports.Kept(ROOT / "build/faults.json", sources=head["sources"])
@@ -206,7 +226,8 @@ def main():
               for i, figure in enumerate(figures)]
     trials += [("full disk", lambda size=size: full_disk(size)) for size in DISKS]
     trials += [("read-only folder", read_only), ("films cut short, flipped bits", damages), ("clock set back", clock),
-               ("two renders on one checkpoint", two_renders)]
+               ("two renders on one checkpoint", two_renders),
+               ("7 shards of figure 16 merged in 3 orders", orders)]
     rows, wrong = [], 0
     for number, (name, trial) in enumerate(trials):
         row = kept(f"{number} {name}", trial, lambda row: not row["wrong"])

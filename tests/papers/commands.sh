@@ -51,11 +51,13 @@ check_preset() {
 }
 
 sed 's/#.*//; s/&&/\n/g; s/[|;]/\n/g' "$block" | while read -ra words; do
+    while [[ ${words[0]:-} =~ ^[A-Z_]+= ]]; do words=("${words[@]:1}"); done
     [[ ${#words[@]} -gt 0 ]] || continue
     case ${words[0]} in
         ./build.sh) check_build "${words[@]:1}" ;;
         build/release/bin/* | limn) check_program "${words[0]##*/}" "${words[@]:1}" ;;
         cmake | ctest) check_preset "${words[@]}" ;;
+        make) ;;  # not every system has it: run_page.sh
         *) command -v "${words[0]}" >/dev/null || fail "there is no program ${words[0]}" ;;
     esac
 done

@@ -13,6 +13,7 @@
 #include "limn/texture/perlin.h"
 #include "support/folder.h"
 #include "support/pictures.h"
+#include "support/same_render.h"
 #include "support/text.h"
 
 using namespace limn;
@@ -35,23 +36,6 @@ RenderSettings settings_of(std::optional<double> error, int samples = 40) {
     s.error = error;
     s.threads = 2;
     return s;
-}
-
-// What must be the same: pixels, channels, estimate, samples, rays.
-void check_same(const RenderResult& a, const RenderResult& b) {
-    CHECK(a.image == b.image);
-    CHECK(a.maps.samples == b.maps.samples);
-    CHECK(a.maps.error == b.maps.error);
-    CHECK(a.error.reason == b.error.reason);
-    if (a.error.reason.empty()) {
-        CHECK(a.error.estimate == b.error.estimate);
-        CHECK(a.error.ci95_low == b.error.ci95_low);
-        CHECK(a.error.ci95_high == b.error.ci95_high);
-    }
-    CHECK(a.error.max_sample_share == b.error.max_sample_share);
-    CHECK(a.report.samples_per_pixel == b.report.samples_per_pixel);
-    CHECK(a.report.rays == b.report.rays);
-    CHECK(a.report.nonfinite_samples == b.report.nonfinite_samples);
 }
 
 // Stops at the n-th question of the callback, from 0 on.
