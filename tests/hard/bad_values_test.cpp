@@ -1,5 +1,6 @@
 // Every special double in every field of a ray, a shape, a matrix: what cannot be used misses or is refused, all else
-// is answered exactly, and nothing aborts. hardcases.md rows 9, 17, 26 and 32.
+// is answered exactly, and nothing aborts. Among them spheres of negative and no radius, triangles without area, quads
+// with parallel edges, and rays of NaN, infinities and no direction.
 #include <bit>
 
 #include "catch.h"

@@ -1,5 +1,6 @@
 // Boxes: whatever meets the closed box in exact arithmetic is let through, by the slab test and by the trees of both
-// worlds. hardcases.md rows 29 and 30.
+// worlds: in special configurations (rays along edges, flat boxes, origins on a face), and at corners and edges of
+// small boxes far from the origin.
 #include <array>
 
 #include "accel/slab.h"

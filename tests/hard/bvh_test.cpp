@@ -1,5 +1,4 @@
-// Trees: the compiled scene and the described Bvh find what asking every object finds, to the bit. hardcases.md rows
-// 31, 33 and 35.
+// Trees: the compiled scene and the described Bvh find what asking every object finds, to the bit.
 #include "catch.h"
 #include "hard/hard.h"
 #include "support/scene_zoo.h"

@@ -1,5 +1,5 @@
 // The caller's floating-point environment: flushing of subnormals, rounding mode, unmasked traps. Whatever it is, limn
-// leaks no ray, raises no trap, answers as in the default one, and leaves it as it was. hardcases.md row 90.
+// leaks no ray, raises no trap, answers as in the default one, and leaves it as it was.
 #if defined(__x86_64__)
 
 #include <immintrin.h>

@@ -1,5 +1,4 @@
 // Instances: the exact image of the shape under the stored matrices, however deep, skewed, mirrored or far.
-// hardcases.md rows 36 to 39.
 #include "catch.h"
 #include "hard/placed.h"
 #include "limn/core/error.h"

@@ -1,5 +1,5 @@
 // Moving spheres and moving instances: exact at both ends, at any time the exact shape there, and boxed over the whole
-// shutter. hardcases.md rows 47 and 48.
+// shutter.
 #include "catch.h"
 #include "hard/placed.h"
 

@@ -38,8 +38,9 @@ double integral_of_directions(double theta, double phi, double end, int steps, c
     return sum;
 }
 
-/// f |cos| in green over all directions above a surface at z = 0, as seen from `out`.
-inline double reflected(const Material& material, const Vec3& out, const Surface& s = kUp, int steps = 150) {
+/// f |cos| in green over all directions above a surface at z = 0, as seen from `out`. 75 steps are right to 3e-4 at any
+/// roughness from 0.05; brushed surfaces, whose highlights are narrow elsewhere too, need 150.
+inline double reflected(const Material& material, const Vec3& out, const Surface& s = kUp, int steps = 75) {
     const double theta = std::acos(out.z), phi = std::atan2(out.y, out.x) + kPi;
     return integral_of_directions(theta, phi, kPi / 2, steps,
                                   [&](const Vec3& in) { return material.value(s, out, in).value.g; });

@@ -18,15 +18,9 @@ const Color kWhite{1, 1, 1};
 }  // namespace
 
 TEST_CASE("Plastic: samples follow the density, at every roughness, brushed and not", "[material][plastic]") {
-    Surface s = surface({1, -2, 3});
-    s.dp_du = {2, 0, 1};
-    for (const auto& [roughness, degrees] : {std::pair<Roughness, double>{0.3, 60}, {1.0, 75}, {{0.3, 0.8}, 50}}) {
-        CAPTURE(roughness.u, roughness.v, degrees);
-        const Vec3 out = Frame(Vec3(s.normal)).to_world(at_angles(radians(degrees), 1));
-        const Lobe lobe(Plastic(Color{.8, .4, .1}, roughness), s, out, Vec3(s.normal), kPi / 2);
-        CHECK(lobe.p_value > kSamplerLevel);
-        CHECK(lobe.mean_weight.g == Approx(lobe.integral).epsilon(5e-3));
-        CHECK(lobe.worst_ratio < 1e-9);
+    for (const Roughness& roughness : kGridBrushed) {
+        CAPTURE(roughness.u, roughness.v);
+        check_samples(Plastic(Color{.8, .4, .1}, roughness));
     }
 }
 

@@ -32,17 +32,9 @@ double scattered_once(double ax, double ay, const Vec3& out) {
 
 TEST_CASE("RoughConductor: samples follow the density, at every roughness, brushed and not",
           "[material][rough-conductor]") {
-    Surface s = surface({1, -2, 3});
-    s.dp_du = {2, 0, 1};
-    for (const auto& [roughness, degrees] :
-         {std::pair<Roughness, double>{0.3, 60}, {0.7, 30}, {1.0, 75}, {{0.3, 0.8}, 50}, {{0.9, 0.4}, 80}}) {
-        CAPTURE(roughness.u, roughness.v, degrees);
-        const Frame frame{Vec3(s.normal)};
-        const Vec3 out = frame.to_world(at_angles(radians(degrees), 1));
-        const Lobe lobe(RoughConductor(Color{1, .5, 1}, roughness), s, out, Vec3(s.normal), kPi / 2);
-        CHECK(lobe.p_value > kSamplerLevel);
-        CHECK(lobe.mean_weight.g == Approx(lobe.integral).epsilon(5e-3));
-        CHECK(lobe.worst_ratio < 1e-10);
+    for (const Roughness& roughness : kGridBrushed) {
+        CAPTURE(roughness.u, roughness.v);
+        check_samples(RoughConductor(Color{1, .5, 1}, roughness));
     }
 }
 
@@ -61,9 +53,11 @@ TEST_CASE("RoughConductor: nor does a brushed one", "[material][rough-conductor]
     for (const Roughness& roughness : {Roughness{0.1, 0.4}, {0.2, 0.9}, {1, 0.5}, {0.4, 0.6}})
         for (const double degrees : {0.0, 45.0, 70.0, 85.0})
             for (const double azimuth : {0.0, 10.0, 50.0, 90.0, 140.0}) {
+                if (degrees == 0 && azimuth > 0) continue;
                 CAPTURE(roughness.u, roughness.v, degrees, azimuth);
                 const Vec3 out = at_angles(radians(degrees), radians(azimuth));
-                CHECK(std::abs(reflected(RoughConductor(kWhite, roughness), out, s) - 1) < 1e-3);
+                const double all = reflected(RoughConductor(kWhite, roughness), out, s, 150);
+                CHECK(std::abs(all - 1) < 1e-3);
             }
 }
 
