@@ -22,7 +22,7 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
   accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
-  queries      wrong answers and rays a second of limn, embreex, Open3D, trimesh and CGAL: docs/queries.md
+  queries      wrong answers and speeds of limn, embreex, Open3D, trimesh and CGAL: docs/queries.md
   compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
                --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
   sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md

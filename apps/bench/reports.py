@@ -28,7 +28,7 @@ from machine import ROOT, commit, processor
 CORE = ("CMakeLists.txt", "cmake", "include", "lib", "-include/limn/io", "-lib/io", "-cmake/LimnInstall.cmake")
 IO = ("include/limn/io", "lib/io")
 FIGURES = ("apps/common", "examples/figures")
-BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt")
+BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt", "-apps/bench/queries")
 # The suite in other builds than the usual one.
 CHECKED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "tests", "-*.py",
            "-apps/bench/without", "-tests/mutants", "tests/checks")
@@ -53,7 +53,7 @@ REPORTS = (
            CORE + BENCH + FIGURES + ("examples/gallery", "examples/models", "apps/bench/convergence_measure.py", "apps/bench/convergence_pictures.py",
                                      "apps/bench/convergence_renderers.py", "apps/bench/peers")),
     Report("queries", "docs/queries.md", "./build.sh queries", 25,
-           CORE + ("python", "pyproject.toml", "apps/bench/queries.py", "apps/bench/queries_rays.py",
+           CORE + ("python", "pyproject.toml", "apps/bench/queries*.py", "apps/bench/queries", "apps/bench/stopwatch.h",
                    "apps/bench/peers/query_worker.py", "apps/bench/peers/cgal_queries.cpp", "tests/python/meshes.py")),
     Report("gallery", "docs/gallery.md", "./build.sh gallery", 10,
            CORE + IO + FIGURES + ("apps/limn/render.cpp", "examples/gallery", "examples/models")),

@@ -1,6 +1,8 @@
-"""What people reported of others, with their own numbers: the threads of trimesh and Open3D."""
+"""What people reported of others, with their own numbers: the threads of trimesh, Open3D, Embree and DAGMC."""
 
+import itertools
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
@@ -134,6 +136,107 @@ class OfOpen3d(unittest.TestCase):
         rays = np.concatenate([np.tile([2, 0.5, 0.5], (3600, 1)), ways], axis=-1)
         hit = open3d_scene(box()).cast_rays(rays)["t_hit"].isfinite().numpy()
         np.testing.assert_array_equal(hit, np.abs(angles - np.pi) < np.arctan(0.5))
+
+
+def exact_t(triangle, ray):
+    """Where a ray meets a triangle, a Fraction; None where it misses it, or lies in its plane."""
+    a, b, c = ([Fraction(float(x)) - Fraction(float(o)) for x, o in zip(corner, ray[:3])] for corner in triangle)
+    way = [Fraction(float(x)) for x in ray[3:]]
+    cross = lambda p, q: [p[i - 2] * q[i - 1] - p[i - 1] * q[i - 2] for i in range(3)]
+    dot = lambda p, q: sum(x * y for x, y in zip(p, q))
+    weights = [dot(cross(p, q), way) for p, q in ((b, c), (c, a), (a, b))]
+    if sum(weights) == 0 or min(weights) < 0 < max(weights):
+        return None
+    t = dot(cross(a, b), c) / sum(weights)
+    return t if t > 0 else None
+
+
+class OfEmbree(unittest.TestCase):
+    def test_188_sections_inside_and_outside_through_edges_of_thick_and_of_thin_plates(self):
+        """Two hits were gathered at an edge where there is one passage, and an epsilon between hits drops true ones."""
+        along = np.arange(1, 64) / 64  # on the diagonal that cuts both the upper and the lower face
+        for height in (1.0, 2.0 ** -20, 2.0 ** -60):
+            scene = limn.Scene()
+            scene.add_triangles(*box((0, 0, 0), (1, 1, height)))
+            scene = scene.compile()
+            rays = np.array([[x, x, 4, 0, 0, -1] for x in along])
+            np.testing.assert_array_equal(scene.count_intersections(rays), 2)
+            lists = scene.list_intersections(rays)
+            self.assertEqual(len(lists["t_hit"]), 4 * len(rays))  # each triangle that the ray meets
+            np.testing.assert_array_equal(scene.winding_number(rays[:, :3] - [0, 0, 4 - height / 2]), 1)
+
+    def test_387_a_skinny_triangle_is_hit_only_where_it_is(self):
+        """Edges of 11.2, 9.8 and 1.45, less than 600 away, 0.52 degrees between ray and plane: a hit at t = 12291.2."""
+        rng = np.random.default_rng(387)
+        hits = 0
+        for _ in range(400):
+            turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+            foot = rng.uniform(300, 550) * np.array([np.cos(np.radians(0.52)), 0, -np.sin(np.radians(0.52))])
+            side = 9.8 * np.array([0.99748, 0.07095, 0])  # 1.45 from the end of the first
+            triangle = ((foot + [[0, 0, 0], [11.2, 0, 0], side]) @ turn).astype(np.float32)
+            weights = rng.dirichlet([1, 1, 1]) * 1.2 - rng.dirichlet([1, 1, 1]) * 0.2  # in it and beside it
+            target = weights @ triangle.astype(np.float64)
+            ray = np.concatenate([np.zeros(3), target / np.linalg.norm(target)]).astype(np.float32)
+            scene = limn.Scene()
+            scene.add_triangles(triangle, np.array([[0, 1, 2]], np.uint32))
+            t, truth = scene.compile().cast_rays(ray[None].astype(np.float64))["t_hit"][0], exact_t(triangle, ray)
+            self.assertEqual(np.isfinite(t), truth is not None)
+            if truth is not None:
+                hits += 1
+                self.assertLess(t, 600)
+                self.assertLessEqual(abs(Fraction(float(t)) - truth), truth / 2 ** 32)
+        self.assertTrue(100 < hits < 300)  # both are tried
+
+
+class OfDagmc(unittest.TestCase):
+    """#986, lost particles: those that leave one cell and are in none, or in two. Cells: 3 x 3 x 3 boxes that touch."""
+
+    CELLS = list(itertools.product(range(3), repeat=3))
+
+    def setUp(self):
+        scene = limn.Scene()
+        for cell in self.CELLS:
+            scene.add_triangles(*box(cell, np.add(cell, 1)))
+        self.scene = scene.compile()
+
+    def test_986_each_point_of_faces_edges_and_vertices_is_in_one_cell(self):
+        points = np.array(list(itertools.product(np.arange(-1, 9) / 2, repeat=3)))
+        # An end on a surface is on the side that (e, e^2, e^3) takes it to: a cell has its lower faces.
+        inside = ((points >= 0) & (points < 3)).all(axis=1)
+        np.testing.assert_array_equal(self.scene.winding_number(points), inside)
+
+    def test_986_from_within_a_cell_its_border_is_met(self):
+        for number, cell in enumerate(self.CELLS):
+            ways = np.array([way for way in itertools.product((-.5, 0, .5), repeat=3) if any(way)])
+            hits = self.scene.cast_rays(np.concatenate([np.tile(np.add(cell, .5), (26, 1)), ways], axis=1))
+            np.testing.assert_array_equal(hits["t_hit"], 1)
+            others = np.array(self.CELLS)[hits["geometry_ids"]]
+            self.assertLessEqual(np.abs(others - cell).max(), 1)  # that share the point
+
+    def test_986_a_particle_enters_and_leaves_each_cell_on_its_way(self):
+        """Along edges, through vertices, in faces: as often as the ray does that is moved by (e, e^2, e^3)."""
+        starts = itertools.product((-1, 0, 1, 2, 3), (-1, 1, 2), (-1, 0, 1))
+        ways = [way for way in itertools.product((-1, 0, 1, 2), repeat=3) if any(way)]
+        rays = np.array([start + way for start in starts for way in ways], np.float64)
+        # Small enough: all that is compared are whole numbers up to 16 and their quotients.
+        moved = [Fraction(1, 2 ** 10) ** k for k in (1, 2, 3)]
+        expected = [self.passages(ray[:3], ray[3:], moved) for ray in rays.astype(int).tolist()]
+        self.assertGreater(max(expected), 12)
+        np.testing.assert_array_equal(self.scene.count_intersections(rays), expected)
+
+    def passages(self, start, way, moved):
+        count = 0
+        for cell in self.CELLS:
+            enter, leave = -np.inf, np.inf
+            for lower, o, d, e in zip(cell, start, way, moved):
+                if d:
+                    ends = sorted(((lower - o - e) / d, (lower + 1 - o - e) / d))
+                    enter, leave = max(enter, ends[0]), min(leave, ends[1])
+                elif not lower < o + e < lower + 1:
+                    enter, leave = 1, 0
+            if enter < leave:
+                count += (enter > 0) + (leave > 0)
+        return count
 
 
 if __name__ == "__main__":
