@@ -41,7 +41,7 @@ struct RoughDiffuse {
         const auto of = [&](N rho) HWY_ATTR {
             return rho * single + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * multiple;
         };
-        const N pdf = select(above, cos_i / kPi, 0.0);
+        const N pdf = select(above, cosine_hemisphere_pdf(cos_i), 0.0);
         const Vector<N> value = pdf * Vector<N>{of(s.albedo.x), of(s.albedo.y), of(s.albedo.z)};
         return {weight_where(above, value), pdf};  // below, the formulas may divide by 0
     }
