@@ -1,4 +1,4 @@
-// The closed ray/box test. For any box that contains a hit, meets() answers true: boxes count as a little larger, which
+// The closed ray/box test. For any box that contains a hit, meets() is true: boxes count as a little larger, which
 // covers the test's own rounding too (Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013), and a NaN, which arises where
 // the ray lies in a face (0 * infinity), leaves the interval as it is. It never uses lo * inv - o * inv, whose rounding
 // is not bounded.

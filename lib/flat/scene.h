@@ -24,7 +24,7 @@
 namespace limn::flat {
 
 // What traversal carries: which primitive, and the t that decides between two. u, v, normal and material are worked out
-// once, for the winner.
+// once, for the hit that is kept.
 struct RawHit {
     static constexpr std::uint64_t kMiss = ~std::uint64_t{0};
     double t = kInfinity;

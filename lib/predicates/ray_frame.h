@@ -1,5 +1,5 @@
-// The ray that a shape is asked about, and what it stands for: inside instances the numbers of a ray are rounded, and
-// decisions are to be those of the ray that the user gave.
+// The ray that a shape is intersected with, and what it stands for: inside instances the numbers of a ray are rounded,
+// and decisions are to be those of the ray that the user gave.
 #pragma once
 
 #include "limn/core/ray.h"

@@ -1,5 +1,5 @@
 // Primitives with a row for each in a table of their own. A kind is a struct beside this file, its row, and an entry in
-// registry.h; other rooms ask the row, or the registry for it. Two need a line of their own: trace/closest_point.cpp
+// registry.h; other rooms call the row, or the registry for it. Two need a line of their own: trace/closest_point.cpp
 // (the nearest point on it; the compiler says so) and query/open_edges.cpp (if it has edges or a rim). It has
 //
 //     static constexpr PrimitiveKind kKind

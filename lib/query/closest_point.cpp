@@ -4,7 +4,7 @@
 #include "core/float_environment.h"
 #include "limn/core/error.h"
 #include "limn/query/compiled_scene.h"
-#include "query/answers.h"
+#include "query/results.h"
 #include "trace/closest_point.h"
 
 namespace limn {

@@ -16,7 +16,7 @@ namespace {
 using sampling::kShaded, sampling::kSlack;
 
 // A path that may end in a sky brings all its light at once, and mostly soon, so that ending it costs more and saves
-// less than where lamps are asked at each vertex. Measured by time times error against no roulette up to depth 10:
+// less than where lamps are sampled at each vertex. Measured by time times error against no roulette up to depth 10:
 // under lamps (figures 12, 15, 16) 0.93, 0.73, 0.72, under skies (1, 11, 18) 0.93, 0.99, 0.98. Factors of 2 to 4 under
 // lamps and 4 to 10 under skies are within 5 %.
 constexpr std::uint32_t kRouletteStart = 2;
@@ -214,8 +214,8 @@ void PathTracer::pass_boundary(std::size_t row, const Surface& boundary, const C
 }
 
 // A vertex for light that media scatter once on their way to the segment's begin. Where that is worth while the vertex
-// at which the path itself is scattered asks for none: both draw the same light. Returns how much more densely its
-// place was drawn for lights; 0 where it has to ask.
+// at which the path itself is scattered samples none: both draw the same light. Returns how much more densely its
+// place was drawn for lights; 0 where it has to sample.
 double PathTracer::want_light_on_the_way(std::size_t row, const FreeFlight& flown) {
     if (!sample_lights_ || now_->vertex[row] == max_depth_) return 0;
     const std::optional<Equiangular> along = pivot_.along(ray_list_[row], media_);
@@ -267,7 +267,7 @@ void PathTracer::add_weighed_emission() {
 }
 
 // Leaves the vertex to others of its lobe: what comes now is done for many at once. `light_odds` over 0: lights were
-// asked along the segment.
+// sampled along the segment.
 void PathTracer::add_vertex(std::size_t row, const Surface& vertex, const Color& throughput, double light_odds) {
     const MaterialRef& material = vertex.material;
     const bsdf::Lobe* lobe = shade::lobe_of(scene_, material);

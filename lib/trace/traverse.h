@@ -77,7 +77,7 @@ struct PassageCount {
 PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out);
 PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out);
 
-// visit(frame) with the ray as an instance's BLAS sees it, and the answer of that.
+// visit(frame) with the ray as an instance's BLAS sees it, and the result of that.
 template <class Visit>
 auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
     if (!instance.moving)
