@@ -51,7 +51,7 @@ struct Instance {
     Transform object_from_world;  // of a still one
     BlasId blas = BlasId::root;
     bool moving = false;
-    InverseError lost{};  // by object_from_world
+    InverseError object_from_world_error{};
 };
 
 inline Transform world_from_object(const Instance& instance, double time) {

@@ -43,7 +43,7 @@ struct RayFrame {
 
     // The ray of `outer_frame` inside an instance. Both frame and matrix are kept by reference.
     RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
-             const InverseError& lost);
+             const InverseError& of_inverse);
     RayFrame(const RayFrame& outer_frame, const Transform& matrix)
         : RayFrame(outer_frame, matrix, inverse(matrix), inverse_error(matrix)) {}
 

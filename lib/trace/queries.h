@@ -61,7 +61,7 @@ struct Passages : PassageCount {
     static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = true, kFewKinds = true;
     double t_max;
     std::vector<Crossing>* crossings = nullptr;  // where they are listed
-    bool asks_origin = false;                    // which primitives the origin lies on
+    bool wants_touched = false;                  // which primitives the origin lies on
 
     double limit() const { return t_max; }
     bool ended() const { return false; }
