@@ -1,4 +1,4 @@
-// The closed ray/box test. For any box that contains a hit, meets() answers true: boxes count as a little larger, which
+// The closed ray/box test. For any box that contains a hit, meets() is true: boxes count as a little larger, which
 // covers the test's own rounding too (Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013), and a NaN, which arises where
 // the ray lies in a face (0 * infinity), leaves the interval as it is. It never uses lo * inv - o * inv, whose rounding
 // is not bounded.
@@ -17,7 +17,7 @@ namespace limn::accel {
 // (filter.h), so by as much of the largest coordinate, in units of t. So t_min and t_max count as wider by four times
 // that; and boxes, against what moved origin, difference, reciprocal and product lose in a slab: at most 4 * 2^-53 of
 // (|origin| + extent) * inverse. It only costs a visit now and then. A ray inside an instance counts as wider by what
-// its own numbers lost; where its direction may be off by more than an eighth, nothing is known of where it goes.
+// its own numbers are off; where its direction may be off by more than an eighth, nothing is known of where it goes.
 inline constexpr double kSlack = 0x1p-30;
 
 struct SlabRay {

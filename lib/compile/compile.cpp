@@ -174,7 +174,7 @@ void place_instance(flat::Instance& instance, const Transform& at_time0, const T
     instance.world_from_object0 = at_time0, instance.world_from_object1 = at_time1;
     instance.moving = !(at_time0 == at_time1);
     instance.object_from_world = instance.moving ? Transform{} : inverse(at_time0);  // or anew for each ray
-    instance.lost = instance.moving ? InverseError{} : inverse_error(at_time0);
+    instance.object_from_world_error = instance.moving ? InverseError{} : inverse_error(at_time0);
 }
 
 void derive(flat::Scene& s) {

@@ -19,7 +19,7 @@ constexpr std::size_t kBins = 12;
 // Deeper than any sensible tree; from here on halves have as many lights, so that recursion ends.
 constexpr int kDeepest = 48;
 // Neighbours as near to each other as they are large are not worth a node each: what is gained by telling them apart
-// is lost by the way down. Four are a factor of four in density at worst.
+// is lost by the longer descent. Four are a factor of four in density at worst.
 constexpr std::size_t kMostInLeaf = 4;
 constexpr double kWidestLeaf = 3, kLeafCosine = 0.9;
 // The least share of all strength: one that gets less could vanish in the sums.

@@ -19,7 +19,7 @@ using flat::PrimitiveList;
 constexpr double kInstanceError = 8 * kRoundoff;
 // How thin a primitive may be, and how small beside the scene, for its weights to be worth computing in float.
 constexpr double kThinnest = 0x1p-12, kSmallest = 0x1p-12;
-// What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be asked by most of them
+// What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be visited by most of them
 // (measured: docs/speed-against-error.md).
 constexpr double kLarge = 0.1;
 constexpr std::size_t kMostLarge = 24;
@@ -52,7 +52,7 @@ public:
         if (!is_in_range()) return is_listed;
         std::vector<std::size_t> order(candidates.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        // Of many, no more come into question than a list may hold.
+        // Of many, no more are considered than a list may hold.
         const std::size_t some = std::min(order.size(), PrimitiveList::kMost);
         std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(some), {},
                                   [&](std::size_t i) { return std::pair(-half_area(candidates[i].box), i); });

@@ -21,6 +21,7 @@ inline double next_up(double x) {
 }
 inline double next_down(double x) { return -next_up(-x); }
 
+// Stands in lanes in shade/stages.cpp, with the same bits.
 inline Point3 offset_along(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction) {
     const double distance = dot(abs(Vec3(normal)), error);
     const Vec3 offset = (dot(normal, direction) < 0 ? -distance : distance) * Vec3(normal);

@@ -64,8 +64,8 @@ Box bounds_of(const Light& light) {
 }
 
 Uv sample_area(const Light& light, double u, double v) {
-    return primitives::ask_kind(light.primitive, Uv{},
-                                [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
+    return primitives::value_of_kind(light.primitive, Uv{},
+                                     [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
 }
 
 Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,

@@ -24,7 +24,7 @@
 namespace limn::flat {
 
 // What traversal carries: which primitive, and the t that decides between two. u, v, normal and material are worked out
-// once, for the winner.
+// once, for the hit that is kept.
 struct RawHit {
     static constexpr std::uint64_t kMiss = ~std::uint64_t{0};
     double t = kInfinity;
@@ -51,7 +51,7 @@ struct Instance {
     Transform object_from_world;  // of a still one
     BlasId blas = BlasId::root;
     bool moving = false;
-    InverseError lost{};  // by object_from_world
+    InverseError object_from_world_error{};
 };
 
 inline Transform world_from_object(const Instance& instance, double time) {

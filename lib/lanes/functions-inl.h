@@ -1,4 +1,4 @@
-// Elementary functions of our own, for answers that are the same bits on every processor and in every lane. Per-target
+// Elementary functions of our own, for results that are the same bits on every processor and in every lane. Per-target
 // include guard, as Highway has it.
 #if defined(LIMN_LANES_FUNCTIONS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_LANES_FUNCTIONS_INL_H

@@ -1,5 +1,5 @@
-// Numbers in lanes: formulas are written once, over the kind of number N, which is double, or some doubles or floats
-// side by side. Their masks are bool, or one bit a lane. Per-target include guard, as Highway has it.
+// Numbers in lanes: formulas are written once, over the kind of number N, which is double, or a vector of doubles
+// or floats. Their masks are bool, or one bit a lane. Per-target include guard, as Highway has it.
 #if defined(LIMN_LANES_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_LANES_LANES_INL_H
 #undef LIMN_LANES_LANES_INL_H

@@ -16,12 +16,12 @@ using namespace bsdf::HWY_NAMESPACE;
 struct Phase {
     template <class N>
     static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>&) {
-        const N pdf = 1 / (4 * kPi);
+        const N pdf = uniform_sphere_pdf<N>();
         return {pdf * s.albedo, pdf};
     }
     template <class N>
     static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
-        return {uniform_cone<N>(random.x, random.y, 2.0), s.albedo, 1 / (4 * kPi)};
+        return {uniform_sphere(random.x, random.y), s.albedo, uniform_sphere_pdf<N>()};
     }
 };
 

@@ -19,7 +19,7 @@ struct Diffuse {
     template <class N>
     static HWY_INLINE N density(const LobeInput<N>& s, const Vector<N>& in) {
         const N cosine = dot(in, s.shading_normal);
-        return select((dot(in, s.normal) > 0.0) & (cosine > 0.0), cosine / kPi, 0.0);
+        return select((dot(in, s.normal) > 0.0) & (cosine > 0.0), cosine_hemisphere_pdf(cosine), 0.0);
     }
     // f |cos| and its density are both proportional to the cosine: their ratio is the albedo.
     template <class N>

@@ -56,7 +56,8 @@ struct Vertex {
         const Vector<N> in = frame.to_local(world), &out = frame.out;
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0);
         const Vector<N> m = normalize(out + in);
-        const N cosine = clamp_cosine(dot(out, m)), cosine_pdf = max(in.z, 0.0) / kPi, matte = 1.0 - metallic;
+        const N cosine = clamp_cosine(dot(out, m)), matte = 1.0 - metallic;
+        const N cosine_pdf = cosine_hemisphere_pdf(max(in.z, 0.0));
         const Albedos<N> lit = albedos(in);
         const N mean = mean_albedo(s.albedo_table, roughness), coat_mean = mean_albedo(s.coat_albedo_table, roughness);
         const N once = surface.scattered_once(out, in, m);

@@ -37,11 +37,12 @@ struct RoughDiffuse {
         const N single = a * (1.0 + r * across / select(across > 0.0, max(cos_i, cos_o), 1.0));
         const N mean = a * (1.0 + kMeanGain * r);
         const N lost = (1.0 - directional_albedo(cos_o, a, r)) * (1.0 - directional_albedo(cos_i, a, r));
+        // At r = 0 both are 0. Below r = 5e-7, where the floor counts, the quotient is less than 0.4 r.
         const N multiple = lost / max(1.0 - mean, 1e-7);
         const auto of = [&](N rho) HWY_ATTR {
             return rho * single + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * multiple;
         };
-        const N pdf = select(above, cos_i / kPi, 0.0);
+        const N pdf = select(above, cosine_hemisphere_pdf(cos_i), 0.0);
         const Vector<N> value = pdf * Vector<N>{of(s.albedo.x), of(s.albedo.y), of(s.albedo.z)};
         return {weight_where(above, value), pdf};  // below, the formulas may divide by 0
     }

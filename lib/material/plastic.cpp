@@ -30,7 +30,7 @@ struct Vertex : Facets<N> {
         const Vector<N> in = frame.to_local(world), &out = frame.out;
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0);
         const Vector<N> m = normalize(out + in);
-        const N cosine_pdf = max(in.z, 0.0) / kPi;
+        const N cosine_pdf = cosine_hemisphere_pdf(max(in.z, 0.0));
         // Both ways through the coat; what is reflected back from below it is scattered again.
         const N through = spread_evenly(1.0 - coat, 1.0 - this->albedo(in), this->mean_albedo(), cosine_pdf);
         const N shine =

@@ -43,7 +43,7 @@ struct Vertex : Facets<N> {
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0) & !smooth;
         const Vector<N> m = normalize(out + in);
         const N once = surface.scattered_once(out, in, m);
-        const N mean = this->mean_albedo(), cosine_pdf = max(in.z, 0.0) / kPi;
+        const N mean = this->mean_albedo(), cosine_pdf = cosine_hemisphere_pdf(max(in.z, 0.0));
         const N often = spread_evenly(lost, 1.0 - this->albedo(in), mean, cosine_pdf);
         const N pdf = (1.0 - lost) * surface.mirrored_pdf(out, m) + lost * cosine_pdf;
         const Vector<N> value = reflected(clamp_cosine(dot(out, m)), once, often, mean);

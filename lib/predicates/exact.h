@@ -1,5 +1,5 @@
 // The last stage of the intersections: exact arithmetic on the numbers that define shape and ray, for what the filters
-// leave open. About a microsecond each.
+// leave undecided. About a microsecond each.
 #pragma once
 
 #include "predicates/filter.h"

@@ -1,6 +1,6 @@
 // What the intersections share: a decision is first tried in double, with a proven bound on the error; what the bound
-// leaves open the exact fallback decides (exact.h). So no decision depends on how well a filter does. The t that is
-// reported does, by rounding: it is the filter's where that decides and is accurate, else the exact fallback's,
+// leaves undecided the exact fallback decides (exact.h). So no decision depends on how well a filter does. The t that
+// is reported does, by rounding: it is the filter's where that decides and is accurate, else the exact fallback's,
 // wherever the shape is met.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where rays pass through surfaces, by a rule that leaves no case open (Edelsbrunner, Muecke, Simulation of Simplicity,
+// Where rays pass through surfaces, by a rule that decides every case (Edelsbrunner, Muecke, Simulation of Simplicity,
 // ACM TOG 9(1), 1990).
 //
 // A ray counts as moved by (e, e^2, e^3), e > 0 and smaller than any number; its direction stays. The moved ray meets

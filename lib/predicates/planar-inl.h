@@ -123,7 +123,7 @@ HWY_INLINE Mask<N> is_beyond(const ShearedRay<N>& ray, const Vector<N>& u, const
     return is_as_given & (abs(product) > error) & !((product < 0.0) ^ against);
 }
 
-// Both, for what a filter leaves open of rays that start at t = 0 or later.
+// Both, for what a filter leaves undecided of rays that start at t = 0 or later.
 template <class N>
 HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> inside, const Vector<N>& u,
                              const Vector<N>& v, const Vector<N>& q, N edge_error, Mask<N> against,

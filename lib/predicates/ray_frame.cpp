@@ -55,12 +55,12 @@ bool is_singular(const Transform& m) {
 }
 
 RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
-                   const InverseError& lost)
+                   const InverseError& of_inverse)
     : ray(ray_inside(outer_frame.ray, matrix, object_from_world)), outer(&outer_frame), world_from_object(&matrix) {
     const Vec3 v = (outer_frame.ray.origin - Point3{}) - matrix.translation();
     const Vec3 d = outer_frame.ray.direction;
-    origin_error = lost.error * max_abs(v) + 1.25 * lost.norm * outer_frame.origin_error + kTiny;
-    direction_error = lost.error * max_abs(d) + 1.25 * lost.norm * outer_frame.direction_error + kTiny;
+    origin_error = of_inverse.error * max_abs(v) + 1.25 * of_inverse.norm * outer_frame.origin_error + kTiny;
+    direction_error = of_inverse.error * max_abs(d) + 1.25 * of_inverse.norm * outer_frame.direction_error + kTiny;
 }
 
 RayFrame frame_of(const Ray& ray) {

@@ -1,5 +1,5 @@
-// The ray that a shape is asked about, and what it stands for: inside instances the numbers of a ray are rounded, and
-// decisions are to be those of the ray that the user gave.
+// The ray that a shape is intersected with, and what it stands for: inside instances the numbers of a ray are rounded,
+// and decisions are to be those of the ray that the user gave.
 #pragma once
 
 #include "limn/core/ray.h"
@@ -43,7 +43,7 @@ struct RayFrame {
 
     // The ray of `outer_frame` inside an instance. Both frame and matrix are kept by reference.
     RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
-             const InverseError& lost);
+             const InverseError& of_inverse);
     RayFrame(const RayFrame& outer_frame, const Transform& matrix)
         : RayFrame(outer_frame, matrix, inverse(matrix), inverse_error(matrix)) {}
 

@@ -1,5 +1,5 @@
 // Which roots of a sphere a ray has no use for, by signs that need no square root: of rays that leave a sphere or end
-// at one, which the float forms leave open.
+// at one, which the float forms leave undecided.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Primitives with a row for each in a table of their own. A kind is a struct beside this file, its row, and an entry in
-// registry.h; other rooms ask the row, or the registry for it. Two need a line of their own: trace/closest_point.cpp
+// registry.h; other rooms call the row, or the registry for it. Two need a line of their own: trace/closest_point.cpp
 // (the nearest point on it; the compiler says so) and query/open_edges.cpp (if it has edges or a rim). It has
 //
 //     static constexpr PrimitiveKind kKind
@@ -67,15 +67,15 @@ std::array<float, sizeof...(Doubles)> to_floats(Doubles... x) {
 }
 
 // How far a number moves when it is packed as float.
-inline double lost(double x) { return std::abs(x - static_cast<double>(static_cast<float>(x))); }
-inline double lost(const Point3& p) { return std::max({lost(p.x), lost(p.y), lost(p.z)}); }
+inline double float_error(double x) { return std::abs(x - static_cast<double>(static_cast<float>(x))); }
+inline double float_error(const Point3& p) { return std::max({float_error(p.x), float_error(p.y), float_error(p.z)}); }
 
 // The same for a sum, whose own rounding is exact in double (difference_up).
-inline double lost(const Point3& p, const Vec3& edge) {
+inline double float_error(const Point3& p, const Vec3& edge) {
     double most = 0;
     for (std::size_t a = 0; a < 3; ++a) {
         const double sum = p[a] + edge[a], added = sum - p[a], rounding = (p[a] - (sum - added)) + (edge[a] - added);
-        most = std::max(most, lost(sum) + std::abs(rounding));
+        most = std::max(most, float_error(sum) + std::abs(rounding));
     }
     return most;
 }

@@ -21,7 +21,9 @@ struct Quad : QuadRecord, Primitive {
         : QuadRecord(q), normal(quad_normal(q.edge_u, q.edge_v)), error(planar_error(q.corner, q.edge_u, q.edge_v)) {}
 
     Box bounds() const { return quad_bounds(corner, edge_u, edge_v); }
-    double packed_error() const { return std::max({lost(corner), lost(corner, edge_u), lost(corner, edge_v)}); }
+    double packed_error() const {
+        return std::max({float_error(corner), float_error(corner, edge_u), float_error(corner, edge_v)});
+    }
     auto pack() const { return Triangle(TriangleVertices{corner, corner + edge_u, corner + edge_v}).pack(); }
     Patch patch() const { return {corner, edge_u, edge_v}; }
     void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const {

@@ -24,9 +24,9 @@ constexpr void for_each_kind(const Visit& visit) {
     }(std::type_identity<Tables>());
 }
 
-// What it answers for the one that a value stands for, if any.
+// What it returns for the one that a value stands for, if any.
 template <class Answer, class Visit>
-constexpr Answer ask_kind(PrimitiveKind kind, Answer otherwise, const Visit& visit) {
+constexpr Answer value_of_kind(PrimitiveKind kind, Answer otherwise, const Visit& visit) {
     for_each_kind([&]<class Kind>(std::type_identity<Kind> k) {
         if (kind == Kind::kKind) otherwise = visit(k);
     });

@@ -22,7 +22,7 @@ struct Sphere : Primitive {
     explicit Sphere(const SphereRecord& s) : center(s.center0), radius(s.radius), material(s.material) {}
 
     Box bounds() const { return sphere_bounds(center, center, radius); }
-    double packed_error() const { return lost(center); }
+    double packed_error() const { return float_error(center); }
     std::array<float, 4> pack() const { return to_floats(center.x, center.y, center.z, std::abs(radius)); }
     SphereRecord ball() const { return {center, center, radius, material}; }
     void surface(const Ray& ray, const PlanarHit& found, bool with_uv, Surface& s) const {
@@ -46,7 +46,8 @@ struct MovingSphere : SphereRecord, Primitive {
     }
     // The way between two floats is rounded three times.
     double packed_error() const {
-        return std::max(lost(center0), lost(center1)) + 0x1p-22 * std::max(max_abs(center0), max_abs(center1));
+        return std::max(float_error(center0), float_error(center1)) +
+               0x1p-22 * std::max(max_abs(center0), max_abs(center1));
     }
     std::array<float, 7> pack() const {
         return to_floats(center0.x, center0.y, center0.z, center1.x, center1.y, center1.z, std::abs(radius));

@@ -21,7 +21,7 @@ struct Triangle : TriangleRecord, Primitive {
     explicit Triangle(const TriangleVertices& v) : TriangleRecord{v.a, v.b, v.c, MaterialId::none} {}
 
     Box bounds() const { return triangle_bounds({a, b, c}); }
-    double packed_error() const { return std::max({lost(a), lost(b), lost(c)}); }
+    double packed_error() const { return std::max({float_error(a), float_error(b), float_error(c)}); }
     std::array<float, 9> pack() const { return to_floats(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z); }
     Patch patch() const { return {a, b - a, c - a}; }
     void surface(const Ray&, const PlanarHit& found, bool, Surface& s) const {

@@ -4,8 +4,8 @@
 
 #include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
-#include "query/answers.h"
 #include "query/filters.h"
+#include "query/results.h"
 
 namespace limn {
 

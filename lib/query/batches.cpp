@@ -4,8 +4,8 @@
 
 #include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
-#include "query/answers.h"
 #include "query/filters.h"
+#include "query/results.h"
 #include "query/threads.h"
 
 namespace limn {
@@ -14,15 +14,16 @@ using query::check_length, query::for_all_parts, query::kPart;
 
 namespace {
 
-// ask(i) for each ray that can be used, refuse(i) for the others; how many those are.
-template <class Ask, class Refuse>
-std::size_t ask_each(std::span<const Ray> rays, int threads, const char* who, const Ask& ask, const Refuse& refuse) {
+// work(i) for each ray that can be used, refuse(i) for the others; how many those are.
+template <class Work, class Refuse>
+std::size_t for_each_ray(std::span<const Ray> rays, int threads, const char* who, const Work& work,
+                         const Refuse& refuse) {
     std::atomic<std::size_t> unusable = 0;
     for_all_parts(rays.size(), threads, who, [&](std::size_t first, std::size_t count) {
         const FloatEnvironment environment;
         for (std::size_t i = first; i < first + count; ++i) {
             if (query::is_fit(rays[i]))
-                ask(i);
+                work(i);
             else
                 refuse(i), ++unusable;
         }
@@ -30,11 +31,11 @@ std::size_t ask_each(std::span<const Ray> rays, int threads, const char* who, co
     return unusable;
 }
 
-// answer(i) for each point.
-template <class Answer>
-void answer_each(std::size_t count, int threads, const char* who, const Answer& answer) {
+// work(i) for each point.
+template <class Work>
+void for_each_point(std::size_t count, int threads, const char* who, const Work& work) {
     for_all_parts(count, threads, who, [&](std::size_t first, std::size_t some) {
-        for (std::size_t i = first; i < first + some; ++i) answer(i);
+        for (std::size_t i = first; i < first + some; ++i) work(i);
     });
 }
 
@@ -56,7 +57,7 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, const RayFilte
                                        int threads) const {
     check_length(rays.size(), hits.size(), "closest_hit: rays and hits differ in length");
     const trace::Filter all = checked(*scene_, filter, rays.size(), "closest_hit");
-    return ask_each(
+    return for_each_ray(
         rays, threads, "closest_hit",
         [&](std::size_t i) {
             const trace::Hit hit = trace::closest_hit(*scene_, rays[i], filter_of(all, filter, i));
@@ -69,7 +70,7 @@ std::size_t CompiledScene::any_hit(std::span<const Ray> rays, const RayFilter& f
                                    int threads) const {
     check_length(rays.size(), occluded.size(), "any_hit: rays and occluded differ in length");
     const trace::Filter all = checked(*scene_, filter, rays.size(), "any_hit");
-    return ask_each(
+    return for_each_ray(
         rays, threads, "any_hit",
         [&](std::size_t i) { occluded[i] = trace::any_hit(*scene_, rays[i], filter_of(all, filter, i)) ? 1 : 0; },
         [&](std::size_t i) { occluded[i] = 0; });
@@ -101,7 +102,7 @@ std::size_t CompiledScene::all_hits(std::span<const Ray> rays, RayHits& hits, in
 std::size_t CompiledScene::count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts,
                                                int threads) const {
     check_length(rays.size(), counts.size(), "count_intersections: rays and counts differ in length");
-    return ask_each(
+    return for_each_ray(
         rays, threads, "count_intersections",
         [&](std::size_t i) { counts[i] = trace::passages(*scene_, rays[i], false, nullptr).count; },
         [&](std::size_t i) { counts[i] = 0; });
@@ -109,24 +110,24 @@ std::size_t CompiledScene::count_intersections(std::span<const Ray> rays, std::s
 
 void CompiledScene::locate(std::span<const Point3> points, std::span<PointLocation> locations, int threads) const {
     check_length(points.size(), locations.size(), "locate: points and locations differ in length");
-    answer_each(points.size(), threads, "locate", [&](std::size_t i) { locations[i] = locate(points[i]); });
+    for_each_point(points.size(), threads, "locate", [&](std::size_t i) { locations[i] = locate(points[i]); });
 }
 
 void CompiledScene::contains(std::span<const Point3> points, std::span<std::uint8_t> inside, int threads) const {
     check_length(points.size(), inside.size(), "contains: points and inside differ in length");
-    answer_each(points.size(), threads, "contains", [&](std::size_t i) { inside[i] = contains(points[i]) ? 1 : 0; });
+    for_each_point(points.size(), threads, "contains", [&](std::size_t i) { inside[i] = contains(points[i]) ? 1 : 0; });
 }
 
 void CompiledScene::closest_point(std::span<const Point3> points, std::span<ClosestPoint> nearest, int threads) const {
     check_length(points.size(), nearest.size(), "closest_point: points and nearest differ in length");
-    answer_each(points.size(), threads, "closest_point",
-                [&](std::size_t i) { nearest[i] = closest_point(points[i]).value_or(ClosestPoint{}); });
+    for_each_point(points.size(), threads, "closest_point",
+                   [&](std::size_t i) { nearest[i] = closest_point(points[i]).value_or(ClosestPoint{}); });
 }
 
 void CompiledScene::signed_distance(std::span<const Point3> points, std::span<double> distances, int threads) const {
     check_length(points.size(), distances.size(), "signed_distance: points and distances differ in length");
-    answer_each(points.size(), threads, "signed_distance",
-                [&](std::size_t i) { distances[i] = signed_distance(points[i]); });
+    for_each_point(points.size(), threads, "signed_distance",
+                   [&](std::size_t i) { distances[i] = signed_distance(points[i]); });
 }
 
 }  // namespace limn

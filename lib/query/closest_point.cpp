@@ -4,7 +4,7 @@
 #include "core/float_environment.h"
 #include "limn/core/error.h"
 #include "limn/query/compiled_scene.h"
-#include "query/answers.h"
+#include "query/results.h"
 #include "trace/closest_point.h"
 
 namespace limn {
@@ -22,7 +22,7 @@ Feature feature_of(NearestPoint::Part part) {
 std::optional<ClosestPoint> CompiledScene::closest_point(const Point3& point, double max_distance, double time) const {
     const FloatEnvironment environment;
     if (scene_->features.user_defined_shapes)
-        throw ArgumentError("closest_point: the scene has user-defined shapes, which cannot be asked");
+        throw ArgumentError("closest_point: the scene has user-defined shapes, which only rays can query");
     if (!is_finite(point) || !(max_distance >= 0) || !std::isfinite(time)) return std::nullopt;
     const trace::NearestSurface found = trace::closest_point(*scene_, point, max_distance, time);
     if (found.primitive == kNoPrimitive) return std::nullopt;

@@ -7,8 +7,8 @@
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
-#include "query/answers.h"
 #include "query/filters.h"
+#include "query/results.h"
 #include "query/scene_file.h"
 #include "query/surface_at.h"
 #include "query/threads.h"
@@ -53,15 +53,15 @@ bool find_any(const flat::Scene& scene, const Ray& ray) {
     return trace::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
 }
 
-// answer(first, count) for every run of rays that can be used, at most trace::kMostRays long, and refuse(i) for each
+// work(first, count) for every run of rays that can be used, at most trace::kMostRays long, and refuse(i) for each
 // of the others; how many those are.
-template <class Answer, class Refuse>
-std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer, const Refuse& refuse) {
+template <class Work, class Refuse>
+std::size_t for_each_run(std::span<const Ray> rays, const Work& work, const Refuse& refuse) {
     const FloatEnvironment environment;
     std::size_t unusable = 0;
     for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
         while (end < rays.size() && end - first < trace::kMostRays && is_fit(rays[end])) ++end;
-        if (end > first) answer(first, end - first);
+        if (end > first) work(first, end - first);
         if (end < rays.size() && !is_fit(rays[end])) refuse(end++), ++unusable;
     }
     return unusable;
@@ -71,7 +71,7 @@ std::size_t answer_runs(std::span<const Ray> rays, const Answer& answer, const R
 std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, std::span<RayHit> hits) {
     const auto refuse = [&](std::size_t i) { hits[i] = {}; };
     if (!scene.media.empty())
-        return answer_runs(
+        return for_each_run(
             rays,
             [&](std::size_t first, std::size_t count) {
                 for (std::size_t i = first; i < first + count; ++i)
@@ -79,7 +79,7 @@ std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, st
             },
             refuse);
     std::array<trace::Hit, trace::kMostRays> found;
-    return answer_runs(
+    return for_each_run(
         rays,
         [&](std::size_t first, std::size_t count) {
             trace::closest_hits(scene, rays.subspan(first, count), found.data());
@@ -90,7 +90,7 @@ std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, st
 }
 
 std::size_t find_any(const flat::Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
-    return answer_runs(
+    return for_each_run(
         rays,
         [&](std::size_t first, std::size_t count) {
             if (scene.media.empty()) return trace::any_hits(scene, rays.subspan(first, count), &occluded[first]);

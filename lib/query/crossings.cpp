@@ -4,8 +4,8 @@
 
 #include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
-#include "query/answers.h"
 #include "query/filters.h"
+#include "query/results.h"
 
 namespace limn {
 
@@ -17,9 +17,9 @@ void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::ve
     for (const trace::Crossing& c : found) crossings.push_back({query::complete(scene, c), c.inward});
 }
 
-trace::PassageCount count(const flat::Scene& scene, const Ray& ray, bool asks_origin) {
+trace::PassageCount count(const flat::Scene& scene, const Ray& ray, bool wants_touched) {
     const FloatEnvironment environment;
-    return query::is_fit(ray) ? trace::passages(scene, ray, asks_origin, nullptr) : trace::PassageCount{};
+    return query::is_fit(ray) ? trace::passages(scene, ray, wants_touched, nullptr) : trace::PassageCount{};
 }
 
 // Any direction gives the same numbers; the shortest way out of the bounds meets least. Aside a little, so that faces

@@ -1,7 +1,7 @@
 // Compiled scenes in files: see core/chunk_file.h. The versions are the format's and a digest of the sizes of what is
-// written. The chunks are the values, the tables (flat/tables.h), names, those of materials, and then, each with its number, materials,
-// meshes, images, the environment's image, and lattices. Contents whose checksums are right are taken for what a
-// program wrote.
+// written. The chunks are the values, the tables (flat/tables.h), names, those of materials, and then, each with its
+// number, materials, meshes, images, the environment's image, and lattices. Contents whose checksums are right are
+// taken for what a program wrote.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@ namespace limn::query {
 namespace {
 
 void on_user_defined(const flat::UserDefined& shape, Ray ray, double t, SurfaceHit& out) {
-    // Called once more for what traversal did not keep; a pure shape answers as it did then.
+    // Called once more for what traversal did not keep; a pure shape returns what it did then.
     ray.t_max = t;
     UserDefinedHit hit;
     out = {};
@@ -121,7 +121,7 @@ void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_
         return;
     }
     on_primitive(scene, place, ray, found, parts, out);
-    // Whether the ray meets the outward side is asked here, where the normal is not transformed.
+    // Whether the ray meets the outward side is decided here, where the normal is not transformed.
     out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }
 

@@ -7,8 +7,8 @@
 
 namespace limn::query {
 
-// The second step of a hit, made once for the winner: its point in the primitive's own space, taken outward through the
-// instances.
+// The second step of a hit, made once for the hit that is kept: its point in the primitive's own space, taken outward
+// through the instances.
 struct SurfaceHit {
     Surface surface;
     bool index_matched = false;  // the boundary of a medium, or a user-defined shape that says so

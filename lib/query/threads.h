@@ -29,8 +29,8 @@ void for_all_parts(std::size_t size, int threads, const char* who, const Work& w
     });
 }
 
-inline void check_length(std::size_t asked, std::size_t answers, const char* message) {
-    if (asked != answers) throw ArgumentError(message);
+inline void check_length(std::size_t queries, std::size_t results, const char* message) {
+    if (queries != results) throw ArgumentError(message);
 }
 
 }  // namespace limn::query

@@ -6,7 +6,7 @@
 
 #include "core/spawn.h"
 #include "limn/core/error.h"
-#include "query/answers.h"
+#include "query/results.h"
 #include "query/surface_at.h"
 #include "render/camera_samples.h"
 #include "render/holes.h"

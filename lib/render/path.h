@@ -87,14 +87,14 @@ private:
     void find_hits();
     void find_vertex(std::size_t row);
     double want_light_on_the_way(std::size_t row, const FreeFlight& flown);
-    void pass_boundary(std::size_t row, const Color& throughput, double depth);
+    void pass_boundary(std::size_t row, const Surface& boundary, const Color& throughput, double depth);
     void escape(std::size_t row, const Color& throughput);
     template <class Place>
     void add_emission(std::size_t row, const Color& emission, std::uint64_t primitive, const Place& place);
     void add_weighed_emission();
-    void add_vertex(std::size_t row, const Color& throughput, double light_odds = 0);
+    void add_vertex(std::size_t row, const Surface& vertex, const Color& throughput, double light_odds = 0);
     Queue& queue_of(const bsdf::Lobe* lobe, bool for_light_alone);
-    std::size_t push(Queue& queue, std::size_t row, const Color& throughput);
+    std::size_t push(Queue& queue, std::size_t row, const Surface& vertex, const Color& throughput);
     void shade(Queue& queue);
     void sample_lights(Queue& queue);
     void scatter(Queue& queue);
@@ -113,7 +113,7 @@ private:
     std::unique_ptr<shade::Segments> now_, next_;
     std::vector<Ray> ray_list_;  // as they are traced
     std::vector<trace::Hit> hits_;
-    query::SurfaceHit met_;
+    query::SurfaceHit met_;  // of find_vertex alone; filled in place, so that what is not asked for costs nothing
     std::vector<Queue> queues_;
     Emitters emitters_;
     lights::LightSamples light_samples_;

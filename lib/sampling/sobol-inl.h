@@ -66,7 +66,7 @@ namespace limn::sobol::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// Words side by side.
+// A vector of words.
 template <class D>
 struct Words {
     hn::Vec<D> v;

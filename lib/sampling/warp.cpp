@@ -24,11 +24,11 @@ Frame::Frame(const Vec3& n) : z(n) {
 
 Vec3 sample_cosine_hemisphere(double u, double v) { return vec3(inl::cosine_hemisphere(u, v)); }
 
-double pdf_cosine_hemisphere(double cos_theta) { return std::max(0.0, cos_theta) / kPi; }
+double pdf_cosine_hemisphere(double cos_theta) { return inl::cosine_hemisphere_pdf(std::max(0.0, cos_theta)); }
 
-Vec3 sample_uniform_sphere(double u, double v) { return vec3(inl::uniform_cone(u, v, 2.0)); }
+Vec3 sample_uniform_sphere(double u, double v) { return vec3(inl::uniform_sphere(u, v)); }
 
-double pdf_uniform_sphere() { return 1 / (4 * kPi); }
+double pdf_uniform_sphere() { return inl::uniform_sphere_pdf<double>(); }
 
 Vec3 sample_uniform_disc(double u, double v) { return vec3(inl::uniform_disc(u, v)); }
 

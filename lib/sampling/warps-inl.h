@@ -1,5 +1,5 @@
-// Maps from the unit square or cube to directions and points: those of limn/core/warp.h and Frame. Per-target include
-// guard, as Highway has it.
+// Maps from the unit square or cube to directions and points, each beside its density: those of limn/core/warp.h and
+// Frame. Per-target include guard, as Highway has it.
 #if defined(LIMN_SAMPLING_WARPS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_WARPS_INL_H
 #undef LIMN_SAMPLING_WARPS_INL_H
@@ -32,6 +32,12 @@ HWY_INLINE Vector<N> cosine_hemisphere(N u, N v) {
     return {disc.x, disc.y, sqrt(max(0.0, 1.0 - (disc.x * disc.x + disc.y * disc.y)))};
 }
 
+// Of a cosine that is not negative.
+template <class N>
+HWY_INLINE N cosine_hemisphere_pdf(N cosine) {
+    return cosine / kPi;
+}
+
 // With 2 the whole sphere, on which the height is uniform (Archimedes).
 template <class N>
 HWY_INLINE Vector<N> uniform_cone(N u, N v, N one_minus_cos_max) {
@@ -47,11 +53,22 @@ HWY_INLINE N uniform_cone_pdf(N one_minus_cos_max) {
 }
 
 template <class N>
-HWY_INLINE Vector<N> uniform_ball(N u, N v, N w) {
-    return cube_root(w) * uniform_cone<N>(u, v, 2.0);
+HWY_INLINE Vector<N> uniform_sphere(N u, N v) {
+    return uniform_cone<N>(u, v, 2.0);
 }
 
-// A right-handed orthonormal basis; z is the unit normal.
+template <class N>
+HWY_INLINE N uniform_sphere_pdf() {
+    return 1 / (4 * kPi);
+}
+
+template <class N>
+HWY_INLINE Vector<N> uniform_ball(N u, N v, N w) {
+    return cube_root(w) * uniform_sphere(u, v);
+}
+
+// A right-handed orthonormal basis; z is the unit normal (Duff et al., Building an Orthonormal Basis, Revisited, JCGT
+// 6(1), 2017).
 template <class N>
 struct Basis {
     Vector<N> x, y, z;

@@ -28,6 +28,7 @@ HWY_INLINE Doubles moved(Doubles at, Doubles by) {
     return select(moves, select(sum == zero, from_zero, next), sum);
 }
 
+// limn::offset_along in lanes, bit for bit: core does not see lanes.
 HWY_INLINE Vector<Doubles> offset_along(const Vector<Doubles>& position, const Vector<Doubles>& error,
                                         const Vector<Doubles>& normal, const Vector<Doubles>& direction) {
     const Doubles distance = dot(abs(normal), error);

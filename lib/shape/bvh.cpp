@@ -11,7 +11,7 @@ namespace limn {
 
 namespace {
 
-// A node has eight boxes to test, an object is asked by a virtual call: worth about half as much.
+// A node has eight boxes to test, an object is intersected by a virtual call: worth about half as much.
 constexpr accel::BuildSettings kSettings{.leaf_width = 1, .node_cost = 2};
 
 }  // namespace

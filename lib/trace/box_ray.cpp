@@ -32,18 +32,18 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Blas& blas) {
     Point3 at = Point3{} + blas.scale * (ray.origin - Point3{}), origin = ray.origin;
     const double box_extent = blas.scale * blas.extent;
     double box_reach = size(at - Point3{}) + box_extent;
-    double lost = blas.scale * frame.origin_error, t_lost = 0;
+    double at_error = blas.scale * frame.origin_error, t_start_error = 0;
     if (box_reach > static_cast<double>(kFar) * box_extent) {
         // From where the ray comes closest to the middle.
         t_start = dot(Point3{} - at, along) / dot(along, along);
         at = at + t_start * along;
-        lost += 0x1p-48 * box_reach + along_error * std::abs(t_start);
-        t_lost = 0x1p-30 * box_reach;
+        at_error += 0x1p-48 * box_reach + along_error * std::abs(t_start);
+        t_start_error = 0x1p-30 * box_reach;
         box_reach = size(at - Point3{}) + box_extent;
         origin = Point3{} + (1 / blas.scale) * (at - Point3{});
     }
-    const double wider = static_cast<double>(kWider) * box_reach + 2 * (lost + along_error * box_reach);
-    if (wider + t_lost < 0x1p50 && along_error < 0x1p-3 && size(along) >= 1 && t_scale > 0x1p-1000 &&
+    const double wider = static_cast<double>(kWider) * box_reach + 2 * (at_error + along_error * box_reach);
+    if (wider + t_start_error < 0x1p50 && along_error < 0x1p-3 && size(along) >= 1 && t_scale > 0x1p-1000 &&
         t_scale < kInfinity) {
         for (std::size_t a = 0; a < 3; ++a) {
             high[a] = static_cast<float>(origin[a]);
@@ -52,9 +52,9 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Blas& blas) {
         }
         reach = largest(high) + extent;
         scale = static_cast<float>(smaller(blas.scale, 0x1p100));
-        origin_error = static_cast<float>(lost / blas.scale);
+        origin_error = static_cast<float>(at_error / blas.scale);
         direction_error = static_cast<float>(along_error);
-        t_error = static_cast<float>(t_lost);
+        t_error = static_cast<float>(t_start_error);
         const float box_from[3] = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
         set_planes(static_cast<float>(wider), box_from);
         t_min = lower(ray.t_min);

@@ -62,6 +62,7 @@ public:
     }
 
 private:
+    // Whole vectors, and few enough that all three kinds, 30 kB, fit a first-level cache.
     static constexpr std::size_t kSize = 64, kRay = 10;
 
     std::size_t size_;

@@ -1,4 +1,4 @@
-// What the kernels share. Per-target include guard, as Highway has it.
+// What the searches share: the floats of a node or a block in a vector. Per-target include guard, as Highway has it.
 #if defined(LIMN_TRACE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_LANES_INL_H
 #undef LIMN_TRACE_LANES_INL_H

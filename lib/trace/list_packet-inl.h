@@ -190,7 +190,7 @@ private:
         }
     }
 
-    // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its answers together.
+    // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its results together.
     template <class Visit>
     HWY_INLINE static std::uint32_t by_halves(std::uint32_t lanes, const Visit& visit) {
         constexpr std::size_t kSome = kLanes<Doubles>;

@@ -55,13 +55,13 @@ struct Every {
     }
 };
 
-// Passages of the moved ray (predicates/passage.h). What has no such rule, disks and user-defined shapes, answers as it
+// Passages of the moved ray (predicates/passage.h). What has no such rule, disks and user-defined shapes, counts as it
 // does for hits.
 struct Passages : PassageCount {
     static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = true, kFewKinds = true;
     double t_max;
     std::vector<Crossing>* crossings = nullptr;  // where they are listed
-    bool asks_origin = false;                    // which primitives the origin lies on
+    bool wants_touched = false;                  // which primitives the origin lies on
 
     double limit() const { return t_max; }
     bool ended() const { return false; }
@@ -74,8 +74,8 @@ struct Passages : PassageCount {
     }
 };
 
-// A query that passes some primitives over. No sure hit is one before it has been asked, so each is intersected at
-// once.
+// A query that passes some primitives over. No sure hit counts before the filter has accepted it, so each is
+// intersected at once.
 template <class Query>
 struct Filtered : Query {
     static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kFewKinds = true;

@@ -21,7 +21,7 @@ HWY_INLINE Search search_of(const RayFrame& frame, const Query& query) {
 template <class Shape, class Query>
 HWY_INLINE bool report_passages(const Shape& shape, const RayFrame& frame, std::uint64_t number, Query& query) {
     const auto undecided = [&] {
-        if (!query.asks_origin) return;
+        if (!query.wants_touched) return;
         const bool is_on = with_numbers(shape, [&](const auto&... of) { return is_origin_on(of..., frame); });
         if (is_on) query.touch(number);
     };

@@ -6,7 +6,13 @@
 #define LIMN_TRACE_TRAVERSAL_INL_H
 #endif
 
-#include <utility>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "predicates/sphere_side.h"
 #include "trace/box_ray-inl.h"
@@ -95,6 +101,8 @@ private:
         std::uint32_t lane;
         float near;
     };
+    // Of n hits in random order ln n + 0.6, on average, are nearer than all before: 8 of 1,700. A full list is only
+    // intersected earlier.
     static constexpr std::size_t kMaxPending = 8;
 
     HWY_INLINE bool leaf(flat::Child child) {

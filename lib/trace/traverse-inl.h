@@ -32,8 +32,7 @@ constexpr unsigned kStill =
     kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
 constexpr unsigned kAll = ~0u;
 
-// visit(the smallest of the sets that has all kinds of the scene). kFew: of meshes and all, for what is asked less
-// often.
+// visit(the smallest of the sets that has all kinds of the scene). kFew: of meshes and all, for rarer queries.
 template <bool kFew, class Visit>
 HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
@@ -108,6 +107,7 @@ public:
     }
 
 private:
+    // With four, second bounces on 2 M triangles went at 2.5 instead of 2.9 million a second (docs/performance.md).
     static constexpr std::size_t kSlots = 8;
     using One = Traversal<kMeshes, Query>;
     struct Slot {

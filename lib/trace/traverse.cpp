@@ -137,8 +137,8 @@ void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& 
     search_all(scene, ray, query, &out);
 }
 
-PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out) {
-    Passages query{{}, ray.t_max, out, asks_origin};
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out) {
+    Passages query{{}, ray.t_max, out, wants_touched};
     search_all(scene, ray, query, out);
     return query;
 }

@@ -71,17 +71,18 @@ void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, s
 struct PassageCount {
     std::uint64_t count = 0;
     std::int64_t outward = 0;                     // of which go outward, less those that go inward
-    std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was asked
+    std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was wanted
 };
 // \pre is_usable(ray). `out`, if any, gets the crossings behind what is in it, in no particular order
-PassageCount passages(const flat::Scene& scene, const Ray& ray, bool asks_origin, std::vector<Crossing>* out);
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out);
 PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out);
 
-// visit(frame) with the ray as an instance's BLAS sees it, and the answer of that.
+// visit(frame) with the ray as an instance's BLAS sees it, and the result of that.
 template <class Visit>
 auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
     if (!instance.moving)
-        return visit(RayFrame(outside, instance.world_from_object0, instance.object_from_world, instance.lost));
+        return visit(RayFrame(outside, instance.world_from_object0, instance.object_from_world,
+                              instance.object_from_world_error));
     const Transform m = interpolate(instance.world_from_object0, instance.world_from_object1, outside.ray.time);
     return visit(RayFrame(outside, m));
 }

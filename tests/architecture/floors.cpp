@@ -1,8 +1,9 @@
 #include "architecture/floors.h"
 
+#include <algorithm>
 #include <regex>
 #include <sstream>
-#include <vector>
+#include <stdexcept>
 
 namespace limn::architecture {
 namespace {
@@ -31,6 +32,29 @@ Floors::Floors(std::string_view table) {
         for (const std::string& chain : split(std::regex_replace(line, arrow, "->"), "\\s{2,}"))
             if (chain.find("->") != std::string::npos) add_chain(chain, sources_may_use);
     }
+    std::set<std::string> visited;
+    for (const std::string& room : rooms_) {
+        std::vector<std::string> path;
+        if (!leads_back(room, visited, path)) continue;
+        std::string message = "the floors have a cycle:";
+        for (auto link = std::find(path.begin(), path.end(), path.back()); link != path.end(); ++link)
+            message += " " + *link;
+        throw std::invalid_argument(message);
+    }
+}
+
+// Depth first. `path`: from where the search began to `room`; if true, on to the room where the cycle is closed.
+bool Floors::leads_back(const std::string& room, std::set<std::string>& visited, std::vector<std::string>& path) const {
+    const bool closes = std::find(path.begin(), path.end(), room) != path.end();
+    path.push_back(room);
+    if (closes) return true;
+    if (visited.insert(room).second)
+        for (const auto* table : {&anyone_, &sources_})
+            if (const auto row = table->find(room); row != table->end())
+                for (const std::string& target : row->second)
+                    if (leads_back(target, visited, path)) return true;
+    path.pop_back();
+    return false;
 }
 
 void Floors::add_chain(const std::string& chain, const std::string& sources_may_use) {

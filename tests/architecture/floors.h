@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace limn::architecture {
 
@@ -13,6 +14,7 @@ namespace limn::architecture {
 /// for the .cpp files of all its rooms but the last ones. What has no arrow is prose.
 class Floors {
 public:
+    /// \throws std::invalid_argument naming the rooms if arrows lead from a room back to it
     explicit Floors(std::string_view table);
 
     bool knows(const std::string& room) const { return rooms_.contains(room); }
@@ -21,6 +23,7 @@ public:
 
 private:
     void add_chain(const std::string& chain, const std::string& sources_may_use);
+    bool leads_back(const std::string& room, std::set<std::string>& visited, std::vector<std::string>& path) const;
 
     std::set<std::string> rooms_;
     std::map<std::string, std::set<std::string>> anyone_, sources_;

@@ -115,6 +115,13 @@ TEST_CASE("The floors are read as they are written", "[architecture]") {
     CHECK(floors.knows("record_sink"));
 }
 
+TEST_CASE("Floors in a circle are refused", "[architecture]") {
+    CHECK_THROWS_WITH(Floors("attic -> b  ->  c\nc -> d\nd -> b"), "the floors have a cycle: b c d b");
+    CHECK_THROWS_WITH(Floors("a -> a"), "the floors have a cycle: a a");
+    CHECK_THROWS_WITH(Floors("a -> b     (sources may use c)\nc -> a"), "the floors have a cycle: a c a");
+    CHECK_NOTHROW(Floors("a -> b -> d\na -> c -> d"));  // two ways down
+}
+
 TEST_CASE("An include up the stairs is reported", "[architecture]") {
     const SourceTree tree{{"include/limn/core/a.h", "#pragma once\n#include \"limn/shape/b.h\"\n"},
                           {"include/limn/shape/b.h", "#pragma once\n#include \"limn/core/a.h\"\n"},

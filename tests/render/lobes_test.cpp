@@ -1,6 +1,7 @@
-// Vertices shaded together: the same as one by one, whatever the vectors and the company.
+// Vertices shaded together: the same as one by one, whatever the vectors and the rest of the batch.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <memory>
 
 #include "catch.h"
@@ -218,6 +219,45 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
             CHECK(origins == 0);
         });
     }
+}
+
+TEST_CASE("Lobes: rays leave in lanes from where they leave alone, bit for bit, also at hard numbers",
+          "[render][shading][lobes]") {
+    const std::array sizes{
+        0.0, 0x1p-1074, 0x1p-1022, 0x1p-60, 0.6, 1.0, 1 + 0x1p-52, 1e300, 0x1.fffffffffffffp1023, kInfinity};
+    on_every_target([&] {
+        Random random(6);
+        const auto size = [&] { return sizes[random.index(sizes.size())]; };
+        const auto hard = [&] { return random.sign() * size(); };
+        const auto bits_of = [](const Point3& p) { return std::bit_cast<std::array<std::uint64_t, 3>>(p); };
+        shade::Paths paths;
+        Vertices v;
+        v.count = kShaded;
+        Row survival, zero = {};
+        std::fill_n(survival, kShaded, 1.0);
+        const auto next = std::make_unique<shade::Segments>();
+        std::size_t wrong = 0, usable = 0;
+        for (int round = 0; round < 2000; ++round) {
+            std::array<Ray, kShaded> alone;
+            for (std::size_t i = 0; i < kShaded; ++i) {
+                Surface s;
+                s.position = {hard(), hard(), hard()};
+                s.position_error = {size(), size(), size()};
+                s.normal = {size(), hard(), hard()};  // not three times -0
+                alone[i] = leave(s, {hard(), hard(), hard()}, 0);
+                v.position.set(i, s.position), v.position_error.set(i, s.position_error);
+                v.normal.set(i, s.normal), v.direction.set(i, alone[i].direction);
+            }
+            next->count = 0;
+            shade::add_segments(paths, v, true, survival, zero, zero, *next);
+            std::size_t row = 0;
+            for (const Ray& ray : alone)
+                if (is_usable(ray)) wrong += bits_of(next->origin.get<Point3>(row++)) != bits_of(ray.origin);
+            wrong += row != next->count, usable += row;
+        }
+        CHECK(wrong == 0);
+        CHECK(usable > 2000);
+    });
 }
 
 TEST_CASE("Lobes: many receivers draw the light that each draws alone, on every instruction set",

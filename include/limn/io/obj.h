@@ -16,9 +16,9 @@ using ObjOptions = ModelOptions;  ///< what load_obj puts where the files say no
 /// What files say in odd ways: lines end in LF, CR LF or CR, and continue behind a backslash; a byte order mark is
 /// skipped; '#' begins a comment. A name may hold blanks; a '#' behind a blank ends it, unless a digit follows
 /// ("Material #25" is a name). mtllib may give one name or several; it is relative to the OBJ, pictures to the MTL. An
-/// index may point forward. Weights and vertex colours are not used, nor are lines, points, groups and smoothing. Other
-/// unknown lines, the options of pictures and a second material of the same name are passed over with a warning. Only
-/// regular files are read: no pipe, no device.
+/// index may point forward. Groups become Model::parts. Weights and vertex colours are not used, nor are lines, points
+/// and smoothing. Other unknown lines, the options of pictures and a second material of the same name are passed over
+/// with a warning. Only regular files are read: no pipe, no device.
 ///
 /// A material, its colours clamped to what they may have, becomes the first of these that fits; docs/models.md says
 /// more: what index, roughness, Kd and Ks are, masks and bumps around the material, and what becomes a warning:

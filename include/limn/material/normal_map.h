@@ -10,11 +10,12 @@ namespace limn {
 /// -1 to 1 along Surface::dp_du, across it towards dp_dv, and along the shading normal, as in glTF; where the shape has
 /// no dp_du the normal is not bent.
 ///
-/// A bent normal loses no light. It is turned into view where it faces away, and what the material reflects below the
-/// geometric surface leaves as if mirrored there, which is the tangent facet of Schüssler, Heitz, Hanika and
-/// Dachsbacher, Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, SIGGRAPH Asia 2017. Without that a
-/// white diffuse surface loses (1 - cos) / 2 where it is bent: 7 % at 30 degrees, 25 % at 60. Light through a
-/// Dielectric or a RoughDielectric, or scattered by a user-defined material, is absorbed there.
+/// What limn's own materials reflect is not lost where the normal is bent: it is turned into view where it faces away,
+/// and what is reflected below the geometric surface leaves as if mirrored there, which is the tangent facet of
+/// Schüssler, Heitz, Hanika and Dachsbacher, Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing,
+/// SIGGRAPH Asia 2017. Without that a white diffuse surface loses (1 - cos) / 2 where it is bent: 7 % at 30 degrees, a
+/// quarter at 60. Light through a Dielectric or a RoughDielectric, or scattered by a user-defined material, is absorbed
+/// there.
 class NormalMap final : public Material {
 public:
     /// \throws ArgumentError if the material or the texture is null; a NormalMap of a NormalMap is refused by compile()

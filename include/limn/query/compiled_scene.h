@@ -91,8 +91,8 @@ public:
     /// The nearest point of all surfaces, up to `max_distance` away; of equally near ones the primitive with the lowest
     /// number. The distance is right to 2^-32 of the largest coordinate of the point, the surfaces and, inside
     /// instances, what lies between. Nothing where there is no surface so near, or a coordinate is not finite.
-    /// \throws ArgumentError if the scene has user-defined shapes, which cannot be asked, or if a sphere or a disk that
-    /// comes into question stands in an instance that turns its round shape into another
+    /// \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a sphere or a disk
+    /// that may be the nearest stands in an instance that turns its round shape into another
     std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
                                               double time = 0) const;
     /// The distance of closest_point; negative where the point is inside (contains), 0 where it is exactly on a

@@ -27,8 +27,9 @@ struct Hit {
     bool index_matched = false;  ///< the boundary of a medium: light passes straight through
 };
 
-/// What a ray can hit. A subclass needs `bounds` and `hit`; it then works everywhere, through the same BVH as the
-/// built-in shapes. Implementations are immutable once added to a scene, and safe to call from any thread.
+/// What a ray can hit. A subclass needs `bounds` and `hit`; rays then find it through the same BVH as the built-in
+/// shapes. CompiledScene::closest_point and save refuse scenes that have one. Implementations are immutable once added
+/// to a scene, and safe to call from any thread.
 class Hittable {
 public:
     virtual ~Hittable() = default;

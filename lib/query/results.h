@@ -1,4 +1,4 @@
-// What all queries share: which rays can be asked, and hits as they are told.
+// What all queries share: which rays can be traced, and hits as they are reported.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline bool is_fit(const Ray& r) {
 }
 
 // What is found along a ray: empty, and of a thread, so that a ray costs no allocation. One at a time; user-defined
-// shapes that ask a scene themselves get another.
+// shapes that query a scene themselves get another.
 class Found {
 public:
     Found() : hits_(std::move(kept())) { hits_.clear(); }
