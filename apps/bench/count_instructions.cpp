@@ -1,5 +1,6 @@
 // performance.py counts the instructions of the functions measure_* under callgrind. Each is called once. They trace
-// rays of a mesh scene, and render it. Without callgrind: their times, as JSON on stdout, nanoseconds a ray.
+// rays of a mesh scene, and render it before a background and under lamps. Without callgrind: their times, as JSON on
+// stdout, nanoseconds a ray.
 //
 // limn_count_instructions [--rays N] [--rounds N] [--user-defined]
 //   --rays N     of each kind
@@ -15,8 +16,10 @@
 #include "bench/rays.h"
 #include "bench/scenes.h"
 #include "bench/stopwatch.h"
+#include "limn/material/diffuse_light.h"
 #include "limn/material/lambertian.h"
 #include "limn/render/render.h"
+#include "limn/shape/quad.h"
 #include "limn/shape/sphere.h"
 
 namespace {
@@ -35,7 +38,7 @@ private:
 };
 
 struct Work {
-    CompiledScene scene;
+    CompiledScene scene, under_lamps;
     std::vector<Ray> primary, diffuse, shadow;
     Camera camera;
     std::vector<RayHit> hits;
@@ -47,6 +50,10 @@ void trace_single(Work& work, const std::vector<Ray>& rays) {
 }
 void trace_batch(Work& work, const std::vector<Ray>& rays) {
     work.scene.closest_hit(rays, std::span(work.hits).first(rays.size()));
+}
+std::uint64_t render_small(const CompiledScene& scene, const Camera& camera) {
+    return render(scene, camera, {.width = 32, .height = 32, .samples_per_pixel = 4, .max_depth = 4, .threads = 1})
+        .report.rays;
 }
 
 }  // namespace
@@ -63,11 +70,8 @@ extern "C" {
 [[gnu::noinline]] void measure_shadow_batch(Work& work) {
     work.scene.any_hit(work.shadow, std::span(work.occluded).first(work.shadow.size()));
 }
-[[gnu::noinline]] std::uint64_t measure_render(Work& work) {
-    return render(work.scene, work.camera,
-                  {.width = 32, .height = 32, .samples_per_pixel = 4, .max_depth = 4, .threads = 1})
-        .report.rays;
-}
+[[gnu::noinline]] std::uint64_t measure_render(Work& work) { return render_small(work.scene, work.camera); }
+[[gnu::noinline]] std::uint64_t measure_lamps(Work& work) { return render_small(work.under_lamps, work.camera); }
 }
 
 namespace {
@@ -88,6 +92,16 @@ std::vector<Ray> that_miss(const std::vector<Ray>& rays, const Box& box) {
     return kept;
 }
 
+// A panel and a ball in place of a background: lights of two kinds, between which each vertex chooses.
+Scene under_lamps(const std::shared_ptr<const Hittable>& object) {
+    const auto lamp = std::make_shared<DiffuseLight>(Color{5, 5, 5});
+    Scene scene;
+    scene.add(object);
+    scene.add(std::make_shared<Quad>(Point3{-1, 3, -1}, Vec3{2, 0, 0}, Vec3{0, 0, 2}, lamp));
+    scene.add(std::make_shared<Sphere>(Point3{3, 1, 1}, 0.5, lamp));
+    return scene;
+}
+
 Work prepare(std::size_t rays, bool with_user_defined) {
     const bench::Geometry geometry = bench::make_scene("sphere", 0.01);
     // The mesh again, with a material to be rendered with.
@@ -104,7 +118,7 @@ Work prepare(std::size_t rays, bool with_user_defined) {
     corner.triangles = {{0, 1, 2}};
     scene.add(std::make_shared<Mesh>(std::move(corner), std::make_shared<Lambertian>(Color{.5, .5, .5})));
     Camera camera = frame_box(mesh->bounds());
-    Work work{compile(scene), {}, {}, {}, camera, {}, {}};
+    Work work{compile(scene), compile(under_lamps(mesh)), {}, {}, {}, camera, {}, {}};
     for (const bench::RaySet& set : bench::make_rays(geometry, work.scene, rays)) {
         std::vector<Ray> kept = that_miss(set.rays, aside->bounds());
         if (set.name == "primary") work.primary = std::move(kept);
@@ -140,7 +154,7 @@ int main(int argc, char** argv) {
     Work work = prepare(number_after(argc, argv, "--rays", 2000), with_user_defined);
     const std::size_t rounds = number_after(argc, argv, "--rounds", 1);
     Times times;
-    std::uint64_t rendered = 0;
+    std::uint64_t rendered = 0, rendered_under_lamps = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
         time(times, "primary_single", work.primary.size(), [&] { measure_primary_single(work); });
         time(times, "primary_batch", work.primary.size(), [&] { measure_primary_batch(work); });
@@ -148,12 +162,13 @@ int main(int argc, char** argv) {
         time(times, "diffuse_batch", work.diffuse.size(), [&] { measure_diffuse_batch(work); });
         time(times, "shadow_single", work.shadow.size(), [&] { measure_shadow_single(work); });
         time(times, "shadow_batch", work.shadow.size(), [&] { measure_shadow_batch(work); });
-        // The user-defined sphere would be seen there.
-        if (!with_user_defined) time(times, "render", 1, [&] { rendered = measure_render(work); });
+        if (with_user_defined) continue;  // the sphere would be seen there
+        time(times, "render", 1, [&] { rendered = measure_render(work); });
+        time(times, "lamps", 1, [&] { rendered_under_lamps = measure_lamps(work); });
     }
-    std::printf("{\"rays\": {\"primary\": %zu, \"diffuse\": %zu, \"shadow\": %zu, \"render\": %llu}",
-                work.primary.size(), work.diffuse.size(), work.shadow.size(),
-                static_cast<unsigned long long>(rendered));
+    std::printf("{\"rays\": {\"primary\": %zu, \"diffuse\": %zu, \"shadow\": %zu, \"render\": %llu, \"lamps\": %llu}",
+                work.primary.size(), work.diffuse.size(), work.shadow.size(), static_cast<unsigned long long>(rendered),
+                static_cast<unsigned long long>(rendered_under_lamps));
     for (const auto& [name, list] : times) {
         std::printf(", \"%s\": [", name.c_str());
         for (std::size_t i = 0; i < list.size(); ++i) std::printf("%s%g", i > 0 ? ", " : "", list[i]);

@@ -189,7 +189,8 @@ def instruction_section(raw):
              "Instructions a ray of a scene of one mesh (20,000 triangles, no material but one of one colour), counted "
              "by callgrind, which runs the code for AVX2: in limn as it is, and how many more that is than in a build "
              "without a feature. The goal is at most 1 % more. In brackets the same by time, on the code for this "
-             "processor, the two programs by turns. `render` is a small picture of paths of four segments.", "",
+             "processor, the two programs by turns. `render` is a small picture of paths of four segments before a "
+             "background, `lamps` the same under two lamps.", "",
              "| | " + " | ".join(n.replace("_", ", ") for n in names) + " |", "|---|" + "---:|" * len(names),
              "| instructions a ray | " + " | ".join(f"{measured['whole'][n]:,.0f}" for n in names) + " |"]
     for feature, lean in measured["without"].items():

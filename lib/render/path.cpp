@@ -180,12 +180,16 @@ void PathTracer::escape(std::size_t row, const Color& throughput) {
         path.clear = (throughput.r + throughput.g + throughput.b) / 3;
         return;
     }
-    const Vec3& direction = ray_list_[row].direction;
-    const bool has_map = scene_.environment.image != nullptr;
-    if (!has_map) {
+    if (scene_.environment.image == nullptr) [[likely]] {  // unsaid, compilers take null for rare
         const Background background{scene_.background_bottom, scene_.background_top};
-        path.radiance += throughput * background.radiance(direction);
+        path.radiance += throughput * background.radiance(ray_list_[row].direction);
     }
+    if (!scene_.lights.distant.empty()) add_distant_emission(row, throughput);
+}
+
+// A function of its own, so that scenes without them do not save the registers that it needs.
+void PathTracer::add_distant_emission(std::size_t row, const Color& throughput) {
+    const Vec3& direction = ray_list_[row].direction;
     const std::vector<flat::DistantLight>& distant = scene_.lights.distant;
     for (std::size_t k = 0; k < distant.size(); ++k) {
         const flat::Light& light = distant[k].light;

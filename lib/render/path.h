@@ -89,6 +89,7 @@ private:
     double want_light_on_the_way(std::size_t row, const FreeFlight& flown);
     void pass_boundary(std::size_t row, const Surface& boundary, const Color& throughput, double depth);
     void escape(std::size_t row, const Color& throughput);
+    void add_distant_emission(std::size_t row, const Color& throughput);
     template <class Place>
     void add_emission(std::size_t row, const Color& emission, std::uint64_t primitive, const Place& place);
     void add_weighed_emission();

@@ -115,47 +115,38 @@ private:
         }
     }
 
+    // Nothing is compared that the set of kinds tells.
+    static constexpr bool is(const flat::Block& header, PrimitiveKind kind) {
+        return kKinds == flat::bit(kind) || (has(kind) && header.kind == kind);
+    }
+
     HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header) {
-        if constexpr (kKinds == flat::bit(PrimitiveKind::mesh)) {
-            return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)), block,
-                        header);
-        } else {
-            switch (header.kind) {
-                case PrimitiveKind::mesh:
-                case PrimitiveKind::triangle:
-                    if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
-                        return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)),
-                                    block, header);
-                    break;
-                case PrimitiveKind::quad:
-                    if constexpr (has(PrimitiveKind::quad))
-                        return take(test_planar<true>(block, header.count, *planar_, possible_after_, above(bound_)),
-                                    block, header);
-                    break;
-                case PrimitiveKind::sphere:
-                    if constexpr (has(PrimitiveKind::sphere))
-                        return take(test_spheres<false>(block, header.count, *round_, 0, possible_after_,
-                                                        certain_after_, above(bound_)),
-                                    block, header);
-                    break;
-                case PrimitiveKind::moving_sphere:
-                    if constexpr (has(PrimitiveKind::moving_sphere))
-                        return take(test_spheres<true>(block, header.count, *round_, time(), possible_after_,
-                                                       certain_after_, above(bound_)),
-                                    block, header);
-                    break;
-                default:
-                    if constexpr ((kKinds & ~(flat::kPlanarKinds | kRoundKinds)) != 0)
-                        return intersect_boxes(block, header);
-            }
+        if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
+            if (is(header, PrimitiveKind::mesh) || is(header, PrimitiveKind::triangle))
+                return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)), block);
+        if constexpr (has(PrimitiveKind::quad))
+            if (is(header, PrimitiveKind::quad))
+                return take(test_planar<true>(block, header.count, *planar_, possible_after_, above(bound_)), block);
+        if constexpr (has(PrimitiveKind::sphere))
+            if (is(header, PrimitiveKind::sphere))
+                return take(test_spheres<false>(block, header.count, *round_, 0, possible_after_, certain_after_,
+                                                above(bound_)),
+                            block);
+        if constexpr (has(PrimitiveKind::moving_sphere))
+            if (is(header, PrimitiveKind::moving_sphere))
+                return take(test_spheres<true>(block, header.count, *round_, time(), possible_after_, certain_after_,
+                                               above(bound_)),
+                            block);
+        if constexpr ((kKinds & ~(flat::kPlanarKinds | kRoundKinds)) != 0)
+            return intersect_boxes(block, header.count);
+        else
             return false;
-        }
     }
 
     // As interpolate() clamps it.
     float time() const { return static_cast<float>(std::clamp(frame_.ray.time, 0.0, 1.0)); }
 
-    HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block, const flat::Block& header) {
+    HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block) {
         for (std::uint32_t possible = found.possible; possible != 0; possible &= possible - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(possible));
             const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
@@ -165,7 +156,7 @@ private:
                 if (found.near[lane] > above(bound_)) continue;  // another lane's hit is nearer
                 bound_ = smaller(bound_, above(found.far[lane] + box_ray_.t_error));
                 postpone({block, lane, found.near[lane]});
-            } else if (intersect_in_block(block, header, lane)) {
+            } else if (intersect_in_block(block, lane)) {
                 return true;
             }
         }
@@ -173,8 +164,8 @@ private:
     }
 
     // One by one, the nearest box first.
-    bool intersect_boxes(const flat::BlockView& block, const flat::Block& header) {
-        const Candidates found = node_test_.test_boxes(block, header.count, bound_);
+    bool intersect_boxes(const flat::BlockView& block, std::size_t count) {
+        const Candidates found = node_test_.test_boxes(block, count, bound_);
         for (std::uint32_t possible = found.possible; possible != 0;) {
             auto next = static_cast<std::uint32_t>(std::countr_zero(possible));
             for (std::uint32_t rest = possible & (possible - 1); rest != 0; rest &= rest - 1) {
@@ -182,7 +173,7 @@ private:
                 if (found.near[other] < found.near[next]) next = other;
             }
             if (found.near[next] > bound_) return false;
-            if (intersect_in_block(block, header, next)) return true;
+            if (intersect_in_block(block, next)) return true;
             possible &= ~(1u << next);
         }
         return false;
@@ -217,13 +208,14 @@ private:
     void intersect_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
             const Pending& hit = pending_[i];
-            if (hit.near <= above(bound_)) intersect_in_block(hit.block, hit.block.header(), hit.lane);
+            if (hit.near <= above(bound_)) intersect_in_block(hit.block, hit.lane);
         }
         pending_count_ = 0;
     }
 
-    // Exactly.
-    bool intersect_in_block(const flat::BlockView& block, const flat::Block& header, std::uint32_t lane) {
+    // Exactly. Reads the header again: who tests blocks need not keep it.
+    bool intersect_in_block(const flat::BlockView& block, std::uint32_t lane) {
+        const flat::Block header = block.header();
         const std::uint32_t id = block.id(lane);
         bool end = false;
         if constexpr (has(PrimitiveKind::mesh)) {
