@@ -13,7 +13,6 @@
 #include "core/read_file.h"
 #include "limn/core/error.h"
 #include "render/film_fields.h"
-#include "render/job_info.h"
 
 namespace limn::transport {
 
@@ -101,6 +100,11 @@ private:
 constexpr std::uint64_t kPlanBytes = 4 + 8 + 8 + 8 + 1;
 
 }  // namespace
+
+bool is_window(const FilmInfo& info) {
+    const auto [left, top, right, bottom] = info.window();
+    return 0 <= left && left < right && right <= info.width && 0 <= top && top < bottom && bottom <= info.height;
+}
 
 // ---- writing -------------------------------------------------------------------------------------------------------
 

@@ -21,6 +21,9 @@ inline constexpr std::uint32_t kSampleVersion = 2;
 
 enum class FilmContent : std::uint8_t { film, plan };
 
+// Whether the crop window, if there is one, holds pixels, all of the picture.
+bool is_window(const FilmInfo& info);
+
 // Writes a film: each of its tiles in order, then the plan. \throws FileError
 class FilmWriter {
 public:

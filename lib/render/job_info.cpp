@@ -8,6 +8,7 @@
 #include "core/checksum.h"
 #include "flat/scene.h"
 #include "limn/core/error.h"
+#include "render/film_file.h"
 
 namespace limn::transport {
 
@@ -48,11 +49,6 @@ Hash128 program_digest() {
 }
 
 }  // namespace
-
-bool is_window(const FilmInfo& info) {
-    const auto [left, top, right, bottom] = info.window();
-    return 0 <= left && left < right && right <= info.width && 0 <= top && top < bottom && bottom <= info.height;
-}
 
 FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings) {
     check(scene, settings);

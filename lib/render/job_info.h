@@ -10,7 +10,4 @@ namespace limn::transport {
 // primitive has no material
 FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings);
 
-// Whether the crop window, if there is one, holds pixels, all of the picture.
-bool is_window(const FilmInfo& info);
-
 }  // namespace limn::transport
