@@ -83,6 +83,22 @@ TEST_CASE("Sample rates: they grow as the standard deviation, and none falls und
     CHECK(std::abs((sums[2] - 0.25) / (sums[1] - 0.25) - 3) < 0.3);
 }
 
+TEST_CASE("Sample rates: at edges without noise pixels get more, by as much as they may have missed", "[render][adaptive]") {
+    // A lamp of 4 beside black, in whose edge no sample has fallen; a noise of 1 % far from it.
+    Film film(48, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 48; ++x)
+            for (int i = 0; i < SamplePlan::kFirstPass; ++i) {
+                const double value = x < 8 ? 4 : x < 24 ? 0 : i % 2 == 0 ? 0.99 : 1.01;
+                film.add(x, y, {value, value, value});
+            }
+    const std::vector<float> rates = rates_of(film);
+    const auto rate = [&](int x) { return rates[static_cast<std::size_t>(48 * 8 + x)]; };
+    for (const int x : {7, 8}) CHECK(rate(x) > 20 * rate(36));
+    CHECK(rate(2) == transport::kSmallestRate);
+    CHECK(rate(14) == transport::kSmallestRate);
+}
+
 TEST_CASE("Sample rates: a pixel's own samples say nothing about its rate", "[render][adaptive]") {
     const auto even = [](int, int) { return 0.15; };
     const std::vector<float> before = rates_of(piloted(15, 15, even));
