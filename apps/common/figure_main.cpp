@@ -61,7 +61,8 @@ int figure_main(int argc, char** argv, std::string_view name, const std::functio
         if (!command.parse(argc, argv, state)) return app::kDone;
         app::check_together(options, {exr, png});
 
-        const app::RenderTask task{.make = [&] { return make(inputs); }, .inputs = {inputs.texture}};
+        const app::RenderTask task{.make = [&] { return app::from_files([&] { return make(inputs); }); },
+                                   .inputs = {inputs.texture}};
         return app::run_render_task(task, options, {.program = program, .quiet = options.quiet});
     });
 }

@@ -72,8 +72,9 @@ JsonOption::JsonOption(Options& options) {
                 file_name("--json", path_));
 }
 
-void JsonOption::check(const std::vector<std::string>& inputs) const {
-    check_distinct({path_}, inputs);
+void JsonOption::check(const std::vector<std::string>& inputs, std::vector<std::string> outputs) const {
+    outputs.push_back(path_);
+    check_distinct(outputs, inputs);
     if (!path_.empty()) check_text_path(path_);
 }
 

@@ -63,8 +63,8 @@ public:
     /// Must outlive the parsing.
     explicit JsonOption(Options& options);
 
-    /// \throws ArgumentError, FileError if the file cannot be written, or is one of the `inputs`
-    void check(const std::vector<std::string>& inputs) const;
+    /// \throws ArgumentError, FileError if the file cannot be written, or is one of the `inputs` or other `outputs`
+    void check(const std::vector<std::string>& inputs, std::vector<std::string> outputs = {}) const;
 
     /// Writes the table, and the JSON if its option is given. \throws FileError
     void write(const std::string& table, const Json& json) const;

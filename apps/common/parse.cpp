@@ -11,9 +11,6 @@ namespace limn::app {
 
 namespace {
 
-// No side is longer than this: a mistyped size is refused at once and not when memory runs out.
-constexpr int kLongestSide = 65536;
-
 // Parts with commas between them.
 template <std::size_t count>
 std::array<std::string_view, count> divide(std::string_view option, std::string_view text, const std::string& form) {

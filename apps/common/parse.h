@@ -45,6 +45,9 @@ double parse_positive(std::string_view option, std::string_view text);
 /// Three numbers with commas between them.
 std::array<double, 3> parse_triple(std::string_view option, std::string_view text);
 
+/// No side is longer than this: a mistyped size is refused at once and not when memory runs out.
+inline constexpr int kLongestSide = 65536;
+
 struct Size {
     int width = 0, height = 0;
 };

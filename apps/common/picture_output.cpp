@@ -84,7 +84,7 @@ bool save_images(const Image& image, const SaveOptions& save, const PictureOptio
     return all;
 }
 
-std::string summary(const RenderResult& result, const PictureOptions& options) {
+std::string summary(const RenderResult& result, const FilmInfo& info, const PictureOptions& options) {
     const RenderReport& r = result.report;
     const ErrorEstimate& e = result.error;
     const std::string error =
@@ -92,6 +92,7 @@ std::string summary(const RenderResult& result, const PictureOptions& options) {
     const std::string missed = e.target && !e.reached ? fmt::format("; {:.2g} was not reached", *e.target) : "";
     std::vector<std::string> files = options.outputs;
     if (!options.film.empty()) files.push_back(options.film);
+    if (files.empty()) files.push_back(info.scene);  // a checkpoint or a plan alone is written
     return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}{}", r.complete ? "" : "interrupted; ",
                        fmt::join(files, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds, error, missed);
 }
@@ -171,7 +172,7 @@ bool save_pictures(const RenderResult& result, const FilmInfo& info, const Pictu
             save_images(options.half ? clamped_to_half(result.image, console) : result.image, save, options, console);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (saved) console.note(summary(result, options));
+    if (saved) console.note(summary(result, info, options));
     if (!options.report.empty()) write_text(options.report, report_json(result, seconds.count()));
     return saved;
 }

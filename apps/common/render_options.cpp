@@ -177,6 +177,12 @@ void replace_camera(Camera& camera, const CameraOptions& o) {
     replace(camera.view_height, o.view_height);
 }
 
+void check_crop(const PixelBounds& c, const RenderSettings& settings) {
+    if (c.right > settings.width || c.bottom > settings.height)
+        throw ArgumentError(fmt::format("--crop {},{},{},{}: reaches beyond the picture of {}x{}", c.left, c.top,
+                                        c.right, c.bottom, settings.width, settings.height));
+}
+
 }  // namespace
 
 void add_render_options(Options& options, RenderOptions& o, const std::string& outputs) {
@@ -203,7 +209,7 @@ void check_together(RenderOptions& o, const std::vector<std::string>& outputs) {
             "--plan: says how many samples, and so do --spp, --error and --time-limit");
     if (is_part) return;
     if (o.outputs.empty() && o.film.empty()) o.outputs = outputs;
-    require(!o.outputs.empty() || !o.film.empty(), "-o is missing: nothing would be written");
+    require(!o.outputs.empty() || !o.film.empty() || !o.checkpoint.empty(), "-o is missing: nothing would be written");
 }
 
 void state_presets(Options& options, const Figure& figure) {
@@ -240,6 +246,7 @@ void apply(const RenderOptions& o, Figure& figure) {
     if (o.time_limit) settings.time_limit = o.time_limit;
     if (o.uniform) settings.uniform = true;
     replace(settings.shard, o.shard);
+    if (o.crop) check_crop(*o.crop, settings);
     if (o.crop) settings.crop = o.crop;
     replace(settings.seed, o.seed);
     replace(settings.threads, o.threads);

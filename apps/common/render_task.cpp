@@ -10,6 +10,7 @@
 #include "limn/core/file_lock.h"
 #include "limn/core/files.h"
 #include "limn/query/compiled_scene.h"
+#include "limn/render/film.h"
 #include "limn/render/render_job.h"
 #include "picture_output.h"
 #include "progress_bar.h"
@@ -58,6 +59,10 @@ void load_film(RenderJob& job, const RenderOptions& options, const Console& cons
         console.note(options.resume + ": is not there yet; the render begins");
     else
         job.load(options.resume);
+    // A part in place of a film with more tiles would lose their samples.
+    if (is_replaced(options) && !job.film().is_whole() && std::filesystem::exists(options.resume) &&
+        Film::load(options.resume).tiles().size() != job.film().tiles().size())
+        throw FileError(options.resume, "has more tiles than this --shard, and would be replaced by a part of itself");
 }
 
 bool save_film(const RenderJob& job, const std::string& path, const Console& console) {
@@ -81,7 +86,7 @@ int run_render_task(const RenderTask& task, const RenderOptions& options, const 
     std::vector<std::unique_ptr<FileLock>> locks;
     for (const std::string& film : written_films(options)) locks.push_back(std::make_unique<FileLock>(film));
 
-    Figure figure = from_files(task.make);
+    Figure figure = task.make();
     figure.scene.name = figure.name;
     apply(options, figure);
     CameraRays(figure.camera, figure.settings.width, figure.settings.height);  // refuses an impossible camera

@@ -13,7 +13,7 @@
 namespace limn::app {
 
 struct RenderTask {
-    /// Reads files and describes the scene; whatever it throws counts as a fault of those files.
+    /// Reads files, each step within from_files, and describes the scene.
     std::function<Figure()> make;
     /// Files that `make` reads, which no output may replace; empty names do not count.
     std::vector<std::string> inputs;

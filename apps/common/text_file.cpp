@@ -12,7 +12,15 @@
 
 namespace limn::app {
 
-std::string table_row(std::string_view name, std::string_view value) { return fmt::format("{:<24}{}\n", name, value); }
+std::string on_one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = c == '\n' ? ' ' : '?';
+    return text;
+}
+
+std::string table_row(std::string_view name, std::string_view value) {
+    return fmt::format("{:<24}{}\n", name, on_one_line(std::string(value)));
+}
 
 void check_text_path(const std::string& path) {
     if (path != "-") check_text_writable(path);

@@ -8,6 +8,9 @@
 
 namespace limn::app {
 
+/// Without line breaks and other control characters, which names in files may hold and a terminal would follow.
+std::string on_one_line(std::string text);
+
 /// A line of a table.
 std::string table_row(std::string_view name, std::string_view value);
 

@@ -113,11 +113,8 @@ int compare_command(int argc, const char* const* argv) {
     const JsonOption json_option(options);
     if (!options.parse(argc, argv)) return kDone;
     const std::vector<std::string> inputs = {a.test, a.reference, a.reference_b};
-    check_distinct(a.outputs, inputs);
+    json_option.check(inputs, a.outputs);
     for (const std::string& path : a.outputs) check_writable(path);
-    std::vector<std::string> others = inputs;
-    others.insert(others.end(), a.outputs.begin(), a.outputs.end());
-    json_option.check(others);
 
     const auto [metrics, error] = measure(a);
     for (const std::string& path : a.outputs) save_error(error, path);

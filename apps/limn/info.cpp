@@ -149,9 +149,8 @@ Description describe_image(const std::string& path) {
             "part of", fmt::format("{} x {}, from ({}, {}) on", whole->width, whole->height, whole->left, whole->top));
     d.table += table_row("channels", fmt::format("{}", fmt::join(names, ", ")));
     d.table += table_row("pixel type", pixel_type(image.channels));
-    for (auto& [name, value] : facts) {
+    for (const auto& [name, value] : facts) {
         json_facts[name] = value;
-        std::replace(value.begin(), value.end(), '\n', ' ');
         d.table += table_row(name, value);
     }
     d.json = {{"file", path},           {"kind", "image"},      {"width", image.width},
@@ -182,11 +181,14 @@ Description describe_film(const std::string& path) {
     row("seconds", film.seconds());
     row("bound to its program", yes_or_no(info.program != Hash128{}));
 
+    Json crop;  // null: all of the picture
+    if (const auto& c = info.crop) crop = {c->left, c->top, c->right, c->bottom};
     d.json = {{"file", path},
               {"kind", "film"},
               {"scene", info.scene},
               {"width", info.width},
               {"height", info.height},
+              {"crop", crop},
               {"shard", shard},
               {"spp", film.mean_samples()},
               {"finished", film.is_finished()},

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <string>
@@ -31,6 +32,13 @@ void check(const Arguments& a) {
     check_distinct(outputs, a.films);
     check_picture_options(a);
     if (!a.plan.empty()) check_text_path(a.plan);
+}
+
+void save_plan(const Film& film, const RenderResult& result, const Arguments& a) {
+    if (film.fewest_samples() < SamplePlan::kFirstPass)
+        throw FileError(fmt::format("{}", fmt::join(a.films, ", ")),
+                        fmt::format("a plan needs {} samples in each pixel", SamplePlan::kFirstPass));
+    plan_next_round(film, result.error, a.plan);
 }
 
 }  // namespace
@@ -69,8 +77,8 @@ int merge_command(int argc, const char* const* argv) {
     if (!a.film.empty()) film.save(a.film);
     const RenderResult result = render_result(film, a.error);
     const bool is_unfinished = a.error && !result.error.reached;
-    if (is_unfinished) from_files([&] { plan_next_round(film, result.error, a.plan); });
     const bool saved = save_pictures(result, film.info(), a, console);
+    if (is_unfinished) save_plan(film, result, a);
     return !saved ? kFailed : is_unfinished ? kUnfinished : kDone;
 }
 

@@ -39,13 +39,16 @@ void take_camera(const Model& model, const Arguments& a, Figure& figure) {
     if (found == model.cameras.end()) {
         std::vector<std::string> names;
         for (const ModelCamera& camera : model.cameras) names.push_back(camera.name);
-        throw FileError(a.model, fmt::format("has no camera '{}'; it has {}", a.camera_name,
-                                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        const std::string all = names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+        throw FileError(a.model, on_one_line(fmt::format("has no camera '{}'; it has {}", a.camera_name, all)));
     }
     figure.camera = found->camera;
     if (!figure.camera.aspect_ratio || a.size) return;
     const double width = std::round(figure.settings.height * *figure.camera.aspect_ratio);
-    figure.settings.width = static_cast<int>(std::clamp(width, 1.0, static_cast<double>(kMaxSide)));
+    if (!(width <= kLongestSide))
+        throw FileError(a.model, on_one_line(fmt::format("camera '{}' is {:g} times as wide as high: --size is needed",
+                                                         a.camera_name, *figure.camera.aspect_ratio)));
+    figure.settings.width = static_cast<int>(std::max(width, 1.0));
 }
 
 std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) {
@@ -57,10 +60,15 @@ std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) 
     }
 }
 
-Figure view_of(const Arguments& a, const Console& console) {
-    const Model model = read_model(a.model, {.crease = a.crease});
-    check_distinct(a.all_outputs(), model.files);
-    for (const std::string& warning : model.warnings) console.note(warning);
+ModelView view_model_of(const Arguments& a, const Model& model, const ViewOptions& view) {
+    try {
+        return view_model(model, view);
+    } catch (const ArgumentError& e) {
+        throw FileError(a.model, e.what());
+    }
+}
+
+Figure view_of(const Arguments& a, const Model& model) {
     Figure figure = default_figure();
     const Size size = a.size.value_or(Size{figure.settings.width, figure.settings.height});
     ViewOptions view{.aspect_ratio = static_cast<double>(size.width) / size.height,
@@ -69,13 +77,20 @@ Figure view_of(const Arguments& a, const Console& console) {
     if (a.camera.projection) view.projection = *a.camera.projection;
     if (a.camera.up) view.up = *a.camera.up;
     if (!a.environment.empty()) view.environment = load_environment(a.environment);
-    ModelView seen = view_model(model, view);
+    ModelView seen = view_model_of(a, model, view);
     figure.scene = std::move(seen.scene);
     figure.camera = seen.camera;
     figure.name = std::filesystem::path(a.model).filename().string();
     figure.settings.transparent = a.no_background;
     if (!a.camera_name.empty()) take_camera(model, a, figure);
     return figure;
+}
+
+Figure read_figure(const Arguments& a, const Console& console) {
+    const Model model = from_files([&] { return read_model(a.model, {.crease = a.crease}); });
+    check_distinct(a.all_outputs(), model.files);
+    for (const std::string& warning : model.warnings) console.note(warning);
+    return from_files([&] { return view_of(a, model); });
 }
 
 void add_view_options(Options& command, Arguments& a) {
@@ -94,7 +109,7 @@ void add_view_options(Options& command, Arguments& a) {
         });
     add("--environment", "FILE",
         "Light the model by an environment map, an equirectangular picture, in place of the key light and the sky",
-        "none", [&a](const std::string& text) { a.environment = text; });
+        "none", file_name("--environment", a.environment));
     add("--ground", "none", "Nothing for the model to stand on", "a ground", [&a](const std::string& text) {
         if (text != "none") refuse("--ground", text, "must be none");
         a.no_ground = true;
@@ -105,7 +120,10 @@ void add_view_options(Options& command, Arguments& a) {
             if (!(*a.crease >= 0 && *a.crease <= 180)) refuse("--smooth", text, "must lie in 0 .. 180 degrees");
         });
     add("--camera", "NAME", "A camera of the model file; limn info names them", "one that frames the model",
-        [&a](const std::string& text) { a.camera_name = text; });
+        [&a](const std::string& text) {
+            if (text.empty()) refuse("--camera", "''", "is not the name of a camera");
+            a.camera_name = text;
+        });
 }
 
 }  // namespace
@@ -133,7 +151,8 @@ int render_command(int argc, const char* const* argv) {
         throw ArgumentError("--environment: is the background, and so is --background");
 
     const Console console{.program = "limn", .quiet = a.quiet};
-    const RenderTask task{.make = [&] { return view_of(a, console); }, .inputs = {input_file(a.model), a.environment}};
+    const RenderTask task{.make = [&] { return read_figure(a, console); },
+                          .inputs = {input_file(a.model), a.environment}};
     return run_render_task(task, a, console);
 }
 

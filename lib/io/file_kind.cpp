@@ -105,17 +105,20 @@ bool is_binary_stl(std::string_view contents) {
 }
 
 bool begins_with_solid(std::string_view contents) {
-    const std::string_view text = contents.substr(std::min(contents.size(), contents.find_first_not_of(" \t\r\n")));
+    std::string_view text = contents.substr(contents.starts_with("\xef\xbb\xbf") ? 3 : 0);  // a byte order mark
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
     const bool has_word = text.starts_with("solid") || text.starts_with("SOLID") || text.starts_with("Solid");
     return has_word && contents.substr(0, kStlHeader).find('\0') == std::string_view::npos;
 }
 
 FileKind kind_of_contents(std::string_view contents) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(contents));
+    constexpr FileKind kStl{"an STL model", {}, false, ModelFormat::stl};
+    if (is_binary_stl(contents)) return kStl;  // whose header may hold anything, also another format's mark
     for (const Mark& mark : kMarks)
         if (has(contents, mark)) return mark.kind;
     if (is_pnm(contents)) return {"a PNM picture"};
-    if (is_binary_stl(contents) || is_ascii_stl(contents)) return {"an STL model", {}, false, ModelFormat::stl};
+    if (is_ascii_stl(contents)) return kStl;
     if (is_utf16(contents)) return {"UTF-16 text"};
     if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
     const std::size_t first = contents.find_first_not_of(" \t\r\n");

@@ -5,6 +5,7 @@
 
 #include "io/bytes.h"
 #include "io/gltf_meshes.h"
+#include "io/text_lines.h"
 #include "limn/core/math.h"
 #include "predicates/ray_frame.h"
 
@@ -65,6 +66,8 @@ public:
     void read() {
         const std::string version = document_["asset"]["version"].text_or("");
         if (!version.starts_with("2.")) document_["asset"]["version"].fail("is not 2.0, which is read");
+        if (document_["asset"]["minVersion"].text_or("2.0") != "2.0")
+            document_["asset"]["minVersion"].fail("is not 2.0, which is read");
         check_extensions();
         materials_ = load_gltf_materials(document_, buffers_, path_, options_, model_);
         GltfMeshes meshes(document_, buffers_, materials_, options_, model_);
@@ -91,13 +94,13 @@ private:
         const GltfValue required = document_["extensionsRequired"], used = document_["extensionsUsed"];
         for (std::size_t i = 0; i < required.size(); ++i) {
             const std::string name = required[i].text_or("");
-            if (!known.contains(name)) required[i].fail("the extension " + name + " is not read");
+            if (!known.contains(name)) required[i].fail("the extension " + shortened(name) + " is not read");
         }
         for (std::size_t i = 0; i < used.size(); ++i) {
             const std::string name = used[i].text_or("");
             if (known.contains(name)) continue;
             const std::string instead = name == "KHR_materials_unlit" ? ": its materials are lit like the others" : "";
-            model_.warnings.push_back("the extension " + name + " is not used" + instead);
+            model_.warnings.push_back("the extension " + shortened(name) + " is not used" + instead);
         }
     }
 
@@ -136,10 +139,18 @@ private:
         const Transform world_from_node = world_from_parent * transform_of(node);
         if (!is_finite(world_from_node)) node.fail("its matrix is not finite");
         const std::string name = node["name"].text_or("");
-        if (node["mesh"].exists()) add_instances(node, world_from_node, name);
-        if (node["camera"].exists()) add_camera(node["camera"].in(document_["cameras"]), world_from_node, name);
-        const GltfValue light = node["extensions"]["KHR_lights_punctual"]["light"];
-        if (light.exists())
+        const GltfValue mesh = node["mesh"], camera = node["camera"],
+                        light = node["extensions"]["KHR_lights_punctual"]["light"];
+        const bool is_usable = can_be_inverted(world_from_node);
+        if (!is_usable && (mesh.exists() || camera.exists() || light.exists()))
+            model_.warnings.push_back(node.place() + ": its matrix is singular, and what it holds left out");
+        if (mesh.exists()) {
+            const std::vector<std::size_t>& parts = meshes_->get(mesh);  // counts the faces, also of what is left out
+            for (const std::size_t part : parts)
+                if (is_usable) model_.instances.push_back({part, world_from_node, name});
+        }
+        if (camera.exists() && is_usable) add_camera(camera.in(document_["cameras"]), world_from_node, name);
+        if (light.exists() && is_usable)
             add_light(light.in(document_["extensions"]["KHR_lights_punctual"]["lights"]), world_from_node, name);
         visit_children(node["children"], world_from_node);
     }
@@ -166,13 +177,6 @@ private:
         return m;
     }
 
-    void add_instances(const GltfValue& node, const Transform& world_from_node, const std::string& name) {
-        const std::vector<std::size_t>& meshes = meshes_->get(node["mesh"]);
-        if (!can_be_inverted(world_from_node))
-            return model_.warnings.push_back(node.place() + ": its matrix is singular, and what it holds left out");
-        for (const std::size_t mesh : meshes) model_.instances.push_back({mesh, world_from_node, name});
-    }
-
     static bool can_be_inverted(const Transform& m) {
         try {
             inverse(m);
@@ -188,7 +192,10 @@ private:
         camera.camera.look_from = transform_point(m, {0, 0, 0});
         camera.camera.look_at = transform_point(m, {0, 0, -1});
         camera.camera.up = transform_vector(m, {0, 1, 0});
-        if (description["type"].text_or("") == "orthographic") {
+        const std::string type = description["type"].text_or("perspective");
+        if (type != "perspective" && type != "orthographic")
+            description["type"].fail("is neither perspective nor orthographic");
+        if (type == "orthographic") {
             const GltfValue frame = description["orthographic"];
             const double half_width = frame["xmag"].number(), half_height = frame["ymag"].number();
             if (!(half_width > 0 && half_height > 0)) frame.fail("its xmag and ymag are not above 0");
@@ -200,7 +207,9 @@ private:
             camera.camera.vertical_fov = angle.number() * 180 / kPi;
             if (!(camera.camera.vertical_fov > 0 && camera.camera.vertical_fov < 180))
                 angle.fail("is not between 0 and pi");
-            if (perspective["aspectRatio"].exists()) camera.camera.aspect_ratio = perspective["aspectRatio"].number();
+            const GltfValue ratio = perspective["aspectRatio"];
+            if (ratio.exists()) camera.camera.aspect_ratio = ratio.number();
+            if (!(camera.camera.aspect_ratio.value_or(1) > 0)) ratio.fail("is not above 0");
         }
         model_.cameras.push_back(camera);
     }

@@ -40,8 +40,8 @@ int hex_digit(char c) {
     return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-// Where no view says anything, zeros are made up: so many at most.
-constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 24;
+// Where no view says anything, zeros are made up: so many at most, in all accessors together.
+constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 22;
 
 }  // namespace
 
@@ -94,8 +94,8 @@ std::span<const std::byte> GltfBuffers::buffer(const GltfValue& number) {
     const std::uint64_t size = buffer["byteLength"].natural();
     std::span<const std::byte> bytes = chunk_;
     if (buffer["uri"].exists()) {
-        const auto [place, is_new] = buffers_.try_emplace(number.natural());
-        if (is_new) place->second = read(buffer);
+        auto place = buffers_.find(number.natural());
+        if (place == buffers_.end()) place = buffers_.emplace(number.natural(), read(buffer)).first;
         bytes = std::as_bytes(std::span(place->second));
     } else if (number.natural() != 0 || chunk_.empty()) {
         buffer.fail("has no uri, and the file has no binary part for it");
@@ -157,13 +157,15 @@ GltfBuffers::Elements GltfBuffers::elements(const GltfValue& accessor, std::size
     if (e.count == 0) accessor["count"].fail("is 0");
     if (accessor["bufferView"].exists()) return elements_in(accessor, e);
     if (size_of(e.type) == 0) accessor["componentType"].fail("is no known type");
-    if (e.count > kMostZeros) accessor["count"].fail("is larger than all that the file holds");
+    if (e.count > (kMostZeros - zeros_) / components) accessor["count"].fail("is larger than all that the file holds");
+    zeros_ += e.count * components;
     return e;
 }
 
 std::vector<double> GltfBuffers::values(const GltfValue& accessor, std::size_t components) {
     const Elements dense = elements(accessor, components);
     std::vector<double> values;
+    values.reserve(dense.count * components);
     for (std::size_t i = 0; i < dense.count * components; ++i)
         values.push_back(dense.at(i / components, i % components));
     const GltfValue sparse = accessor["sparse"];

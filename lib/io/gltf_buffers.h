@@ -54,6 +54,7 @@ private:
     Model& model_;
     std::map<std::size_t, std::string> buffers_;           // that were read
     std::map<std::string, std::vector<float>> accessors_;  // by their places
+    std::uint64_t zeros_ = 0;                              // that accessors without a view were given
 };
 
 }  // namespace limn

@@ -68,9 +68,9 @@ private:
         model_.vertices = data.vertices.size();
     }
 
-    // Integers are sRGB, from 0 to the largest of their type; others are linear.
+    // Integers are sRGB, from 0 to 255 whatever their type but ushort, as programs write them; others are linear.
     static Float3 linear(const Float3& c, PlyType type) {
-        const double largest = type == PlyType::uint8 ? 255 : type == PlyType::uint16 ? 65535 : 1;
+        const double largest = !is_integer(type) ? 1 : type == PlyType::uint16 ? 65535 : 255;
         const auto decode = [&](float stored) {
             const double value = stored > 0 ? std::min(stored / largest, 1.0) : 0;  // NaN is black
             return static_cast<float>(is_integer(type) ? srgb_decode(value) : value);

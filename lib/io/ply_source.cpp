@@ -108,6 +108,8 @@ void PlySource::add_element(const Words& words) {
     const std::optional<std::uint64_t> count = parse<std::uint64_t>(words[2]);
     if (!count) lines_.fail(in_quotes(words[2]) + " is not a number of elements");
     if (*count > bytes_.size()) lines_.fail("the file is too short for " + shortened(words[2]) + " elements");
+    for (const PlyElement& element : elements_)
+        if (element.name == words[1]) lines_.fail("a second element " + in_quotes(words[1]));
     elements_.push_back({std::string(words[1]), *count});
 }
 

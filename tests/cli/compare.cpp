@@ -106,6 +106,15 @@ TEST_CASE("limn compare: JSON that would replace one of the images is refused", 
     CHECK(folder.read("a.exr") == before);
 }
 
+TEST_CASE("limn compare: one file is not two outputs", "[cli]") {
+    const Folder folder;
+    save_image(Image(2, 2), folder.path("a.exr"));
+    const Outcome outcome = limn({"compare", folder.path("a.exr"), folder.path("a.exr"), "-o", folder.path("d.exr"),
+                                  "--json", folder.path("d.exr")});
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("d.exr: is named twice as an output") != std::string::npos);
+}
+
 TEST_CASE("limn compare: -o shows where the error is, as numbers whose mean is relMSE and in false colours", "[cli]") {
     const Folder folder;
     Image test(3, 2, {0.5, 0.5, 0.5});

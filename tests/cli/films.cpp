@@ -147,6 +147,51 @@ TEST_CASE("Films: shards are merged to the picture of one run, in any order", "[
     CHECK(render.folder.names().count("x.exr") == 0);
 }
 
+TEST_CASE("Films: a part never replaces the film of more tiles that it goes on from", "[cli][films]") {
+    const Render render;
+    REQUIRE(render({"--spp", "2", "--film", "whole.film"}).status == 0);
+    const auto before = render.folder.contents();
+    for (const char* option : {"--film", "--checkpoint"}) {
+        const Outcome outcome =
+            render({"--spp", "4", "--resume", "whole.film", option, "whole.film", "--shard", "1/2"});
+        CHECK(outcome.status == 1);
+        CHECK(contains(outcome.err, "whole.film: has more tiles than this --shard"));
+        CHECK(render.folder.contents() == before);
+    }
+    // Into a film of its own it may go on.
+    for (const char* i : {"1", "2"})
+        REQUIRE(render({"--spp", "4", "--resume", "whole.film", "--film", std::string(i) + ".film", "--shard",
+                        std::string(i) + "/2"})
+                    .status == 0);
+    CHECK(render.folder.contents().at("whole.film") == before.at("whole.film"));
+    REQUIRE(render(Words{"--spp", "4"} + render.written("whole")).status == 0);
+    REQUIRE(
+        run(LIMN_PROGRAM, Words{"merge", "1.film", "2.film"} + render.written("merged"), render.folder.path()).status ==
+        0);
+    render.check_same("whole", "merged");
+}
+
+TEST_CASE("Films: a checkpoint alone is enough to write, and stands in the summary by the name of its model",
+          "[cli][films]") {
+    const Render render;
+    Words words = render.common + Words{"--spp", "2", "--checkpoint", "a.film"};
+    std::erase(words, "--quiet");
+    const Outcome outcome = run(LIMN_PROGRAM, words, render.folder.path());
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.starts_with("limn: house.obj: 48x40, 2 samples a pixel"));
+    CHECK(render.folder.names() == Names{"a.film", "house.obj"});
+}
+
+TEST_CASE("Films: where no plan can be made the picture is saved, and the films are named", "[cli][films]") {
+    const Render render;
+    REQUIRE(render({"--spp", "4", "--film", "a.film"}).status == 0);
+    const Outcome merged = run(LIMN_PROGRAM, {"merge", "a.film", "--error", "1e-4", "--plan", "plan", "-o", "a.exr"},
+                               render.folder.path());
+    CHECK(merged.status == 1);
+    CHECK(contains(merged.err, "limn: a.film: a plan needs 8 samples in each pixel"));
+    CHECK(render.folder.names() == Names{"a.exr", "a.film", "house.obj"});
+}
+
 TEST_CASE("Films: --error over shards, in rounds", "[cli][films]") {
     const Render render;
     const auto round = [&](const Words& more) {

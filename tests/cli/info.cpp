@@ -115,6 +115,20 @@ TEST_CASE("limn info: a picture says how many of its samples and rays were unusa
     CHECK(row(table, "unusable_rays") == "0");
 }
 
+TEST_CASE("limn info: a film says its crop, in the table and in the JSON", "[cli][info]") {
+    const Folder folder;
+    const std::string model = folder.write("a.obj", house_obj()), film = folder.path("a.film");
+    const Words render = {"render", model, "--film", film, "--size", "8x8", "--spp", "1", "--quiet"};
+    const auto json = [&] { return Json::parse(limn({"info", film, "--json", "-"}).out); };
+    REQUIRE(limn(render).status == 0);
+    CHECK(json().at("crop") == nullptr);
+    Words cropped = render;
+    cropped.insert(cropped.end(), {"--crop", "1,2,7,8"});
+    REQUIRE(limn(cropped).status == 0);
+    CHECK(json().at("crop") == Json{1, 2, 7, 8});
+    CHECK(row(limn({"info", film}).out, "crop") == "1,2,7,8");
+}
+
 TEST_CASE("limn info: a model with a vertex that is no number, or too large for one, is refused with its line",
           "[cli][info]") {
     const Folder folder;

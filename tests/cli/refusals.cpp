@@ -140,7 +140,10 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"render", model, "-o", out, "--crop", "1,2,3"}, "--crop 1,2,3: is not of the form X0,Y0,X1,Y1"},
         {{"render", model, "-o", out, "--crop", "1,2,3,x"}, "--crop 1,2,3,x: must be whole numbers"},
         {{"render", model, "-o", out, "--crop", "5,2,5,9"}, "--crop 5,2,5,9: holds no pixel"},
-        {{"render", model, "-o", out, "--size", "8x8", "--crop", "0,0,9,8"}, "crop window must lie in the picture"},
+        {{"render", model, "-o", out, "--size", "8x8", "--crop", "0,0,9,8"},
+         "--crop 0,0,9,8: reaches beyond the picture of 8x8"},
+        {{"render", model, "-o", out, "--environment", ""}, "--environment '': is not the name of a file"},
+        {{"render", model, "-o", out, "--camera", ""}, "--camera '': is not the name of a camera"},
         {{"render", model, "-o", out, "--projection", "fisheye"}, "--projection fisheye: must be perspective"},
         {{"render", model, "-o", out, "--height", "2"}, "--height: only --projection orthographic has one"},
         {{"render", model, "-o", out, "--projection", "panorama", "--vfov", "20"}, "--vfov: only --projection"},
@@ -262,10 +265,10 @@ TEST_CASE("limn render: no output replaces a file that the model is made of, by 
     const std::vector<std::pair<Words, int>> cases = {
         {{"--report", model}, 2},  // the command line alone says so
         {{"--report", folder.path("here/house.obj")}, 2},
-        {{"--report", folder.path("oak.mtl")}, 1},  // it takes the model to know
-        {{"--report", folder.path("link.json")}, 1},
-        {{"-o", folder.path("wood.png")}, 1},
-        {{"-o", folder.path("here/./wood.png")}, 1},
+        {{"--report", folder.path("oak.mtl")}, 2},  // it takes the model to know
+        {{"--report", folder.path("link.json")}, 2},
+        {{"-o", folder.path("wood.png")}, 2},
+        {{"-o", folder.path("here/./wood.png")}, 2},
     };
     for (const auto& [output, status] : cases) {
         Words words = {"render", model, "-o", folder.path("out.exr"), "--spp", "1000000000", "--quiet"};

@@ -11,6 +11,7 @@
 #include "limn/render/film.h"
 #include "process.h"
 #include "support/folder.h"
+#include "table.h"
 
 namespace limn::test {
 namespace {
@@ -159,15 +160,22 @@ TEST_CASE("limn render: --smooth gives a mesh without normals smooth ones", "[cl
     CHECK(house.image({"--smooth", "0"}) == house.image());
 }
 
-TEST_CASE("limn render: --camera takes a camera of the model, with the shape of its picture", "[cli]") {
-    const Folder folder;
-    const std::string model = folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+// A triangle, and a camera in the node `front`.
+const std::string kSeen = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
 "nodes": [{"mesh": 0}, {"camera": 0, "name": "front", "translation": [0.5, 0.5, 4]}],
 "cameras": [{"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 1, "zfar": 9, "znear": 0}}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
-"buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+"buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+std::string seen_with(const std::string& what, const std::string& by) {
+    return std::string(kSeen).replace(kSeen.find(what), what.size(), by);
+}
+
+TEST_CASE("limn render: --camera takes a camera of the model, with the shape of its picture", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("a.gltf", kSeen);
     const auto render = [&](const Words& options) {
         Words words = {"render", model, "-o", folder.path("a.exr"), "--spp", "1", "--ground", "none"};
         words.insert(words.end(), options.begin(), options.end());
@@ -180,6 +188,26 @@ TEST_CASE("limn render: --camera takes a camera of the model, with the shape of 
     const Outcome other = render({"--camera", "side"});
     CHECK(other.status == 1);
     CHECK(other.err.find("has no camera 'side'; it has front") != std::string::npos);
+
+    folder.write("a.gltf", seen_with(R"("xmag": 2)", R"("xmag": 1e300)"));
+    const Outcome wide = render({"--camera", "front"});
+    CHECK(wide.status == 1);
+    CHECK(wide.err.find(model + ": camera 'front' is 1e+300 times as wide as high: --size is needed") !=
+          std::string::npos);
+    CHECK(render({"--camera", "front", "--size", "4x4"}).status == 0);
+
+    folder.write("a.gltf", seen_with(R"({"camera": 0, "name": "front", "translation": [0.5, 0.5, 4]})",
+                                     R"({"mesh": 0, "translation": [1e308, 0, 0]})"));
+    CHECK(render({}).err.starts_with("limn: " + model + ": "));
+}
+
+TEST_CASE("limn: names of a model reach the terminal without control characters", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.write("a.gltf", seen_with("front", R"(fr\u001b[31mont\nb)"));
+    const Outcome info = limn({"info", model});
+    CHECK(row(info.out, "cameras") == "fr?[31mont b");
+    const Outcome none = limn({"render", model, "-o", folder.path("a.exr"), "--camera", "x"});
+    CHECK(none.err == "limn: " + model + ": has no camera 'x'; it has fr?[31mont b\n");
 }
 
 TEST_CASE("limn render: a model without triangles is refused", "[cli]") {

@@ -16,6 +16,11 @@ std::string with_bytes(std::size_t place, const std::string& bytes) {
     return of_bytes(square_bytes().replace(place, bytes.size(), bytes));
 }
 
+// A camera beside the square.
+std::string with_camera(const std::string& members) {
+    return with("\"nodes\": [{", "\"cameras\": [{" + members + "}], \"nodes\": [{\"camera\": 0, ");
+}
+
 const std::string kPositions = R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"})";
 
 }  // namespace
@@ -29,6 +34,8 @@ TEST_CASE("glTF: every broken or odd JSON has its verdict", "[io][gltf]") {
         {"no version", with(R"("version": "2.0")", ""), 0, "asset.version: is not 2.0"},
         {"version 1", with("2.0", "1.0"), 0, "asset.version: is not 2.0"},
         {"a version that is a number", with("\"2.0\"", "2.0"), 0, "asset.version: is not a text"},
+        {"later minimal version", with("\"2.0\"", R"("2.1", "minVersion": "2.1")"), 0, "asset.minVersion: is not 2.0"},
+        {"minimal version 2.0", with("\"2.0\"", R"("2.1", "minVersion": "2.0")"), 2, ""},
         {"asset is an array", with(R"({"version": "2.0"})", "[]"), 0, "asset: is not an object"},
         {"scene out of range", with("\"scene\": 0", "\"scene\": 1"), 0, "scene: is 1, but there are 1 scenes"},
         {"scene is a text", with("\"scene\": 0", "\"scene\": \"0\""), 0, "scene: is not a number"},
@@ -62,6 +69,13 @@ TEST_CASE("glTF: every broken or odd JSON has its verdict", "[io][gltf]") {
         {"singular matrix", with("\"mesh\": 0", "\"mesh\": 0, \"scale\": [0,1,1]"), 0,
          "has no usable face: all 2 have no area, or stand nowhere"},
         {"camera out of range", with("\"mesh\": 0", "\"mesh\": 0, \"camera\": 0"), 0, "but there are 0 cameras"},
+        {"unknown camera", with_camera(R"("type": "fisheye")"), 0,
+         "cameras[0].type: is neither perspective nor orthographic"},
+        {"camera without a type", with_camera(R"("perspective": {"yfov": 1})"), 2, ""},
+        {"aspect ratio 0", with_camera(R"("type": "perspective", "perspective": {"yfov": 1, "aspectRatio": 0})"), 0,
+         "cameras[0].perspective.aspectRatio: is not above 0"},
+        {"aspect ratio -1", with_camera(R"("type": "perspective", "perspective": {"yfov": 1, "aspectRatio": -1})"), 0,
+         "cameras[0].perspective.aspectRatio: is not above 0"},
         {"light out of range", with("\"mesh\": 0", R"("mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}})"),
          0, "nodes[0].extensions.KHR_lights_punctual.light: is 0, but there are 0 "},
         {"unknown extension required", with("\"scene\": 0", R"("extensionsRequired": ["EXT_meshopt_compression"])"), 0,
@@ -69,6 +83,8 @@ TEST_CASE("glTF: every broken or odd JSON has its verdict", "[io][gltf]") {
         {"unfollowed extension of materials required",
          with("\"scene\": 0", R"("extensionsRequired": ["KHR_materials_ior", "KHR_materials_sheen"])"), 0,
          "extensionsRequired[1]: the extension KHR_materials_sheen is not read"},
+        {"extension with control characters", with("\"scene\": 0", R"("extensionsUsed": ["EXT_\u001b[31m\nforged"])"),
+         2, "the extension EXT_?[31m?forged is not used"},
         {"unlit materials required", with("\"scene\": 0", R"("extensionsRequired": ["KHR_materials_unlit"])"), 0,
          "extensionsRequired[0]: the extension KHR_materials_unlit is not read"},
         {"followed extensions required",
@@ -126,6 +142,14 @@ TEST_CASE("glTF: every broken or odd mesh, accessor and buffer has its verdict",
         {"accessor of too many zeros",
          replaced(with("\"bufferView\": 0, ", ""), "\"count\": 4", "\"count\": 4000000000"), 0,
          "accessors[0].count: is larger than all that the file holds"},
+        {"accessor of many zeros, three numbers each",
+         replaced(with("\"bufferView\": 0, ", ""), "\"count\": 4", "\"count\": 1400000"), 0,
+         "accessors[0].count: is larger than all that the file holds"},
+        {"accessors of many zeros together",
+         replaced(replaced(replaced(with("\"bufferView\": 0, ", ""), "\"bufferView\": 1, ", ""), "\"count\": 4",
+                           "\"count\": 1000000"),
+                  "\"count\": 4", "\"count\": 1000000"),
+         0, "accessors[1].count: is larger than all that the file holds"},
         {"view out of range", with("\"bufferView\": 0", "\"bufferView\": 3"), 0, "but there are 3 bufferViews"},
         {"view too long", with("\"byteLength\": 12", "\"byteLength\": 13"), 0,
          "bufferViews[2]: reaches to byte 93 of 92"},
@@ -142,6 +166,10 @@ TEST_CASE("glTF: every broken or odd mesh, accessor and buffer has its verdict",
          "buffers[0]: states 93 bytes, but there are 92"},
         {"buffer without a uri", square_gltf(""), 0, "buffers[0]: has no uri, and the file has no binary part for it"},
         {"missing file", square_gltf("\"uri\": \"no_such.bin\", "), 0, "no_such.bin: there is no such file"},
+        {"missing file of a picture and of positions",
+         replaced(with_texture(R"("bufferView": 0, "mimeType": "image/png")"),
+                  "\"uri\": \"data:", R"("uri": "no_such.bin", "was": ")"),
+         0, "no_such.bin: there is no such file"},
         {"a folder as buffer", square_gltf("\"uri\": \".\", "), 0, "buffers[0].uri: "},
         {"data not in base64", square_gltf("\"uri\": \"data:,abc\", "), 0,
          "buffers[0].uri: its data are not in base64"},

@@ -127,6 +127,25 @@ TEST_CASE("glTF: nodes place meshes, cameras and lights", "[io][gltf]") {
     CHECK(light.outer_cone_angle == Approx(90 / kPi));
 }
 
+TEST_CASE("glTF: what a node with a singular matrix holds is left out, each with a warning", "[io][gltf]") {
+    for (const char* type : {"point", "spot", "directional"}) {
+        const std::string nodes = R"("nodes": [{"children": [1, 2, 3, 4]}, {"mesh": 0},
+{"mesh": 0, "scale": [0, 0, 0]}, {"camera": 0, "scale": [1, 1, 0]},
+{"scale": [0, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+"cameras": [{"type": "perspective", "perspective": {"yfov": 1}}],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": ")" +
+                                  std::string(type) + R"("}]}})";
+        const Model model = load(with(R"("nodes": [{"mesh": 0, "name": "square"}])", nodes));
+        CHECK(model.instances.size() == 1);
+        CHECK(model.cameras.empty());
+        CHECK(model.lights.empty());
+        REQUIRE(model.warnings.size() == 3);
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(model.warnings[i] ==
+                  "nodes[" + std::to_string(i + 2) + "]: its matrix is singular, and what it holds left out");
+    }
+}
+
 TEST_CASE("glTF: an orthographic camera keeps its height", "[io][gltf]") {
     const Model model = load(with(R"("nodes": [{"mesh": 0,)", R"("cameras": [{"type": "orthographic", "name": "plan",
 "orthographic": {"xmag": 2, "ymag": 1.5, "zfar": 9, "znear": 0}}], "nodes": [{"mesh": 0, "camera": 0,)"));

@@ -151,6 +151,30 @@ TEST_CASE("PLY: colours of the corners are interpolated by their weights", "[io]
     CHECK(model.meshes[0]->hit({.origin = {0.2, 0.2, 1}, .direction = {0, 0, -1}})->material == white.get());
 }
 
+TEST_CASE("PLY: integer colours are of 255 whatever their type, but of 65535 as ushort, and floats of 1", "[io][ply]") {
+    const auto red_of = [](const std::string& type, const std::string& stored) {
+        const std::string colors = "property T red\nproperty T green\nproperty T blue\n";
+        const std::string typed = replaced(replaced(replaced(colors, "T", type), "T", type), "T", type);
+        const std::string line = " " + stored + " 0 0\n";
+        const Model model = load(header(element("vertex", 3, kXyz + typed) + element("face", 1, kIndices)) + "0 0 0" +
+                                 line + "1 0 0" + line + "0 1 0" + line + "3 0 1 2\n");
+        const auto hit = model.meshes[0]->hit({.origin = {0.2, 0.2, 1}, .direction = {0, 0, -1}});
+        REQUIRE(hit);
+        Surface s;
+        s.uv = *hit->uv;
+        s.normal = s.shading_normal = hit->normal;
+        return hit->material->value(s, {0, 0, 1}, {0, 0, 1}).value.r * kPi;
+    };
+    for (const char* type : {"char", "uchar", "short", "int", "uint", "int8", "int16", "int32", "uint32"}) {
+        CAPTURE(type);
+        CHECK(red_of(type, "100") == Approx(srgb_decode(100 / 255.0)).epsilon(1e-5));
+    }
+    for (const char* type : {"short", "int", "uint"}) CHECK(red_of(type, "300") == Approx(1).epsilon(1e-5));
+    CHECK(red_of("int", "-1") == 0);
+    CHECK(red_of("ushort", "25700") == Approx(srgb_decode(100 / 255.0)).epsilon(1e-5));
+    CHECK(red_of("float", "0.25") == Approx(0.25).epsilon(1e-5));
+}
+
 TEST_CASE("PLY: every broken or odd file has its verdict", "[io][ply]") {
     const auto with = [](const std::string& what, const std::string& by) { return replaced(kSquare, what, by); };
     const std::string little_square = binary_square(false), big = std::string("4294967295");
@@ -163,6 +187,8 @@ TEST_CASE("PLY: every broken or odd file has its verdict", "[io][ply]") {
         {"unknown format", with("ascii", "binary"), 0, "line 2: 'binary' is no format of a PLY"},
         {"unknown version", with("1.0", "2.0"), 0, "line 2: version 2.0 is not read"},
         {"element without a number", with("face 1", "face"), 0, "line 8: element needs a name and a number"},
+        {"an element twice", with("element face", "element vertex 9\nelement face"), 0,
+         "line 8: a second element 'vertex'"},
         {"negative number of elements", with("face 1", "face -1"), 0, "line 8: '-1' is not a number of elements"},
         {"too many elements", with("face 1", "face 999999"), 0, "line 8: the file is too short for 999999 elements"},
         {"twenty digits of elements", with("face 1", "face 99999999999999999999"), 0, "is not a number of elements"},
