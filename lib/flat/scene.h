@@ -170,6 +170,11 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
 // hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
+// Whether it has an opacity (limn/material/alpha_mask.h).
+inline bool has_holes(const MaterialRecord& material) {
+    return material.details && material.details->opacity != TextureId::none;
+}
+
 // Exactly as described.
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 

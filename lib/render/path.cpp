@@ -51,7 +51,7 @@ PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estima
                                               : static_cast<std::uint32_t>(max_depth)),
       sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
       transparent_(transparent),
-      has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), shade::has_holes)),
+      has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), flat::has_holes)),
       pivot_(scene),
       roulette_(roulette_of(scene, max_depth, estimator)),
       now_(std::make_unique<shade::Segments>()),
