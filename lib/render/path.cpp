@@ -75,6 +75,9 @@ void PathTracer::trace(std::span<Path> paths) {
 
 void PathTracer::begin(std::span<Path> paths) {
     paths_ = paths;
+    // What user-defined code that threw left behind.
+    emitters_.count = shadows_.count = 0;
+    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.folds = 0;
     shade::Segments& s = *next_;
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
