@@ -80,7 +80,7 @@ void move(flat::Scene& scene, std::span<const MovedObject> moved) {
         const MovedObject& m = moved[i];
         try {
             rows[i] = row_of(scene, m.object);
-            require_placement(m.world_from_object, m.at_time1.value_or(m.world_from_object), "it");
+            require_placement(m.world_from_object, m.at_time1.value_or(m.world_from_object), "Instance");
         } catch (const ArgumentError& error) {
             throw ArgumentError("recompile: object " + std::to_string(m.object) + ": " + error.what());
         }
