@@ -59,6 +59,7 @@ struct TextureRecord {
     TextureKind kind = TextureKind::solid;                     ///< decides which fields count
     Filter filter = Filter::bilinear;                          ///< image
     Wrap wrap = Wrap::repeat;                                  ///< image
+    std::uint8_t padding = 0;                                  ///< named, because scene files have the bytes of rows
     std::uint32_t data = 0;                                    ///< image, noises: row of the images or lattices
     TextureId even = TextureId::none;                          ///< checker
     TextureId odd = TextureId::none;                           ///< checker
@@ -239,6 +240,7 @@ enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
 /// A light without a shape: see limn/scene/lights.h.
 struct LightRecord {
     LightSourceKind kind = LightSourceKind::point;  ///< decides which fields count
+    std::uint8_t padding[7] = {};                   ///< named, because scene files have the bytes of rows
     Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
     Point3 position;                                ///< point, spot
     Vec3 direction;                                 ///< unit, into which it shines; of all but a point
@@ -263,6 +265,7 @@ struct PrimitiveRange {
     /// As said above.
     ///@{
     PrimitiveKind kind = PrimitiveKind::sphere;
+    std::uint8_t padding[3] = {};  // named, because scene files have the bytes of rows
     std::uint32_t first_row = 0;
     std::uint64_t first_number = 0;
     std::uint64_t count = 0;

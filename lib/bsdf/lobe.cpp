@@ -61,6 +61,7 @@ void sample(const Lobe& lobe, Vertices& v) {
     v.normal = surface;
     for_each_fold(v, [&](std::size_t i) {
         if (v.pdf[i] == 0 || is_black(v.weight.get<Color>(i))) return;  // specular, or absorbed
+        if (!(v.value_pdf[i] > 0)) return v.weight.set(i, Color{});     // along the surface, by rounding
         v.pdf[i] = v.value_pdf[i];
         v.weight.set(i, v.value.get<Color>(i) / v.pdf[i]);
     });

@@ -74,7 +74,8 @@ class LightCollector {
 public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
         for (const MaterialRecord& m : scene.materials) {
-            const bool is_sampled = m.emission != TextureId::none && !is_user_defined(scene, m.emission);
+            const bool is_sampled = m.emission != TextureId::none && !is_user_defined(scene, m.emission) &&
+                                    (!flat::has_holes(m) || !is_user_defined(scene, m.details->opacity));
             brightness_.push_back(is_sampled ? typical_brightness(scene, m.emission) : 0);
         }
         emits_ = blases_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });
@@ -216,13 +217,15 @@ private:
         return length_squared(cross(light.edge_u, light.edge_v)) > 0 ? std::optional(light) : std::nullopt;
     }
 
-    // Nothing where the instances bend it, or turn it while it moves.
+    // Nothing where the instances bend it, or turn it while it moves, nor where it has holes: through them scattering
+    // finds its far side too, which is not drawn.
     std::optional<flat::Light> sphere(const PrimitiveRange& range, std::uint64_t element, const Seen& seen,
                                       const Transform& inv) const {
         SphereRecord s;
         primitives::with_row(scene_.rows, range.kind, range.first_row + element, [&](const auto& primitive) {
             if constexpr (requires { primitive.ball(); }) s = primitive.ball();
         });
+        if (flat::has_holes(scene_.materials[static_cast<std::size_t>(s.material)])) return std::nullopt;
         const std::optional<double> scale = uniform_scale(seen.at0);
         // Texture coordinates belong to the object's own axes and side.
         const bool plain = flat::is_plain(scene_, scene_.materials[static_cast<std::size_t>(s.material)].emission);

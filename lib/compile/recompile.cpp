@@ -62,7 +62,7 @@ void drop_what_moves(flat::Scene& scene) {
     scene.nodes.resize(below.nodes), scene.references.resize(below.references);
     scene.blocks.resize(below.block_words - std::min(below.block_words, flat::kSlackWords));
     scene.blocks.resize(below.block_words);  // with slack of zeros
-    scene.kinds = below.kinds;
+    scene.kinds = static_cast<unsigned>(below.kinds);
     scene.stored_primitives = below.stored_primitives, scene.degenerate = below.degenerate;
     scene.list = {};
     scene.media.clear(), scene.medium_instances.clear(), scene.media_extent = 0;
@@ -80,7 +80,7 @@ void move(flat::Scene& scene, std::span<const MovedObject> moved) {
         const MovedObject& m = moved[i];
         try {
             rows[i] = row_of(scene, m.object);
-            require_placement(m.world_from_object, m.at_time1.value_or(m.world_from_object), "it");
+            require_placement(m.world_from_object, m.at_time1.value_or(m.world_from_object), "Instance");
         } catch (const ArgumentError& error) {
             throw ArgumentError("recompile: object " + std::to_string(m.object) + ": " + error.what());
         }

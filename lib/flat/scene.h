@@ -51,6 +51,7 @@ struct Instance {
     Transform object_from_world;  // of a still one
     BlasId blas = BlasId::root;
     bool moving = false;
+    std::uint8_t padding[3] = {};
     InverseError object_from_world_error{};
 };
 
@@ -64,11 +65,13 @@ struct Blas {
     Child root = kNothing;
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
+    std::uint32_t padding = 0;
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
     float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
-    double cost = 0;         // expected, of a ray that meets the bounds: see accel::BuildSettings
-    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
+    std::uint32_t more_padding = 0;
+    double cost = 0;   // expected, of a ray that meets the bounds: see accel::BuildSettings
+    double scale = 1;  // of the nodes' boxes: a power of two, which keeps them in the range of float
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.
@@ -76,6 +79,7 @@ struct Medium {
     std::uint32_t shape = 0;           // row of Scene::medium_shapes
     std::uint32_t first_instance = 0;  // in Scene::medium_instances
     std::uint32_t instance_count = 0;
+    std::uint32_t padding = 0;
     std::uint64_t first_number = 0;  // of its boundary's primitives, in the scene
     Box bounds;                      // in world space
     double scattered = 1;            // share of the extinction that may scatter: the largest albedo, 1 where unknown
@@ -92,7 +96,7 @@ struct Features {
 // What there is before the scene's own tree, the last, is built. Moving instances leaves it as it is.
 struct BelowRoot {
     std::size_t nodes = 0, block_words = 0, references = 0;
-    unsigned kinds = 0;
+    std::uint64_t kinds = 0;
     std::uint64_t stored_primitives = 0, degenerate = 0;
 };
 
@@ -169,6 +173,11 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
 // Of one primitive; none for those without a row of their own, and for user-defined shapes, which tell theirs with each
 // hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
+
+// Whether it has an opacity (limn/material/alpha_mask.h).
+inline bool has_holes(const MaterialRecord& material) {
+    return material.details && material.details->opacity != TextureId::none;
+}
 
 // Exactly as described.
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);

@@ -1,4 +1,5 @@
 // The parts of a compiled scene that are nothing but their bytes, listed once: for writing, reading and counting them.
+// Their padding is named and zero, so that files of one scene are the same bytes.
 #pragma once
 
 #include "flat/scene.h"

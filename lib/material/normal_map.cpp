@@ -31,7 +31,7 @@ std::optional<ScatterSample> NormalMap::sample(const Surface& s, const Vec3& out
     if (bsdf::is_below(s.normal, sample->direction)) sample->direction = bsdf::mirrored_at(s.normal, sample->direction);
     if (sample->pdf == 0) return sample;
     const ScatterValue f = value(s, out, sample->direction);
-    if (is_black(f.value)) return std::nullopt;
+    if (is_black(f.value) || !(f.pdf > 0)) return std::nullopt;
     return ScatterSample{.direction = sample->direction, .weight = f.value / f.pdf, .pdf = f.pdf};
 }
 

@@ -4,8 +4,9 @@
 // A ray counts as moved by (e, e^2, e^3), e > 0 and smaller than any number; its direction stays. The moved ray meets
 // no edge and no vertex, lies in no plane of a face, and its ends t_min and t_max, which move along, lie on no surface.
 // So it passes through a closed surface as often as its ends say, whose winding numbers differ by the sum of the
-// passages' signs. Every decision is the sign of a polynomial in the coordinates as they were given and in e. It is
-// linear in the move: the value where that is not zero, else the sign of the first coordinate of its slope that is not.
+// passages' signs. Every decision is the sign of a polynomial in the coordinates as they were given and in e: that
+// of the value where it is not zero, else of the first coordinate of its slope that is not. Flat shapes' are linear in
+// the move. A sphere is missed by a ray that touches it, and an end on it is decided by the slope.
 // An edge's sign is the same for all faces that share it, so that they agree where the ray passes.
 //
 // The move is that of the world. Instances see its image.

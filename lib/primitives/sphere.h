@@ -18,6 +18,7 @@ struct Sphere : Primitive {
     Point3 center;
     double radius;  // negative: the normal points inward
     MaterialId material;
+    std::uint32_t padding = 0;
 
     explicit Sphere(const SphereRecord& s) : center(s.center0), radius(s.radius), material(s.material) {}
 
@@ -38,6 +39,8 @@ struct MovingSphere : SphereRecord, Primitive {
     static constexpr PrimitiveKind kKind = PrimitiveKind::moving_sphere;
     static constexpr const char* kName = "moving-sphere";
     static constexpr auto kRecords = &SceneRecords::spheres;
+
+    std::uint32_t padding = 0;
 
     Box bounds() const { return sphere_bounds(center0, center1, radius); }
     Sphere at(double time) const {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -47,6 +48,8 @@ Checkpoints::Checkpoints(const RenderJob& job, const std::string& path, double s
               job.save(path);
           } catch (const Error& e) {
               failed(e);
+          } catch (const std::exception& e) {  // no memory for it, say
+              failed(Error(e.what()));
           }
       }) {}
 Checkpoints::~Checkpoints() = default;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -154,11 +155,18 @@ void FilmReader::read_header(FilmContent content) {
     std::memcpy(tiles_.data(), rest.data(), rest.size());
     const auto in_range = [](int side) { return side > 0 && side <= kMaxSide; };
     const Shard& shard = info_.shard;
-    if (!in_range(info_.width) || !in_range(info_.height) || !is_window(info_) || shard.index < 1 ||
-        shard.index > shard.count || static_cast<std::uint32_t>(shard.count) > Film::tile_count(info_) ||
-        std::ranges::adjacent_find(tiles_, std::ranges::greater_equal{}) != tiles_.end() ||
-        tiles_.back() >= Film::tile_count(info_))
+    if (!in_range(info_.width) || !in_range(info_.height) || !is_window(info_)) damaged();
+    std::uint32_t tiles = 0;
+    try {
+        tiles = Film::tile_count(info_);
+    } catch (const Error&) {  // more than a film can have
         damaged();
+    }
+    if (shard.index < 1 || shard.index > shard.count || static_cast<std::uint32_t>(shard.count) > tiles ||
+        std::ranges::adjacent_find(tiles_, std::ranges::greater_equal{}) != tiles_.end() || tiles_.back() >= tiles)
+        damaged();
+    // Before memory is taken for them.
+    if (content == FilmContent::film && tiles_.size() > file_.left() / Film::tile_size(info_)) fail("is cut short");
 }
 
 void FilmReader::read_tiles(Film& film) {
@@ -177,13 +185,14 @@ SamplePlan FilmReader::finish() {
     bool has_rates = false;
     plan.samples = scalars.get<std::int32_t>();
     scalars.get(plan.scale), scalars.get(plan.upper_error), scalars.get(seconds_), scalars.get(has_rates);
-    if (plan.samples < 0 || !(plan.scale >= 0)) damaged();
+    if (plan.samples < 0 || !(plan.scale >= 0 && std::isfinite(plan.scale))) damaged();
     if (has_rates) {
         const std::uint64_t size = tiles_.size() * Film::kTilePixels * sizeof(float);
         const std::vector<std::byte> rates = file_.chunk("its rates", size, size);
         plan.rates.resize(tiles_.size() * Film::kTilePixels);
         std::memcpy(plan.rates.data(), rates.data(), rates.size());
-        if (!std::ranges::all_of(plan.rates, [](float rate) { return rate >= 0; })) file_.fail_damaged("its rates");
+        if (!std::ranges::all_of(plan.rates, [](float rate) { return rate >= 0 && std::isfinite(rate); }))
+            file_.fail_damaged("its rates");
     }
     file_.finish();
     return plan;

@@ -12,8 +12,7 @@ double Holes::opacity_of(const flat::Scene& scene, const Ray& ray, const trace::
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind == PrimitiveKind::user_defined) return 1;
     const MaterialId material = flat::material_of(scene, range, place.element);
-    if (material == MaterialId::none || !shade::has_holes(scene.materials[static_cast<std::size_t>(material)]))
-        return 1;
+    if (material == MaterialId::none || !flat::has_holes(scene.materials[static_cast<std::size_t>(material)])) return 1;
     query::surface_at(scene, ray, hit, {true, scene.features.tangents}, met_);
     return shade::opacity(scene, met_.surface);
 }

@@ -51,7 +51,7 @@ PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estima
                                               : static_cast<std::uint32_t>(max_depth)),
       sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
       transparent_(transparent),
-      has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), shade::has_holes)),
+      has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), flat::has_holes)),
       pivot_(scene),
       roulette_(roulette_of(scene, max_depth, estimator)),
       now_(std::make_unique<shade::Segments>()),
@@ -75,6 +75,9 @@ void PathTracer::trace(std::span<Path> paths) {
 
 void PathTracer::begin(std::span<Path> paths) {
     paths_ = paths;
+    // What user-defined code that threw left behind.
+    emitters_.count = shadows_.count = 0;
+    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.folds = 0;
     shade::Segments& s = *next_;
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {

@@ -145,7 +145,7 @@ Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples,
     const flat::Light& light = *samples.light[i];
     if (light.kind >= flat::LightKind::point) return radiance_of_source(scene, samples, i);
     const TextureId emission = scene.materials[static_cast<std::size_t>(light.material)].emission;
-    if (!light.textured && !has_holes(scene.materials[static_cast<std::size_t>(light.material)]))
+    if (!light.textured && !flat::has_holes(scene.materials[static_cast<std::size_t>(light.material)]))
         return scene.textures[static_cast<std::size_t>(emission)].color;
     Surface s;
     s.position = samples.position.get<Point3>(i), s.position_error = samples.position_error.get<Vec3>(i);
@@ -155,13 +155,9 @@ Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples,
     return opacity(scene, s) * texture_value(scene, emission, s);
 }
 
-bool has_holes(const MaterialRecord& material) {
-    return material.details && material.details->opacity != TextureId::none;
-}
-
 double opacity(const flat::Scene& scene, const Surface& s) {
     const MaterialRecord& material = record_of(scene, s.material);
-    if (!has_holes(material)) return 1;
+    if (!flat::has_holes(material)) return 1;
     const double opacity = texture_value(scene, material.details->opacity, s).r,
                  cutoff = material.details->opacity_cutoff;
     if (cutoff > 0) return opacity >= cutoff ? 1 : 0;

@@ -31,8 +31,7 @@ bool sun_covers(const LightRecord& sun, const Vec3& direction);
 // As a normal map bends it. \param incoming direction of the ray that came here
 Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);
 
-// Whether the material has an opacity, and how much of the light it stops at a surface that it is on.
-bool has_holes(const MaterialRecord& material);
+// How much of the light it stops, by the opacity of its material.
 double opacity(const flat::Scene& scene, const Surface& s);
 
 // A sample of a light.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/float_environment.h"
+#include "core/scaled_matrix.h"
 #include "predicates/bounds.h"
 #include "predicates/ray_frame.h"
 #include "shape/arguments.h"
@@ -16,8 +17,10 @@ namespace {
 using Cubic = std::array<double, 4>;
 
 // The determinant of (1-t) A + t B is a cubic in t. It is linear in each row, so that its Bernstein coefficients are
-// means of determinants with some rows from A and some from B.
-Cubic determinant_over_time(const Transform& a, const Transform& b) {
+// means of determinants with some rows from A and some from B. Each is scaled first, which moves a root in [0, 1] but
+// leaves it there, so that the products neither overflow nor vanish.
+Cubic determinant_over_time(const Transform& at_time0, const Transform& at_time1) {
+    const Transform a = ScaledMatrix(at_time0).matrix, b = ScaledMatrix(at_time1).matrix;
     const auto mixed = [&](bool row0, bool row1, bool row2) {
         return determinant(
             {{row0 ? b.rows[0] : a.rows[0], row1 ? b.rows[1] : a.rows[1], row2 ? b.rows[2] : a.rows[2]}});
@@ -32,7 +35,7 @@ Cubic determinant_over_time(const Transform& a, const Transform& b) {
 bool has_root(const Cubic& c, double rounding = 0, int halvings = 20) {
     const auto [least, most] = std::minmax_element(c.begin(), c.end());
     if (*least > rounding || *most < -rounding) return false;
-    if (c[0] * c[3] <= 0 || halvings == 0) return true;
+    if (c[0] == 0 || c[3] == 0 || (c[0] > 0) != (c[3] > 0) || halvings == 0) return true;
     const double ab = (c[0] + c[1]) / 2, bc = (c[1] + c[2]) / 2, cd = (c[2] + c[3]) / 2;
     const double abc = (ab + bc) / 2, bcd = (bc + cd) / 2, middle = (abc + bcd) / 2;
     const double rounded = std::max(rounding, 1e-14 * std::max(std::abs(*least), std::abs(*most)));

@@ -7,6 +7,7 @@
 
 #include "accel/slab.h"
 #include "accel/wide_bvh.h"
+#include "core/scaled_matrix.h"
 #include "limn/core/error.h"
 
 namespace limn::trace {
@@ -23,15 +24,17 @@ Transform placed(const flat::Instance& instance, const Transform* outer, double 
 
 // What a matrix scales lengths by, where it keeps shapes.
 double similarity_of(const Transform& m) {
+    const ScaledMatrix scaled(m);
+    const auto& rows = scaled.matrix.rows;
     Vec3 columns[3];
-    for (std::size_t c = 0; c < 3; ++c) columns[c] = {m.rows[0][c], m.rows[1][c], m.rows[2][c]};
+    for (std::size_t c = 0; c < 3; ++c) columns[c] = {rows[0][c], rows[1][c], rows[2][c]};
     const double square = length_squared(columns[0]);
     for (std::size_t c = 0; c < 3; ++c) {
         const bool is_right = std::abs(dot(columns[c], columns[(c + 1) % 3])) <= 0x1p-40 * square;
         if (!is_right || !(std::abs(length_squared(columns[c]) - square) <= 0x1p-40 * square))
             throw ArgumentError("closest_point: a round shape stands in an instance that does not leave it round");
     }
-    return std::sqrt(square);
+    return std::ldexp(std::sqrt(square), scaled.exponent);
 }
 
 // A BLAS as it stands in the world, seen from the point, in units in which all is of size 1 at most.
@@ -74,7 +77,8 @@ struct Seen {
 
 class Walk {
 public:
-    Walk(const flat::Scene& scene, const Point3& point, double max_distance, double time) : scene_(scene), time_(time) {
+    Walk(const flat::Scene& scene, const Point3& point, double max_distance, double time)
+        : scene_(scene), time_(time), max_distance_(max_distance) {
         const double size = std::max(max_abs(point - Point3{}), flat::blas_at(scene, BlasId::root).extent);
         unit_ = std::ldexp(1.0, std::clamp(-std::ilogb(std::max(size, 0x1p-900)), -1000, 900));
         origin_ = unit_ * (point - Point3{});
@@ -121,6 +125,7 @@ public:
         NearestSurface found = best_;
         if (found.primitive == flat::RawHit::kMiss) return found;
         found.distance = length(best_.point.at) / unit_;
+        if (found.distance > max_distance_) return {};  // by the slack of its square
         found.position = Point3{} + (1 / unit_) * (origin_ + best_.point.at);
         return found;
     }
@@ -221,7 +226,7 @@ private:
     }
 
     const flat::Scene& scene_;
-    double time_, unit_ = 1, best_squared_ = kInfinity;
+    double time_, max_distance_, unit_ = 1, best_squared_ = kInfinity;
     Vec3 origin_;
     NearestSurface best_;
 };

@@ -10,8 +10,10 @@ answered with `Tensor`, an array of numpy that has `.numpy()`. Numbers are float
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -60,8 +62,11 @@ def _array(value: Any, name: str, types: tuple[type, ...], otherwise: type) -> n
     elif isinstance(value, (list, tuple)):
         try:
             array = np.asarray(value, otherwise)
+            kind = np.asarray(value).dtype.kind
         except (TypeError, ValueError, OverflowError) as error:
             raise TypeError(f"{name}: {error}") from None
+        if np.issubdtype(otherwise, np.integer) and array.size and kind not in "iu":
+            raise TypeError(f"{name}: must be whole numbers")
     else:
         raise TypeError(f"{name}: must be an array or a tensor, not {type(value).__name__}")
     if array.dtype not in types:
@@ -81,6 +86,18 @@ def _numbers(value: Any, name: str, width: int) -> np.ndarray:
 def _like(value: Any, array: np.ndarray) -> Any:
     """The answer to `value`."""
     return type(value).from_numpy(np.ascontiguousarray(array)) if _is_open3d(value) else array.view(Tensor)
+
+
+@contextlib.contextmanager
+def _renamed(*names: tuple[str, str]) -> Iterator[None]:
+    """Errors with limn's names of arguments get Open3D's."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:
+        text = str(error)
+        for own, theirs in names:
+            text = text.replace(own, theirs)
+        raise type(error)(text) from None
 
 
 def _odd(nsamples: int) -> None:
@@ -126,9 +143,11 @@ class RaycastingScene:
         indices = triangle_indices if triangle_indices is not None else triangles
         if indices is None:
             positions, indices = _mesh_arrays(positions if mesh is None else mesh)
-        number = self._scene.add_triangles(
+        vertices_of, triangles_of = (
             _array(positions, "vertex_positions", (np.float32,), np.float32),
             _array(indices, "triangle_indices", (np.uint32, np.int32, np.int64, np.uint64), np.int64))
+        with _renamed(("faces:", "triangle_indices:"), ("vertices:", "vertex_positions:")):
+            number = self._scene.add_triangles(vertices_of, triangles_of)
         self._compiled = None
         return number
 
@@ -147,7 +166,8 @@ class RaycastingScene:
         array = _numbers(rays, "rays", 6)
         if not array.size:
             return _like(rays, np.zeros(array.shape[:-1], bool))
-        return _like(rays, self._ready().test_occlusions(array, nthreads, t_min=tnear, t_max=tfar))
+        with _renamed(("t_min", "tnear"), ("t_max", "tfar")):
+            return _like(rays, self._ready().test_occlusions(array, nthreads, t_min=tnear, t_max=tfar))
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> Any:
         """How many surfaces each ray passes through: int32."""
@@ -244,11 +264,15 @@ def _pinhole(intrinsic: np.ndarray, rotation: np.ndarray, eye: np.ndarray, width
 def _rays_of_matrices(intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: int, height_px: int) -> Any:
     intrinsic = _double(intrinsic_matrix, "intrinsic_matrix", (3, 3))
     extrinsic = _double(extrinsic_matrix, "extrinsic_matrix", (4, 4))
+    if not (np.isfinite(intrinsic).all() and np.linalg.matrix_rank(intrinsic) == 3):
+        raise ValueError("intrinsic_matrix: must be finite and have an inverse")
     rotation = extrinsic[:3, :3]
     return _like(intrinsic_matrix, _pinhole(intrinsic, rotation, -rotation.T @ extrinsic[:3, 3], width_px, height_px))
 
 
 def _rays_of_view(fov_deg: float, center: Any, eye: Any, up: Any, width_px: int, height_px: int) -> Any:
+    if not 0 < fov_deg < 180:
+        raise ValueError(f"fov_deg: must lie between 0 and 180, not {fov_deg}")
     start = _double(eye, "eye", (3,))
     forward = _double(center, "center", (3,)) - start
     right = np.cross(forward, _double(up, "up", (3,)))

@@ -51,17 +51,21 @@ class RayMeshIntersector:
     def __init__(self, geometry: Any, scale_to_box: bool = True, threads: int = 0) -> None:
         self.mesh = geometry
         self.threads = threads
-        self._compiled: tuple[int, CompiledScene] | None = None
+        self._compiled: tuple[Any, CompiledScene] | None = None
 
     def _scene(self) -> CompiledScene:
-        """The mesh as it is now: trimesh tells by its hash whether it has changed."""
-        key = hash(self.mesh)
+        """The mesh as it is now: trimesh tells by its hash whether it has changed, others do not."""
+        is_trimeshs = type(self.mesh).__module__.startswith("trimesh.")
+        key: Any = hash(self.mesh) if is_trimeshs else tuple(array.tobytes() for array in self._arrays())
         if self._compiled is None or self._compiled[0] != key:
             scene = Scene()
-            scene.add_triangles(np.ascontiguousarray(self.mesh.vertices, np.float32),
-                                np.ascontiguousarray(self.mesh.faces))
+            scene.add_triangles(*self._arrays())
             self._compiled = key, scene.compile()
         return self._compiled[1]
+
+    def _arrays(self) -> tuple[npt.NDArray[np.float32], npt.NDArray[Any]]:
+        """Vertices and faces."""
+        return np.ascontiguousarray(self.mesh.vertices, np.float32), np.ascontiguousarray(self.mesh.faces)
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_compiled": None}

@@ -109,6 +109,7 @@ Transform matrix(MatrixArgument argument, const char* name) {
 ArrayView::ArrayView(nb::handle object, const char* name, const char* expected) {
     if (object.is_none() || !nb::try_cast(object, array_, false)) wrong_type(name, expected, object);
     if (array_.device_type() != nb::device::cpu::value) wrong_value(name, "must lie in the CPU's memory");
+    if (array_.dtype().bits < 8) wrong_type(name, expected, object);  // DLPack has types of parts of bytes
     std::int64_t stride = 1;
     for (std::size_t axis = rank(); array_.size() > 0 && axis-- > 0;) {
         if (length(axis) > 1 && array_.stride(axis) != stride)

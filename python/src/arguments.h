@@ -44,6 +44,7 @@ LIMN_ARGUMENT(WindowArgument, "collections.abc.Sequence[int] | None");
 LIMN_ARGUMENT(SurfaceArgument, "Material");
 LIMN_ARGUMENT(MaterialArgument, "Material | None");
 LIMN_ARGUMENT(MaterialsArgument, "Material | collections.abc.Sequence[Material] | None");
+LIMN_ARGUMENT(BackgroundArgument, "Background");
 LIMN_ARGUMENT(EnvironmentArgument, "EnvironmentMap | None");
 LIMN_ARGUMENT(ShapeArgument, "Hittable");
 LIMN_ARGUMENT(CallbackArgument, "collections.abc.Callable[[Progress], bool | None] | None");

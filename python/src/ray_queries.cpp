@@ -22,10 +22,12 @@ public:
     std::optional<Rows> directions;  // where `rows` are origins alone
     double t_min = 0, t_max = kInfinity;
 
-    // Origins and directions. \pre of the same shape
+    // Origins and directions.
     RayRows(ArrayArgument origins, ArrayArgument ways)
         : rows(origins, "ray_origins", 3, "an array, shape (n, 3)"),
-          directions(std::in_place, ways, "ray_directions", 3, "an array, shape (n, 3)") {}
+          directions(std::in_place, ways, "ray_directions", 3, "an array, shape (n, 3)") {
+        if (directions->shape() != rows.shape()) wrong_value("ray_directions", "must have the shape of ray_origins");
+    }
 
     RayRows(ArrayArgument rays, NumberArgument lowest, NumberArgument highest, const char* lowest_name,
             const char* highest_name)
@@ -230,9 +232,9 @@ Returns:
                 "t_max: float = math.inf) -> numpy.typing.NDArray"),
         R"(How many surfaces each ray passes through: int64, shape (...).
 
-A passage through an edge or a vertex counts once, and a ray that only touches a surface or runs along it passes through
-none: the number is even between two points outside of closed surfaces, and odd if one of them is inside. So it may
-differ from the number of hits that list_intersections gives. Arguments as those of cast_rays.)");
+A passage through an edge or a vertex counts once; a ray that only touches a closed surface or runs along it enters and
+leaves, or misses. So the number is even between two points outside of closed surfaces, and odd if one of them is inside.
+It may differ from the number of hits that list_intersections gives. Arguments as those of cast_rays.)");
     type.def(
         "list_intersections",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,

@@ -22,6 +22,15 @@ std::size_t add(Scene& scene, ShapeArgument object) {
     return scene.add(shared<Hittable>(object.object, "object", "a shape or a light"));
 }
 
+void set_background(Scene& scene, BackgroundArgument argument) {
+    scene.background = *shared<Background>(argument.object, "background", "a Background");
+}
+
+void set_name(Scene& scene, NameArgument argument) {
+    if (!nb::isinstance<nb::str>(argument.object)) wrong_type("name", "a string", argument.object);
+    scene.name = nb::cast<std::string>(argument.object);
+}
+
 // None: there is no map, and the background counts.
 void set_environment(Scene& scene, EnvironmentArgument argument) {
     scene.environment = argument.object.is_none()
@@ -32,8 +41,12 @@ void set_environment(Scene& scene, EnvironmentArgument argument) {
 void bind_description(nb::module_& module) {
     nb::class_<Scene>(module, "Scene", "Objects, lights and a background. Compile it to trace rays or to render.")
         .def(nb::init<>())
-        .def_rw("background", &Scene::background)
-        .def_rw("name", &Scene::name)
+        .def_prop_rw(
+            "background", [](const Scene& scene) { return scene.background; }, &set_background,
+            nb::for_setter(given("background")), "What rays meet that hit nothing.")
+        .def_prop_rw(
+            "name", [](const Scene& scene) { return scene.name; }, &set_name, nb::for_setter(given("name")),
+            "In reports.")
         .def("__len__", [](const Scene& scene) { return scene.objects().size(); })
         .def_prop_ro(
             "bounds", [](const Scene& scene) { return corners(scene.bounds()); },

@@ -145,9 +145,9 @@ TEST_CASE("Recompiling: what cannot be moved is refused, and the scene stays as 
     refused({{0, {}}}, "recompile: object 0: it is no Instance of something");
     refused({{2, {}}}, "recompile: object 2: it is no Instance of something");
     refused({{1, {}}, {1, {}}}, "recompile: object 1 is moved twice");
-    refused({{1, flat}}, "recompile: object 1: it: the matrix is singular");
+    refused({{1, flat}}, "recompile: object 1: Instance: the matrix is singular");
     refused({{1, {}, Transform::scale(-1, 1, 1)}},
-            "recompile: object 1: it: the moving transform is singular at some time of the shutter");
+            "recompile: object 1: Instance: the moving transform is singular at some time of the shutter");
     scene = recompile(std::move(scene), std::vector<MovedObject>{{1, Transform::translate({0, 0, 9})}});
     CHECK_FALSE(scene.any_hit({{3, 0, 5}, {0, 0, -1}}));
     CHECK(scene.any_hit({{0, 0, 20}, {0, 0, -1}}));

@@ -104,6 +104,51 @@ TEST_CASE("Scene files: a scene that was read is the one that was written, and g
     CHECK(content(folder.path("b.scene")) == content(path));
 }
 
+TEST_CASE("Scene files: two of one scene, compiled once or twice, are the same bytes", "[compile][scene-file]") {
+    const Folder folder;
+    const auto bytes_of_scene = [&](const CompiledScene& scene) {
+        scene.save(folder.path("same.scene"));
+        return content(folder.path("same.scene"));
+    };
+    const CompiledScene scene = scene_of_everything();
+    CHECK(bytes_of_scene(scene) == bytes_of_scene(scene));
+    CHECK(bytes_of_scene(scene) == bytes_of_scene(scene_of_everything()));
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        const auto zoo = [&] {
+            Random random(seed);
+            std::vector<Object> objects{random_instance(random, random_shape(random, seed % 5))};
+            for (std::size_t i = 0; i < seed % 10; ++i) objects.push_back(random_object(random, 2));
+            return compile(zoo_of("zoo", objects).scene);
+        };
+        if (zoo().features().find("foreign") == std::string::npos)
+            CHECK(bytes_of_scene(zoo()) == bytes_of_scene(zoo()));
+    }
+}
+
+#if defined(__has_builtin) && __has_builtin(__builtin_clear_padding)
+// Padding keeps whatever memory held: see flat/tables.h.
+TEST_CASE("Scene files: what is written as it lies in memory has no padding", "[compile][scene-file]") {
+    const auto has_none = []<class T>(std::type_identity<T>) {
+        alignas(T) std::array<unsigned char, sizeof(T)> bytes;
+        bytes.fill(0xff);
+        T& value = *std::launder(reinterpret_cast<T*>(bytes.data()));
+        __builtin_clear_padding(&value);
+        return std::ranges::count(bytes, 0xff) == sizeof(T);
+    };
+    int number = 0;
+    const flat::Scene scene;
+    flat::each_table(scene, [&]<class Table>(const Table&) {
+        CAPTURE(number++);
+        CHECK(has_none(std::type_identity<typename Table::value_type>()));
+    });
+    flat::each_value(scene, [&]<class T>(const T&) {
+        CAPTURE(number++);
+        CHECK(has_none(std::type_identity<T>()));
+    });
+}
+#endif
+
 TEST_CASE("Scene files: lights that are no shapes, and the environment", "[compile][scene-file]") {
     const Folder folder;
     Scene described;

@@ -165,3 +165,21 @@ TEST_CASE("Closest points: every kind of shape, in instances and media, beside t
     strange.add(std::make_shared<Stranger>(ball({0, 0, 0}, 1)));
     CHECK_THROWS_AS(compile(strange).closest_point({0, 0, 0}), ArgumentError);
 }
+
+TEST_CASE("Closest points: none farther than asked for, by the distance that is told", "[hard][closest-point]") {
+    Scene scene;
+    scene.add(ball({0, 0, 0}, 1));
+    const CompiledScene compiled = compile(scene);
+    CHECK(compiled.closest_point({5, 0, 0}, 4));
+    CHECK_FALSE(compiled.closest_point({5, 0, 0}, std::nextafter(4.0, 0.0)));
+}
+
+TEST_CASE("Closest points: of spheres in instances of any size", "[hard][closest-point]") {
+    for (const double size : {1e-100, 1.0, 1e100, 1e156}) {
+        Scene scene;
+        scene.add(std::make_shared<Instance>(ball({0, 0, 0}, 1), Transform::scale(size, size, size)));
+        const auto nearest = compile(scene).closest_point({3 * size, 0, 0});
+        REQUIRE(nearest);
+        CHECK(nearest->distance == Approx(2 * size));
+    }
+}

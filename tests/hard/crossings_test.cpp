@@ -248,3 +248,16 @@ TEST_CASE("Open edges: none of closed meshes, welded or not, and those of a hole
     scene.add(std::make_shared<Instance>(lone, Transform::translate({7, 0, 0})));
     CHECK(compile(scene).open_edges() == 7);
 }
+
+TEST_CASE("Crossings: where a ray touches a box or runs along its face it enters and leaves, or misses",
+          "[hard][crossings]") {
+    Scene scene;
+    scene.add(make_box({0, 0, 0}, {1, 1, 1}, nullptr));
+    const CompiledScene box = compile(scene);
+    const auto count = [&](const Point3& origin, const Vec3& way) { return box.count_intersections({origin, way}); };
+    CHECK(count({-1, 1, 0.5}, {1, -1, 0}) == 2);  // at an edge
+    CHECK(count({-1, 0, 0.5}, {1, 0, 0}) == 2);   // along a face
+    CHECK(count({-1, 1, 0.5}, {1, 0, 0}) == 0);   // along the opposite one
+    scene.add(ball({9, 0, 0}, 1));
+    CHECK(compile(scene).count_intersections({{9, 1, 5}, {0, 0, -1}}) == 0);
+}

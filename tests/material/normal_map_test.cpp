@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bsdf/lobe.h"
 #include "catch.h"
 #include "limn/core/error.h"
 #include "limn/limn.h"
@@ -124,4 +125,22 @@ TEST_CASE("NormalMap: nothing in it, and one of another, is refused", "[material
     RecordSink sink;
     const auto once = std::make_shared<NormalMap>(white, leaning(0, 0));
     CHECK_THROWS_AS(NormalMap(once, leaning(0, 0)).lower(sink), ArgumentError);
+}
+
+TEST_CASE("NormalMap: a direction that rounding leaves no density weighs nothing", "[material][normal-map]") {
+    const bsdf::Lobe lobe{
+        .one_sided = true,
+        .numbers = 2,
+        .sample =
+            [](bsdf::Vertices& v) {
+                v.direction.set(0, Vec3{1, 0, 0});  // along the surface
+                v.weight.set(0, kWhite), v.pdf[0] = 1;
+            },
+        .value = [](bsdf::Vertices& v, const sampling::Rows3&) { v.value.set(0, Color{}), v.value_pdf[0] = 0; }};
+    const auto v = std::make_unique<bsdf::Vertices>();
+    v->count = 1, v->folds = 1;
+    v->normal.set(0, Vec3{0, 0, 1}), v->shading_normal.set(0, normalize(Vec3{0.5, 0, 1}));
+    bsdf::sample(lobe, *v);
+    CHECK(v->weight.get<Color>(0) == Color{});
+    CHECK(v->pdf[0] > 0);
 }

@@ -51,6 +51,14 @@ class Errors(unittest.TestCase):
             odd = np.frombuffer(bytes(6 * 8 + 2), np.uint8)[2:].view(np.float64).reshape(1, 6)
         self.refuses("rays", ValueError, self.scene.cast_rays, odd)
 
+    def test_rays_in_two_arrays_are_as_many(self):
+        for query in (self.scene._nearest, self.scene._any):
+            self.refuses("ray_directions", ValueError, query, np.zeros((3, 3)), np.ones((2, 3)), 0)
+
+    def test_scenes(self):
+        for name, bad in (("background", None), ("background", 3), ("name", 3), ("name", None)):
+            self.refuses(name, TypeError, setattr, limn.Scene(), name, bad)
+
     def test_points(self):
         for query in ("contains", "winding_number", "compute_distance", "compute_signed_distance",
                       "compute_closest_points"):

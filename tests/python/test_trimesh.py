@@ -1,6 +1,7 @@
 """limn.trimesh.RayMeshIntersector beside trimesh's own, on rays through the insides of triangles."""
 
 import copy
+import dataclasses
 import pickle
 import unittest
 
@@ -74,6 +75,23 @@ class Trimesh(unittest.TestCase):
 
     def test_a_mesh_need_not_be_trimeshs(self):
         self.assertEqual(RayMeshIntersector(MeshObject(box())).intersects_any([[.2, .3, 5]], [[0, 0, -1]]).tolist(), [True])
+
+    def test_a_mesh_without_a_hash_of_its_own_is_asked_as_it_is_now(self):
+        @dataclasses.dataclass
+        class Unhashable:
+            vertices: np.ndarray
+            faces: np.ndarray
+
+        class ByIdentity:
+            pass
+
+        plain = ByIdentity()
+        plain.vertices, plain.faces = box()
+        for mesh in (Unhashable(*box()), plain):
+            ours, inside = RayMeshIntersector(mesh), box()[0].mean(axis=0, keepdims=True)
+            self.assertTrue(ours.contains_points(inside)[0])
+            mesh.vertices = mesh.vertices + np.float32(9)
+            self.assertFalse(ours.contains_points(inside)[0])
 
     def test_errors_name_the_argument(self):
         for name, kind, call in (

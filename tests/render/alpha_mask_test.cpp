@@ -102,6 +102,36 @@ TEST_CASE("AlphaMask: both estimators find the light that passes, and that of la
     }
 }
 
+TEST_CASE("AlphaMask: round lamps with holes give what scattering finds, from their far walls too",
+          "[render][alpha-mask]") {
+    const auto wall = upright(-2, 2, 0, std::make_shared<Lambertian>(Color{.8, .8, .8}));
+    const auto lamp = [](Sides sides) { return std::make_shared<DiffuseLight>(Color{9, 9, 9}, sides); };
+    const auto ball = [](MaterialPtr material) { return sphere({0, 0, 0}, 1, std::move(material)); };
+    const Object masked[] = {ball(std::make_shared<AlphaMask>(lamp(Sides::both), 0.5)),
+                             ball(std::make_shared<AlphaMask>(lamp(Sides::back), 0.5)),
+                             ball(std::make_shared<AlphaMask>(lamp(Sides::front), parts({1, 0})))};
+    for (const Object& object : masked) {
+        const Transform place = Transform::translate({3, 0, 3}) * Transform::rotate_y(180);
+        const std::vector<Object> objects{wall, std::make_shared<Instance>(object, place)};
+        const double path = mean(picture(objects, Estimator::path, 0, 1024));
+        CHECK(path > 0);
+        CHECK(mean(picture(objects, Estimator::naive, 0, 1024)) == Approx(path).epsilon(0.03));
+    }
+}
+
+TEST_CASE("AlphaMask: lamps with user-defined opacities are not sampled, as those of such light",
+          "[render][alpha-mask]") {
+    struct Own final : Texture {
+        Color value(const Surface&) const override { return {0.5, 0.5, 0.5}; }
+    };
+    const auto lamp = std::make_shared<DiffuseLight>(Color{9, 9, 9});
+    const auto lights = [](MaterialPtr material) {
+        return compile_with(Background::black(), {upright(-1, 1, 0, std::move(material))}).stats().lights;
+    };
+    CHECK(lights(std::make_shared<AlphaMask>(lamp, 0.5)) == 1);
+    CHECK(lights(std::make_shared<AlphaMask>(lamp, std::make_shared<Own>())) == 0);
+}
+
 TEST_CASE("AlphaMask: a picture without its background has their holes in its alpha", "[render][alpha-mask]") {
     RenderSettings settings = square(8, 64, 4);
     settings.transparent = true;

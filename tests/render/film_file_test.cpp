@@ -163,6 +163,32 @@ TEST_CASE("Film files: a header that cannot be, with a checksum that is right, i
     CHECK(fault_of(folder.write("plan.film", with_chunk_sums(plan))) == "is a plan, not a film");
 }
 
+TEST_CASE("Film files: more tiles than a film can have, or than the file holds, and endless rates are refused",
+          "[render][film-file]") {
+    const Folder folder;
+    FilmInfo info = some_info();
+    info.scene.clear(), info.features.clear();
+    Film film = some_film(info);
+    const auto fault = [&](const std::string& bytes) {
+        return fault_of(folder.write("a.film", with_chunk_sums(bytes)));
+    };
+    const std::string bytes = bytes_of(folder, film);
+    // Behind the content and the two empty names.
+    const auto with_sides = [&](std::int32_t side) {
+        std::string other = bytes;
+        for (const std::size_t place : {24 + 17, 24 + 21}) std::memcpy(&other[place], &side, 4);
+        return other;
+    };
+    CHECK(fault(with_sides(1 << 20)) == "is damaged: its header");
+    CHECK(fault(bytes.substr(0, bytes.size() / 2)) == "is cut short");
+    const float endless = std::numeric_limits<float>::infinity();
+    film.plan().rates[3] = endless;
+    CHECK(fault(bytes_of(folder, film)) == "is damaged: its rates");
+    film.plan().rates[3] = 1;
+    film.plan().scale = static_cast<double>(endless);
+    CHECK(fault(bytes_of(folder, film)) == "is damaged: its plan");
+}
+
 TEST_CASE("Film files: what is no film, or not there, is refused by name", "[render][film-file]") {
     const Folder folder;
     CHECK(fault_of(folder.path("none.film")) == "there is no such file");

@@ -44,6 +44,15 @@ RenderSettings stopping_at(RenderSettings settings, std::atomic<int>& questions)
     return settings;
 }
 
+// Fails at the n-th question, from 0 on, and no more.
+struct FailingOnce final : Texture {
+    Color value(const Surface&) const override {
+        if (left-- == 0) throw Error("once");
+        return {0.5, 0.5, 0.5};
+    }
+    mutable std::atomic<int> left = -1;
+};
+
 std::string fault_of(const std::function<void()>& call) {
     try {
         call();
@@ -75,6 +84,25 @@ TEST_CASE("Jobs: stopped anywhere and run again, a render is the one that was no
         // There is nothing left to do.
         questions = 100;
         CHECK(job.run() == unbroken.report.stopped_by);
+        check_same(job.result(), unbroken);
+    }
+}
+
+TEST_CASE("Jobs: run again after user-defined code has thrown, a render is the one that was not", "[render][job]") {
+    const auto texture = std::make_shared<FailingOnce>();
+    const CompiledScene scene =
+        compile_with(sky(1), {quad({-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, std::make_shared<Lambertian>(texture)),
+                              sphere({0, 0.5, 0}, 0.5, std::make_shared<Metal>(Color{0.9, 0.9, 0.9}, 0.2)),
+                              sphere({3, 3, 0}, 0.5, lamp(50))});
+    RenderSettings settings = settings_of({}, 8);
+    settings.threads = 1;
+    const RenderResult unbroken = render(scene, kEye, settings);
+    for (const int at : {37, 700, 1000, 5000}) {
+        CAPTURE(at);
+        RenderJob job(scene, kEye, settings);
+        texture->left = at;
+        CHECK(fault_of([&] { job.run(); }) == "once");
+        job.run();
         check_same(job.result(), unbroken);
     }
 }

@@ -264,3 +264,15 @@ TEST_CASE("Instance: an unusable ray misses", "[shape][instance]") {
     const Instance instance(unit_sphere(), Transform::scale(2, 2, 2));
     for (const Ray& ray : test::unusable_rays()) CHECK_FALSE(instance.hit(ray));
 }
+
+TEST_CASE("Instance: whether a motion is singular does not depend on its size", "[shape][instance]") {
+    for (const double size : {1e-100, 1e-54, 1.0, 1e54, 1e100}) {
+        CAPTURE(size);
+        const auto of = [&](double s) { return Transform::scale(s * size, s * size, s * size); };
+        const auto moving = [&](const Transform& end) { return Instance(unit_sphere(), of(1), end * of(1)); };
+        CHECK_THROWS_AS(Instance(unit_sphere(), of(1), of(-1)), ArgumentError);
+        CHECK_THROWS_AS(moving(Transform::rotate_y(180)), ArgumentError);
+        CHECK_NOTHROW(moving(Transform::rotate_y(150)));
+        CHECK_NOTHROW(Instance(unit_sphere(), of(1), Transform{}));
+    }
+}

@@ -59,10 +59,18 @@ TEST_CASE("Smooth normals: triangles without area, three at an edge and opposite
     CHECK(smooth.material_slots.empty());
 }
 
-TEST_CASE("Smooth normals: angles and indices out of range are refused", "[shape][smooth]") {
+TEST_CASE("Smooth normals: angles and indices out of range, and arrays of other lengths, are refused",
+          "[shape][smooth]") {
     for (const double angle : {-1.0, 181.0, std::nan("")})
         CHECK_THROWS_AS(smooth_normals(cube_mesh(), angle), ArgumentError);
     MeshData broken = cube_mesh();
     broken.triangles.push_back({0, 1, 8});
     CHECK_THROWS_AS(smooth_normals(broken, 30), ArgumentError);
+    for (const std::size_t more : {std::size_t{0}, std::size_t{2}}) {  // one too few, one too many
+        MeshData uvs = cube_mesh(), slots = cube_mesh(), faces = cube_mesh();
+        uvs.uvs.resize(uvs.vertices.size() - 1 + more);
+        slots.material_slots.resize(slots.triangles.size() - 1 + more);
+        faces.faces.resize(faces.triangles.size() - 1 + more);
+        for (const MeshData& data : {uvs, slots, faces}) CHECK_THROWS_AS(smooth_normals(data, 30), ArgumentError);
+    }
 }

@@ -63,10 +63,11 @@ public:
     ///@}
 
     /// Where the ray passes through surfaces between t_min and t_max, by t: once also where it goes through an edge or
-    /// a vertex, and not where it only touches or runs along a face. The ray counts as moved by less than any number,
-    /// both ends with it, always the same way (docs/queries.md); so a closed surface is passed an even number of times
-    /// between two points outside, and an end that lies on a surface is on one side of it. Disks and user-defined
-    /// shapes answer as they do for all_hits. None for an unusable ray.
+    /// a vertex. The ray counts as moved by less than any number, both ends with it, always the same way
+    /// (docs/queries.md); so where it only touches a closed surface or runs along a face it enters and leaves, or
+    /// misses, that surface is passed an even number of times between two points outside, and an end that lies on a
+    /// surface is on one side of it. A ray that touches a sphere misses it. Disks and user-defined shapes answer as
+    /// they do for all_hits. None for an unusable ray.
     ///@{
     std::vector<RayCrossing> crossings(const Ray& ray) const;
     void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;

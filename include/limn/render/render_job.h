@@ -40,7 +40,8 @@ public:
     /// Renders until something of the settings ends it. Continues where it was ended before, by a time limit (which
     /// begins anew), the callback or an exception.
     StoppedBy run();
-    /// So many samples more in the mean over pixels, from 1 on, whatever the error is.
+    /// So many samples more in the mean over pixels, from 1 on, whatever the error is: beyond the pass that was begun,
+    /// which is finished first where something ended it.
     StoppedBy add_samples(int count);
 
     /// Writes the film to a file, which appears whole or not at all. By any thread, at any time: while the job runs,
@@ -96,8 +97,8 @@ private:
     Repeated repeated_;
 };
 
-/// If the error of the film's picture, as `render_result` estimates it, is over its target: writes to `path` how many
-/// samples per pixel each shard needs next, for RenderJob::load_plan. \throws FileError; ArgumentError if there is no
+/// Writes to `path` how many samples per pixel each shard needs next, for RenderJob::load_plan. For a film whose error,
+/// as `render_result` estimates it, is over its target. \throws FileError; ArgumentError if there is no
 /// target, the film is not whole or has too few samples
 void plan_next_round(const Film& film, const ErrorEstimate& error, const std::string& path);
 

@@ -45,7 +45,7 @@ public:
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
     /// Writes what the object consists of. The default writes one record of a user-defined shape, through which the
-    /// compiled scene calls `hit`. It counts as one element, whatever Hit::element says.
+    /// compiled scene calls `hit`. It counts as one element, so that Hit::element is to be 0: lists count on from it.
     virtual void lower(RecordSink& sink) const;
 };
 

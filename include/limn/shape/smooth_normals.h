@@ -14,7 +14,8 @@ namespace limn {
 ///
 /// \param crease_degrees in [0, 180]; 180 smooths everything but borders
 ///
-/// \throws ArgumentError for another angle, or a triangle that refers to a vertex that is not there
+/// \throws ArgumentError for another angle, a triangle that refers to a vertex that is not there, or `uvs`,
+/// `material_slots` or `faces` of another length than the vertices or triangles that they belong to
 MeshData smooth_normals(const MeshData& data, double crease_degrees);
 
 }  // namespace limn
