@@ -38,15 +38,11 @@ case $target in
         cp "$here"/seeds/*.gltf "$here"/seeds/*.glb "$seeds"
         largest=4096
         ;;
-    load_film)
-        cp "$here"/seeds/*.film "$seeds"
-        largest=25000  # a tile has 20504
-        ;;
-    load_scene)
-        # What the bytes of a small scene are changed by: none of them, and all.
+    load_film | load_scene)
+        # What the bytes of a small film or scene are changed by: none of them, and all.
         head -c 4096 /dev/zero >"$seeds/nothing"
         head -c 4096 /dev/zero | tr '\0' '\377' >"$seeds/everything"
-        largest=8192
+        [[ $target == load_scene ]] && largest=8192 || largest=65536  # two tiles have 41008
         ;;
     read_rays)
         printf '0 0 5 0 0 -1\n# a comment\n\n1e-3 +2. .5 0 1 0 0 inf\n' >"$seeds/rays.txt"
