@@ -298,7 +298,7 @@ TEST_CASE("Jobs: a shard ends by samples or a plan alone", "[render][job][shard]
 TEST_CASE("Jobs: to an error in rounds, by shards and plans", "[render][job][shard]") {
     const Folder folder;
     const CompiledScene scene = lit_scene();
-    const double error = 0.01;
+    const double error = 0.001;
     constexpr int kShards = 3;
     const RenderResult alone = render(scene, kEye, settings_of(error));
     std::vector<std::string> paths;
