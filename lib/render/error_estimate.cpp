@@ -69,17 +69,10 @@ ErrorEstimate without(const std::string& reason) {
     return e;
 }
 
-constexpr double kFewSamples = 16;  // below: few
-
-// More room than that in the interval, as a logarithm, and there is none. Few samples find light in so few of the
-// pixels that have it that they tell little of the others: measured at 8, a fifth was needed where two thirds were
-// missing.
-double most_not_found(double samples) { return samples < kFewSamples ? 0.2 : 3; }
-
-// In how large a part of the picture the noise must be. A pixel that one of few samples has lit amid dark ones may show
-// a small lamp, whose brightness it divides by, or a stray sample: where a thirtieth carries all noise, that decides
-// it. Measured at 8: 2 % where small lamps are seen, 6 % and more elsewhere.
-double least_noisy_part(double samples) { return samples < kFewSamples ? 1.0 / 30 : 0; }
+// More room than that in the interval, as a logarithm, for what the pixels' own noise hides, and there is none. Few
+// samples find light in so few of the pixels that have it that they tell little of the others: measured at 8, a fifth
+// was needed where two thirds were missing, or where the estimate was three times the error.
+double most_hidden(double samples) { return samples < 16 ? 0.2 : 3; }
 
 ErrorEstimate estimate(const Film& film, PixelMaps* maps) {
     if (!film.is_whole()) return without("only some of the picture's pixels are rendered");
@@ -87,16 +80,12 @@ ErrorEstimate estimate(const Film& film, PixelMaps* maps) {
         return without("fewer than " + std::to_string(SamplePlan::kFirstPass) + " samples in a pixel");
     PixelErrors errors = pixel_errors(film);
     if (!std::isfinite(errors.sum)) return without("samples too large for their squares");
-    if (errors.not_found > most_not_found(film.mean_samples()))
+    if (errors.not_found + errors.by_noise > most_hidden(film.mean_samples()))
         return without("too much of the noise comes from samples that found light alone in their pixels");
-    const double pixels = static_cast<double>(film.pixels());
-    const double noisy = errors.sum > 0 ? equal_pixels(film, errors) : pixels;
-    if (noisy < least_noisy_part(film.mean_samples()) * pixels)
-        return without("few pixels have most of the noise, and few samples tell little of these");
     ErrorEstimate e;
-    e.estimate = errors.sum / pixels;
+    e.estimate = errors.sum / static_cast<double>(film.pixels());
     if (e.estimate > 0) {
-        const double deviation = std::hypot(ratio_deviation(noisy), errors.by_noise);
+        const double deviation = std::hypot(ratio_deviation(equal_pixels(film, errors)), errors.by_noise);
         e.ci95_low = e.estimate * std::exp(-kNormal975 * deviation - errors.by_surround);
         e.ci95_high = e.estimate * std::exp(kNormal975 * deviation + errors.not_found);
     }

@@ -18,8 +18,8 @@ namespace limn {
 /// What the render knows of its own relMSE (see image/compare.h), from the difference of two independent replicates.
 /// The reference in the denominator is the pixel's own mean where it differs from the pixels around by more than noise,
 /// otherwise their mean. There is none with fewer than 8 samples in a pixel, where too much of the noise comes from
-/// samples that found light alone in their pixels or, below 16 samples, from few of the pixels, or where the squares of
-/// samples are no numbers. Light that no path has found yet cannot be seen.
+/// samples that found light alone in their pixels, or where the squares of samples are no numbers. Light that no path
+/// has found yet cannot be seen.
 struct ErrorEstimate {
     double estimate = 0;  ///< NaN where there is none
     /// The 95 % interval of the picture's true error, from the spread over pixels; NaN where there is none.
