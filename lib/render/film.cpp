@@ -200,6 +200,7 @@ std::size_t Film::own_pixels() const {
 }
 
 std::uint32_t Film::fewest_samples() const {
+    if (!is_whole()) return 0;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
     for (int y = 0; y < height(); ++y)
         for (int x = 0; x < width(); ++x) fewest = std::min(fewest, samples(x, y));
