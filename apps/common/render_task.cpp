@@ -10,7 +10,6 @@
 #include "limn/core/file_lock.h"
 #include "limn/core/files.h"
 #include "limn/query/compiled_scene.h"
-#include "limn/render/film.h"
 #include "limn/render/render_job.h"
 #include "picture_output.h"
 #include "progress_bar.h"
@@ -57,11 +56,7 @@ void load_film(RenderJob& job, const RenderOptions& options, const Console& cons
     if (options.resume.empty()) return;
     if (is_replaced(options) && !std::filesystem::exists(options.resume))
         console.note(options.resume + ": is not there yet; the render begins");
-    else
-        job.load(options.resume);
-    // A part in place of a film with more tiles would lose their samples.
-    if (is_replaced(options) && !job.film().is_whole() && std::filesystem::exists(options.resume) &&
-        Film::load(options.resume).tiles().size() != job.film().tiles().size())
+    else if (!job.load(options.resume) && is_replaced(options))  // whose other tiles would be lost
         throw FileError(options.resume, "has more tiles than this --shard, and would be replaced by a part of itself");
 }
 

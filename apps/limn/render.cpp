@@ -51,21 +51,19 @@ void take_camera(const Model& model, const Arguments& a, Figure& figure) {
     figure.settings.width = static_cast<int>(std::max(width, 1.0));
 }
 
-std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) {
-    Image image = load_image(path);
+// step() uses what the file at `path` holds, and whatever argument it refuses is a fault of that file.
+template <class Step>
+auto from_file(const std::string& path, const Step& step) {
     try {
-        return std::make_shared<EnvironmentMap>(std::move(image));
+        return step();
     } catch (const ArgumentError& e) {
         throw FileError(path, e.what());
     }
 }
 
-ModelView view_model_of(const Arguments& a, const Model& model, const ViewOptions& view) {
-    try {
-        return view_model(model, view);
-    } catch (const ArgumentError& e) {
-        throw FileError(a.model, e.what());
-    }
+std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) {
+    Image image = load_image(path);
+    return from_file(path, [&] { return std::make_shared<EnvironmentMap>(std::move(image)); });
 }
 
 Figure view_of(const Arguments& a, const Model& model) {
@@ -77,7 +75,7 @@ Figure view_of(const Arguments& a, const Model& model) {
     if (a.camera.projection) view.projection = *a.camera.projection;
     if (a.camera.up) view.up = *a.camera.up;
     if (!a.environment.empty()) view.environment = load_environment(a.environment);
-    ModelView seen = view_model_of(a, model, view);
+    ModelView seen = from_file(a.model, [&] { return view_model(model, view); });
     figure.scene = std::move(seen.scene);
     figure.camera = seen.camera;
     figure.name = std::filesystem::path(a.model).filename().string();

@@ -34,7 +34,7 @@ public:
           film_(transport::film_info(scene, camera, settings)),
           renderer_(scene.flat(), film_.info()) {}
 
-    void load(const std::string& path) {
+    bool load(const std::string& path) {
         transport::FilmReader reader = checked_reader(path, transport::FilmContent::film);
         Film film(film_.info());
         reader.read_tiles(film);
@@ -42,6 +42,7 @@ public:
         film.set_seconds(reader.seconds());
         film_ = std::move(film);
         is_planned_ = false;
+        return film_.tiles().size() == reader.tiles().size();
     }
 
     void load_plan(const std::string& path) {
@@ -307,7 +308,7 @@ private:
 RenderJob::RenderJob(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings)
     : impl_(std::make_unique<Impl>(scene, camera, settings)) {}
 RenderJob::~RenderJob() = default;
-void RenderJob::load(const std::string& path) { impl_->load(path); }
+bool RenderJob::load(const std::string& path) { return impl_->load(path); }
 void RenderJob::load_plan(const std::string& path) { impl_->load_plan(path); }
 StoppedBy RenderJob::run() { return impl_->run(); }
 StoppedBy RenderJob::add_samples(int count) { return impl_->add_samples(count); }

@@ -17,8 +17,8 @@ inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 // many it gets. For a given sum of n_i it is least where n_i is proportional to sqrt(e_i) (Neyman, On the two different
 // aspects of the representative method, 1934). e_i is taken from the pixels around i and never from i itself: how many
 // samples a pixel gets is independent of them, but for the one factor that all share, so that its mean stays unbiased,
-// and so does what its replicates say of its variance. Contrast around i counts, too: what no sample has seen yet lies at
-// edges. (Weighing by the rays that a sample takes gained nothing.)
+// and so does what its replicates say of its variance. Contrast around i counts, too: what no sample has seen yet lies
+// at edges. (Weighing by the rays that a sample takes gained nothing.)
 //
 // \pre the film has SamplePlan::kFirstPass samples in each pixel. Runs on the threads of the caller's arena, the same
 // on any number.

@@ -1,6 +1,7 @@
 // Checks that several shapes share.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,13 @@ void require_finite(const T& value, std::string_view shape, const char* argument
 template <class T>
 void require_not_null(const T& pointer, const char* shape, const char* argument) {
     if (!pointer) throw ArgumentError(std::string(shape) + ": " + argument + " must not be null");
+}
+
+// An array of MeshData may be empty; otherwise it has an entry for each vertex, or each triangle.
+inline void require_length(std::size_t length, std::size_t expected, std::string_view who, const char* array) {
+    if (length != 0 && length != expected)
+        throw ArgumentError(std::string(who) + ": " + array + " has " + std::to_string(length) +
+                            " entries instead of " + std::to_string(expected));
 }
 
 // Where an Instance may stand.

@@ -13,17 +13,11 @@ namespace limn {
 
 namespace {
 
-void require_length(std::size_t length, std::size_t expected, const char* array) {
-    if (length != 0 && length != expected)
-        throw ArgumentError(std::string("Mesh: ") + array + " has " + std::to_string(length) + " entries instead of " +
-                            std::to_string(expected));
-}
-
 void check(const MeshData& data, std::size_t materials) {
-    require_length(data.normals.size(), data.vertices.size(), "normals");
-    require_length(data.uvs.size(), data.vertices.size(), "uvs");
-    require_length(data.material_slots.size(), data.triangles.size(), "material_slots");
-    require_length(data.faces.size(), data.triangles.size(), "faces");
+    require_length(data.normals.size(), data.vertices.size(), "Mesh", "normals");
+    require_length(data.uvs.size(), data.vertices.size(), "Mesh", "uvs");
+    require_length(data.material_slots.size(), data.triangles.size(), "Mesh", "material_slots");
+    require_length(data.faces.size(), data.triangles.size(), "Mesh", "faces");
     for (std::size_t i = 0; i < data.vertices.size(); ++i)
         require_finite(to_vec(data.vertices[i]), "Mesh", ("vertex " + std::to_string(i)).c_str());
     for (std::size_t i = 0; i < data.normals.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "core/require.h"
 #include "limn/core/math.h"
 #include "predicates/mesh_triangle.h"
+#include "shape/arguments.h"
 #include "shape/position_numbers.h"
 
 namespace limn {
@@ -130,14 +131,9 @@ private:
 }  // namespace
 
 MeshData smooth_normals(const MeshData& data, double crease_degrees) {
-    const auto require_length = [](std::size_t length, std::size_t expected, const char* array) {
-        require(length == 0 || length == expected, std::string("smooth_normals: ") + array + " has " +
-                                                       std::to_string(length) + " entries instead of " +
-                                                       std::to_string(expected));
-    };
-    require_length(data.uvs.size(), data.vertices.size(), "uvs");
-    require_length(data.material_slots.size(), data.triangles.size(), "material_slots");
-    require_length(data.faces.size(), data.triangles.size(), "faces");
+    require_length(data.uvs.size(), data.vertices.size(), "smooth_normals", "uvs");
+    require_length(data.material_slots.size(), data.triangles.size(), "smooth_normals", "material_slots");
+    require_length(data.faces.size(), data.triangles.size(), "smooth_normals", "faces");
     require(crease_degrees >= 0 && crease_degrees <= 180, "smooth_normals: the angle must be in [0, 180]");
     return Smoother(data, crease_degrees).smooth();
 }

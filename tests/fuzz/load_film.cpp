@@ -2,11 +2,9 @@
 // is given cuts a file short and changes its bytes behind the versions; the checksums are made right, so that what is
 // within reaches the reader.
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "core/read_file.h"
 #include "limn/core/error.h"
 #include "limn/render/film.h"
 #include "render/film_file.h"
@@ -29,8 +27,7 @@ std::string small_film(const std::string& path, FilmContent content) {
         film.save(path);
     else
         limn::transport::FilmWriter(path, film, content).finish(film.plan(), film.plan().rates, 2.5);
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return limn::read_file(path);
 }
 
 }  // namespace

@@ -3,11 +3,10 @@
 // reaches the reader.
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "bsdf/albedo_table.h"
+#include "core/read_file.h"
 #include "limn/core/error.h"
 #include "query/scene_file.h"
 #include "scratch_file.h"
@@ -32,8 +31,7 @@ std::string small_scene(const std::string& path) {
     scene.images.push_back(std::make_shared<limn::Image>(2, 1));
     scene.environment.image = std::make_shared<limn::Image>(1, 2);
     limn::query::write_scene(scene, path);
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return limn::read_file(path);
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ TEST_CASE("Sample rates: they grow as the standard deviation, and none falls und
     CHECK(std::abs((sums[2] - 0.25) / (sums[1] - 0.25) - 3) < 0.3);
 }
 
-TEST_CASE("Sample rates: at edges without noise pixels get more, by as much as they may have missed", "[render][adaptive]") {
+TEST_CASE("Sample rates: at edges without noise pixels get more, by as much as they may have missed",
+          "[render][adaptive]") {
     // A lamp of 4 beside black, in whose edge no sample has fallen; a noise of 1 % far from it.
     Film film(48, 16);
     for (int y = 0; y < 16; ++y)

@@ -33,7 +33,8 @@ public:
     /// Continues from a film instead of the job's own. It may have more tiles than the job's shard.
     /// \throws FileError as Film::load; also if it is of another scene or camera, or other settings but for threads,
     /// samples, error and time limit; the job is then as before
-    void load(const std::string& path);
+    /// \return whether the job has all of the film's tiles
+    bool load(const std::string& path);
     /// Renders what a plan wants instead of what the settings say. \throws FileError as `load`
     void load_plan(const std::string& path);
 
