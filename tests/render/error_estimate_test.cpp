@@ -226,6 +226,21 @@ TEST_CASE("Error estimate: light that most samples miss leaves no estimate, or a
     CHECK(std::isnan(estimate_error(bright).ci95_high));
 }
 
+TEST_CASE("Error estimate: of 8 samples there is none where pixels unlike those around are mostly noise",
+          "[render][estimate]") {
+    // A third of the pixels is as dark as what relMSE adds, so that nothing is thought missing in them.
+    const auto one_in_8 = [](int samples) {
+        Film film(60, 60);
+        for (int y = 0; y < 60; ++y)
+            for (int x = 0; x < 60; ++x)
+                for (int i = 0; i < samples; ++i)
+                    film.add(x, y, grey_of(x % 3 == 0 ? 0 : x % 3 == 1 ? (i % 8 == 0 ? 0.79 : 0) : 1));
+        return film;
+    };
+    CHECK_FALSE(estimate_error(one_in_8(8)).reason.empty());
+    CHECK(estimate_error(one_in_8(16)).reason.empty());
+}
+
 TEST_CASE("Error estimate: the pixels' own errors have the estimate as their mean", "[render][estimate]") {
     Random random(5);
     for (const double lamp : {0.0, 100.0}) {  // beside a lamp the surround decides
