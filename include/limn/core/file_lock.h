@@ -6,12 +6,12 @@
 
 namespace limn {
 
-/// The right to write a file. One process has it at a time, and it ends with the process. It holds over replacements of
-/// the file: the lock is on PATH.lock beside it, which a killed process leaves behind without harm.
-/// Where the file system has no locks, every process gets one.
+/// The right to write a file. One object has it at a time, of all processes, and it ends with its process. It holds
+/// over replacements of the file: the lock is on PATH.lock beside it, which a killed process leaves behind without
+/// harm. Where the file system has no locks, every process gets one.
 class FileLock {
 public:
-    /// \throws FileError if another process has it, or PATH.lock cannot be made
+    /// \throws FileError if it is held already, by this process or another, or PATH.lock cannot be made
     explicit FileLock(const std::string& path);
     ~FileLock();
     FileLock(const FileLock&) = delete;

@@ -11,7 +11,8 @@ namespace limn {
 /// \throws FileError naming the file
 void save_text(std::string_view text, const std::string& path);
 
-/// Throws what save_text would throw for a reason that can be known beforehand: folder, permissions, no file.
+/// Throws now what save_text would throw later because the folder is missing, it may not be written, or the path is not
+/// of a regular file.
 void check_text_writable(const std::string& path);
 
 /// The file that save_text and save_image would write for `path`: absolute, behind all links, also those that lead to a

@@ -10,7 +10,7 @@ namespace limn {
 struct RayFrame;  // limn's own
 
 /// The half-open segment origin + t direction, t in (t_min, t_max]. The direction need not have unit length; t is in
-/// units of it. `time` is in shutter units, 0 to 1; times outside are clamped by whatever moves.
+/// units of it. `time` is in shutter units, 0 to 1; finite times outside are clamped by whatever moves.
 struct Ray {
     Point3 origin;             ///< finite
     Vec3 direction;            ///< of any finite length but zero
@@ -27,8 +27,8 @@ struct Ray {
     constexpr Point3 at(double t) const { return origin + t * direction; }
 };
 
-/// Whether a ray can be traced: finite origin and direction, a direction that is not zero, no NaN, t_min <= t_max,
-/// t_min below +infinity. In every query an unusable ray misses.
+/// Whether a ray can be traced: finite origin, direction and time, a direction that is not zero, no NaN, t_min <=
+/// t_max, t_min below +infinity. In every query an unusable ray misses.
 inline bool is_usable(const Ray& r) {
     return is_finite(r.origin) && is_finite(r.direction) && !(r.direction == Vec3{}) && r.t_min <= r.t_max &&
            r.t_min < kInfinity && std::isfinite(r.time);

@@ -33,7 +33,9 @@ struct Surface {
     Uv uv;                   ///< texture coordinates
     bool front_face = true;  ///< whether the ray came from the side of the shape's outward normal
     MaterialRef material;    ///< valid as long as the compiled scene
-    Vec3 dp_du, dp_dv;       ///< how the position moves with `uv`; zero of user-defined shapes and at poles of spheres
+    /// How the position moves with `uv`; zero of user-defined shapes and at poles of spheres, edges of a mesh's
+    /// triangle where its uv have no area.
+    Vec3 dp_du, dp_dv;
 
     /// A ray that leaves in `direction` from a point moved off the surface by its error bound, towards the side that
     /// the direction points to, so that it cannot hit the same flat or convex surface again (Pharr, Jakob, Humphreys,

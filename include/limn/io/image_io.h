@@ -51,10 +51,11 @@ struct SaveOptions {
 /// compared, flushed to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system
 /// lets it; a link is followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
 ///
-/// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG
+/// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG,
+/// values too large for HDR
 ///
-/// \throws ArgumentError if a fact's or a layer's name cannot be written, alpha or a layer is not of the picture's
-/// size, the picture does not lie in the whole, or the exposure is not finite
+/// \throws ArgumentError if a fact's name or text or a layer's name cannot be written, alpha or a layer is not of the
+/// picture's size, the picture does not lie in the whole, or the exposure is not finite
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
 /// \throws FileError where save_image would throw it for the name alone: an unknown suffix

@@ -23,12 +23,12 @@ struct ModelOptions {
     std::optional<double> crease{};
 };
 
-/// Reads a model, in any locale; what it is the contents tell, whatever the name: Wavefront OBJ (load_obj), PLY,
-/// STL, glTF 2.0 (.gltf and .glb). What
-/// becomes of materials, and what a warning: docs/models.md. Only regular files are read: no pipe, no device.
+/// Reads a model, in any locale: Wavefront OBJ (load_obj), PLY, STL or glTF 2.0 (.gltf and .glb), told apart by their
+/// contents; the name counts only for a damaged binary STL. docs/models.md says what materials become and what gives a
+/// warning. Only regular files are read: no pipe, no device.
 ///
-/// \throws FileError naming the file and the place in it: unreadable, no model (and what it appears to be), damaged, no
-/// usable face
+/// \throws FileError naming the file and, where there is one, the place in it: unreadable, no model (and what it
+/// appears to be), damaged, no usable face
 ///
 /// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_model(const std::string& path, const ModelOptions& options = {});

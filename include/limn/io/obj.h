@@ -28,7 +28,7 @@ using ObjOptions = ModelOptions;  ///< what load_obj puts where the files say no
 /// | Ke not black | DiffuseLight(Ke) |
 /// | illum 4, 6, 7, 9, no map_Kd, no map_d | Dielectric(index), with Pr RoughDielectric |
 /// | Pm | MetallicRoughness(Kd, Pm, roughness); Plastic at 0, RoughConductor at 1 |
-/// | illum 0, 1, 10, or Ks black | Lambertian(Kd) |
+/// | illum 0, 1, 10, or Ks black and no map_Ks | Lambertian(Kd) |
 /// | illum 3, 5, 8, or no illum and Ks brighter than Kd; no map_Kd | RoughConductor(Ks, roughness) |
 /// | else | Plastic(Kd, roughness, index, Ks) |
 ///

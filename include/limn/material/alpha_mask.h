@@ -8,7 +8,7 @@ namespace limn {
 
 /// Another material where a texture is opaque; elsewhere light passes as if there were no surface. Renders follow it
 /// for all rays, those to lamps included; queries of a CompiledScene tell of the whole surface. On a user-defined shape
-/// it has no effect.
+/// it has no effect. compile() refuses one around another.
 class AlphaMask final : public Material {
 public:
     /// \param opacity a texture whose red, from 0 to 1, is how much of the light the surface stops

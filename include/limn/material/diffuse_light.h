@@ -8,8 +8,9 @@
 namespace limn {
 
 /// Emits the same radiance in every direction, on both sides or one, and scatters nothing. On a sphere, triangle, quad,
-/// disk or mesh it is sampled as a light, unless the texture is user-defined (docs/architecture.md, "One path", also
-/// for instanced spheres). Elsewhere paths find it by scattering.
+/// disk or mesh it is sampled as a light, unless its texture, or that of an AlphaMask around it, is user-defined, or it
+/// is on a sphere with an AlphaMask (docs/architecture.md, "One path", also for instances). Elsewhere paths find it by
+/// scattering.
 class DiffuseLight final : public Material {
 public:
     /// \throws ArgumentError if a component is negative or not finite; if the texture is null

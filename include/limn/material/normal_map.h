@@ -7,8 +7,8 @@
 namespace limn {
 
 /// Another material around normals that a texture bends. Its red, green and blue, from 0 to 1, are the coordinates from
-/// -1 to 1 along Surface::dp_du, across it towards dp_dv, and along the shading normal, as in glTF; where the shape has
-/// no dp_du the normal is not bent.
+/// -1 to 1 along Surface::dp_du, across it towards dp_dv, and along the shading normal (whose sign is not used), as in
+/// glTF; where the shape has no dp_du the normal is not bent.
 ///
 /// What limn's own materials reflect is not lost where the normal is bent: it is turned into view where it faces away,
 /// and what is reflected below the geometric surface leaves as if mirrored there, which is the tangent facet of

@@ -64,10 +64,10 @@ public:
 
     /// Where the ray passes through surfaces between t_min and t_max, by t: once also where it goes through an edge or
     /// a vertex. The ray counts as moved by less than any number, both ends with it, always the same way
-    /// (docs/queries.md); so where it only touches a closed surface or runs along a face it enters and leaves, or
-    /// misses, that surface is passed an even number of times between two points outside, and an end that lies on a
-    /// surface is on one side of it. A ray that touches a sphere misses it. Disks and user-defined shapes answer as
-    /// they do for all_hits. None for an unusable ray.
+    /// (docs/queries.md). So a ray that touches a closed surface or runs along a face crosses it twice or not at all:
+    /// between two points outside, the count is even. An end that lies on a surface counts as on one side of it. A ray
+    /// that touches a sphere misses it. Disks and user-defined shapes answer as they do for all_hits. None for an
+    /// unusable ray.
     ///@{
     std::vector<RayCrossing> crossings(const Ray& ray) const;
     void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;
@@ -148,15 +148,15 @@ public:
     /// user-defined objects; FileError
     void save(const std::string& path) const;
     /// The scene in a file that `save` wrote, in about the time that reading takes.
-    /// \throws FileError if there is none, it is damaged or cut short, or of another version of limn
+    /// \throws FileError if there is none, it is damaged or cut short, or of another format or layout of tables
     static CompiledScene load(const std::string& path);
 
     const SceneStats& stats() const { return stats_; }  ///< counts and sizes
     /// What is compiled in, separated by spaces: "sphere quad mesh instance moving-instance foreign-shape texture ..."
     const std::string& features() const;
     const std::string& name() const;  ///< Scene::name
-    /// Of all that its pictures depend on: the same wherever and however it was compiled. User-defined objects are in
-    /// it by their tags (core/tagged.h).
+    /// Of all that its pictures depend on: the same however it was compiled, on machines of one kind
+    /// (docs/long-renders.md). User-defined objects are in it by their tags (core/tagged.h).
     const Hash128& digest() const;
     bool has_untagged() const;  ///< whether it has user-defined objects without a tag
 
@@ -179,7 +179,8 @@ struct CompileSettings {
 
 /// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene and settings give the same
 /// tables. \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
-/// contains a medium, there are too many primitives, or the background is negative or not finite
+/// contains a medium, a NormalMap or an AlphaMask stands around another of its kind, there are too many primitives, or
+/// the background is negative or not finite
 CompiledScene compile(const Scene& scene, const CompileSettings& settings = {});
 
 /// Makes of a compiled scene what `compile` makes of its description with some Instances elsewhere. The trees of what

@@ -19,7 +19,7 @@
 
 namespace limn {
 
-/// All that a sample depends on but its pixel and its index. Films of equal ones can be continued and merged.
+/// What films must have in common to be continued and merged, but for `scene`, `features` and `shard`.
 struct FilmInfo {
     std::string scene{};     ///< Scene::name
     std::string features{};  ///< CompiledScene::features
@@ -97,7 +97,7 @@ public:
     static Film load(const std::string& path);
     /// The film that the tiles of all files make together, in any order; needs the memory of one film.
     /// \throws FileError, which names the files, also if they are not of one render, are unfinished, overlap, or leave
-    /// tiles out
+    /// tiles out; ArgumentError if there are no paths
     static Film merge(std::span<const std::string> paths);
     /// Writes the film to a file as save_image does: whole or not at all. \throws FileError
     void save(const std::string& path) const;

@@ -16,10 +16,10 @@
 namespace limn {
 
 /// What the render knows of its own relMSE (see image/compare.h), from the difference of two independent replicates.
-/// The reference in the denominator is the pixel's own mean where it differs from the pixels around by more than noise,
-/// otherwise their mean. There is none with fewer than 8 samples in a pixel, where too much of the noise comes from
-/// samples that found light alone in their pixels, or where the squares of samples are no numbers. Light that no path
-/// has found yet cannot be seen.
+/// The reference in the denominator lies between the mean of the eight pixels around and the pixel's own, nearer to its
+/// own the more the 3x3 pixels differ beyond their noise. There is no estimate with fewer than 8 samples in a pixel,
+/// where too much of the noise comes from samples that found light alone in their pixels, or where the squares of
+/// samples are no numbers. Light that no path has found yet cannot be seen.
 struct ErrorEstimate {
     double estimate = 0;  ///< NaN where there is none
     /// The 95 % interval of the picture's true error, from the spread over pixels; NaN where there is none.
@@ -46,7 +46,7 @@ struct RenderReport {
     int max_depth = 0;                    ///< as asked for
     double samples_per_pixel = 0;         ///< mean over pixels
     double compile_seconds = 0;           ///< that `compile` took
-    double render_seconds = 0;            ///< that `render` took
+    double render_seconds = 0;            ///< that its samples took, in all runs and parts
     std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
     std::uint64_t nonfinite_samples = 0;  ///< counted as black
     /// Of `rays`, those that a shape or material of extreme numbers made unusable (see is_usable): they carry
@@ -74,12 +74,13 @@ struct PixelMaps {
 struct RenderResult {
     Image image;          ///< linear, not clamped
     ErrorEstimate error;  ///< of `image`
-    RenderReport report;  ///< of this run
-    PixelMaps maps;       ///< of `image`
+    /// Of all runs and parts that made the film; `threads`, `complete` and `stopped_by` of the last run.
+    RenderReport report;
+    PixelMaps maps;  ///< of `image`
 };
 
-/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera, size, samples or error
-/// asked for, depth, seed, filter, estimator and sampler alone: not on threads, unless a time limit hits.
+/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera and settings, but not on
+/// `threads` and `progress`, unless a time limit or the callback ends the render.
 ///
 /// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
 /// memory lacks; what the progress callback or a user-defined object throws

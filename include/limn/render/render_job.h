@@ -70,7 +70,7 @@ private:
 /// \endcode
 class Repeated {
 public:
-    /// Every `seconds`, over 0. What the function throws ends the program.
+    /// Every `seconds`. What the function throws ends the program. \throws ArgumentError if seconds are not over 0
     Repeated(double seconds, std::function<void()> function);
     /// Waits for a call that runs, and makes no more.
     ~Repeated();
@@ -85,11 +85,11 @@ private:
 /// Saves a job's film regularly, in a thread of its own, as long as this object lives.
 class Checkpoints {
 public:
-    /// Every `seconds`, over 0. The job must outlive the object. `failed` is called by that thread with what was wrong
-    /// when a film could not be written; the render continues.
+    /// Every `seconds`. The job must outlive the object. `failed` is called by that thread with what was wrong
+    /// when a film could not be written; the render continues. \throws ArgumentError if seconds are not over 0
     Checkpoints(const RenderJob& job, const std::string& path, double seconds,
                 std::function<void(const Error&)> failed);
-    /// Ends at once, without saving.
+    /// Waits for a save that is under way, and begins no other.
     ~Checkpoints();
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;

@@ -14,7 +14,7 @@ namespace limn {
 /// How far a render has come.
 struct Progress {
     double fraction = 0;  ///< 0 to 1, never decreasing; an estimate where an error or a time was asked for
-    double seconds = 0;   ///< since the render began
+    double seconds = 0;   ///< since this run began
 };
 
 /// How radiance is estimated. `path` samples lights and scattering and weighs both by multiple importance sampling;
@@ -54,13 +54,15 @@ struct RenderSettings {
     /// upper end of the estimate's 95 % interval is at or under it. How many samples that takes does not depend on
     /// threads or time.
     std::optional<double> error{};
-    /// Seconds of rendering after which it ends with what there is, over 0. The picture then depends on the machine.
+    /// Seconds of a run after which it ends with what there is, over 0; but each pixel gets its first 8 samples in any
+    /// case. The picture then depends on the machine.
     std::optional<double> time_limit{};
     /// With `error` or `time_limit`: the samples, in the mean over pixels, after which the render ends in any case, at
     /// least 1.
     int max_samples_per_pixel = kMostSamples;
-    /// With `error` or `time_limit`, after 8 samples in each pixel, those whose surroundings are noisier get more, and
-    /// none less than a quarter of the mean; the picture stays unbiased. True: all get as many.
+    /// False: after 8 samples in each pixel, pixels in noisy surroundings get more than others, and each gets at least
+    /// a quarter of the mean; the picture stays unbiased. True: all pixels get the same number. Matters only with
+    /// `error` or `time_limit`.
     bool uniform = false;
     /// The pixels to render, of a picture of `width` x `height`, in which they must lie; not empty. By default all.
     /// With as many samples they are those of the whole picture, bit for bit; where `error` or `time_limit` lets

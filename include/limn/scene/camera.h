@@ -16,8 +16,8 @@ enum class Projection : std::uint8_t {
     perspective,   ///< from the eye through a flat frame
     orthographic,  ///< along the view, from the plane through the eye that stands across it
     /// From the eye to all sides: across the picture goes the longitude, 360 degrees, and down it the latitude, 180
-    /// (equirectangular). What is in the middle of its frame is `look_at`, and the poles are along `up`, less what of
-    /// it lies along the view.
+    /// (equirectangular). What is in the middle of its frame is `look_at`, and the poles are along the component of
+    /// `up` that is perpendicular to the view.
     panorama
 };
 
@@ -45,8 +45,8 @@ struct Camera {
 class CameraRays {
 public:
     /// \throws ArgumentError for an impossible camera: eye equal to target, up along the view, an angle outside (0,
-    /// 180) (aperture [0, 180)), a height, a focus distance or a size that is not positive, a shutter outside [0, 1], a
-    /// panorama with a lens, anything NaN
+    /// 180) (aperture [0, 180)), an aspect ratio, a height, a focus distance or a size that is not positive, a frame or
+    /// a lens beyond double, a shutter outside [0, 1], a panorama with a lens, anything NaN
     CameraRays(const Camera& camera, int width, int height);
 
     /// The ray through a point of the picture. Its direction reaches from the lens to the plane at distance 1 from it:

@@ -60,7 +60,7 @@ struct Model {
 
     std::size_t vertices = 0;              ///< positions in the file; of an STL those that differ
     std::size_t faces = 0;                 ///< in the file
-    std::size_t dropped_faces = 0;         ///< fewer than three corners, or no area
+    std::size_t dropped_faces = 0;         ///< fewer than three corners, no area, or too complicated to cut
     std::size_t degenerate_triangles = 0;  ///< of exactly zero area, which no ray can hit
     /// What in the files was not used as they say, a missing MTL first: a missing texture, an unknown material, lines
     /// that were passed over, and once for each MTL the words that its materials have and limn does not use.

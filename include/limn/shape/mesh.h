@@ -19,8 +19,8 @@ struct MeshData {
 };
 
 /// A triangle mesh. Its elements are in the order of `data.triangles`. u and v are the weights of the second and third
-/// vertex. Triangles whose area is exactly zero are dropped and counted; tiny and huge ones are ordinary. `hit` tests
-/// every triangle: it is the definition; compile a scene to trace many rays.
+/// vertex. Triangles whose area is exactly zero are counted, and never hit; tiny and huge ones are ordinary. `hit`
+/// tests every triangle: it is the definition; compile a scene to trace many rays.
 class Mesh final : public Hittable {
 public:
     /// \throws Error if there is no usable triangle; ArgumentError if an index or material slot is out of range, an
