@@ -6,6 +6,7 @@
 
 #include "accel/parallel.h"
 #include "compile/steps.h"
+#include "core/elementary.h"
 #include "limn/core/math.h"
 
 namespace limn::compiler {
@@ -48,11 +49,11 @@ void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
     for (std::size_t band = 0; band <= height; ++band) {
         const double upper = band == 0 ? 0 : (static_cast<double>(band) - 0.5) / static_cast<double>(height);
         const double lower = band == height ? 1 : (static_cast<double>(band) + 0.5) / static_cast<double>(height);
-        e.band_cosine.push_back(std::cos(kPi * upper));
+        e.band_cosine.push_back(cosine(kPi * upper));
         e.band_before.push_back(sum);
         const double rows = e.row_luminance[band == 0 ? 0 : band - 1] + e.row_luminance[std::min(band, height - 1)];
         // cos a - cos b, which does not cancel
-        sum += 2 * std::sin(kPi / 2 * (lower + upper)) * std::sin(kPi / 2 * (lower - upper)) * rows / 2;
+        sum += 2 * sine(kPi / 2 * (lower + upper)) * sine(kPi / 2 * (lower - upper)) * rows / 2;
     }
     e.band_cosine.push_back(-1);
     e.band_before.push_back(sum);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "core/elementary.h"
 #include "limn/core/math.h"
 
 namespace limn::compiler {
@@ -30,16 +31,16 @@ Cone merge(Cone a, Cone b) {
     if (a.cos_spread == flat::kNoNormals && b.cos_spread == flat::kNoNormals) return a;
     if (a.cos_spread <= 0 || b.cos_spread <= 0) return {a.axis, 0};
     if (dot(a.axis, b.axis) < 0) b.axis = -b.axis;
-    const double spread_a = std::acos(a.cos_spread), spread_b = std::acos(b.cos_spread);
-    const double between = std::atan2(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
+    const double spread_a = arc_cosine(a.cos_spread), spread_b = arc_cosine(b.cos_spread);
+    const double between = arc_tangent(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
     if (between + spread_b <= spread_a) return a;
     if (between + spread_a <= spread_b) return b;
     const double spread = (spread_a + between + spread_b) / 2;
     if (spread >= kPi / 2) return {a.axis, 0};
     const double turn = spread - spread_a;  // from a towards b
     const Vec3 aside = normalize(cross(cross(a.axis, b.axis), a.axis));
-    if (!is_finite(aside)) return {a.axis, std::cos(spread)};
-    return {normalize(std::cos(turn) * a.axis + std::sin(turn) * aside), std::cos(spread)};
+    if (!is_finite(aside)) return {a.axis, cosine(spread)};
+    return {normalize(cosine(turn) * a.axis + sine(turn) * aside), cosine(spread)};
 }
 
 LightBounds merge(const LightBounds& a, const LightBounds& b) {
@@ -51,10 +52,10 @@ LightBounds merge(const LightBounds& a, const LightBounds& b) {
 // The integral over all directions, each weighed by the largest cosine that any normal within the cone makes with it.
 double orientation_measure(double cos_spread) {
     if (cos_spread == flat::kNoNormals) return 4 * kPi;
-    const double spread = std::acos(cos_spread), sine = std::sin(spread);
+    const double spread = arc_cosine(cos_spread), sine_of = sine(spread);
     const double reach = std::min(spread + kPi / 2, kPi);
     return 2 * kPi * (1 - cos_spread) +
-           kPi / 2 * (2 * reach * sine - std::cos(spread - 2 * reach) - 2 * spread * sine + cos_spread);
+           kPi / 2 * (2 * reach * sine_of - cosine(spread - 2 * reach) - 2 * spread * sine_of + cos_spread);
 }
 
 double cost(const LightBounds& b) {

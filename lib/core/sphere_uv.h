@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "limn/core/math.h"
 #include "limn/core/ray.h"
 #include "limn/core/vec.h"
@@ -28,8 +29,8 @@ inline Vec3 sphere_normal(const Point3& center, const Ray& ray, double t) {
 
 // Shirley, Ray Tracing: The Next Week, section 4.4. The clamp: rounding may push a unit vector's y past 1.
 inline Uv sphere_uv(const Vec3& n) {
-    const double u = (std::atan2(-n.z, n.x) + kPi) / (2 * kPi);
-    return {std::clamp(u, 0.0, 1.0), std::acos(std::clamp(-n.y, -1.0, 1.0)) / kPi};
+    const double u = (arc_tangent(-n.z, n.x) + kPi) / (2 * kPi);
+    return {std::clamp(u, 0.0, 1.0), arc_cosine(std::clamp(-n.y, -1.0, 1.0)) / kPi};
 }
 
 }  // namespace limn

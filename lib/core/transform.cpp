@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/scaled_matrix.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
@@ -11,18 +12,14 @@ namespace limn {
 
 namespace {
 
-struct SinCos {
-    double sin, cos;
-};
-
 // Exact at multiples of a quarter turn, so that permutations of the axes stay permutations.
-SinCos sin_cos_degrees(double degrees) {
+SineAndCosine sine_cosine_of_degrees(double degrees) {
     const double turn = std::remainder(degrees, 360.0);
     if (turn == 0) return {0, 1};
     if (turn == 90) return {1, 0};
     if (turn == -90) return {-1, 0};
     if (std::abs(turn) == 180) return {0, -1};
-    return {std::sin(radians(turn)), std::cos(radians(turn))};
+    return sine_cosine(radians(turn));
 }
 
 }  // namespace
@@ -32,24 +29,24 @@ Transform Transform::translate(const Vec3& by) { return {{{{1, 0, 0, by.x}, {0, 
 Transform Transform::scale(double x, double y, double z) { return {{{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}}}}; }
 
 Transform Transform::rotate_x(double degrees) {
-    const auto [s, c] = sin_cos_degrees(degrees);
+    const auto [s, c] = sine_cosine_of_degrees(degrees);
     return {{{{1, 0, 0, 0}, {0, c, -s, 0}, {0, s, c, 0}}}};
 }
 
 Transform Transform::rotate_y(double degrees) {
-    const auto [s, c] = sin_cos_degrees(degrees);
+    const auto [s, c] = sine_cosine_of_degrees(degrees);
     return {{{{c, 0, s, 0}, {0, 1, 0, 0}, {-s, 0, c, 0}}}};
 }
 
 Transform Transform::rotate_z(double degrees) {
-    const auto [s, c] = sin_cos_degrees(degrees);
+    const auto [s, c] = sine_cosine_of_degrees(degrees);
     return {{{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, 0}}}};
 }
 
 // Rodrigues' rotation formula.
 Transform Transform::rotate(const Vec3& axis, double degrees) {
     if (!limn::is_finite(axis) || axis == Vec3{}) throw ArgumentError("rotate: the axis must be finite and not zero");
-    const auto [s, c] = sin_cos_degrees(degrees);
+    const auto [s, c] = sine_cosine_of_degrees(degrees);
     const Vec3 k = normalize(axis);
     const double d = 1 - c;
     return {{{{c + k.x * k.x * d, k.x * k.y * d - k.z * s, k.x * k.z * d + k.y * s, 0},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/elementary.h"
 #include "io/gltf_pictures.h"
 #include "io/model_textures.h"
 #include "limn/material/alpha_mask.h"
@@ -163,7 +164,7 @@ private:
         const GltfValue transform = info["extensions"]["KHR_texture_transform"];
         const std::vector<double> offset = transform["offset"].numbers_or({0, 0}),
                                   scale = transform["scale"].numbers_or({1, 1});
-        const double angle = transform["rotation"].number_or(0), c = std::cos(angle), s = std::sin(angle);
+        const auto [s, c] = sine_cosine(transform["rotation"].number_or(0));
         return {.uv_set = transform["texCoord"].natural_or(info["texCoord"].natural_or(0)),
                 .u_of = {c * scale[0], s * scale[1], offset[0]},
                 .v_of = {-s * scale[0], c * scale[1], offset[1]}};

@@ -5,6 +5,7 @@
 #include <new>
 #include <type_traits>
 
+#include "core/elementary.h"
 #include "core/read_file.h"
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
@@ -20,7 +21,7 @@ namespace {
 double decode_value(double stored, Transfer transfer, double exponent) {
     switch (transfer) {
         case Transfer::srgb: return srgb_decode(stored);
-        case Transfer::power: return std::copysign(std::pow(std::abs(stored), exponent), stored);
+        case Transfer::power: return std::copysign(power(std::abs(stored), exponent), stored);
         case Transfer::linear:
         case Transfer::unsaid: break;
     }

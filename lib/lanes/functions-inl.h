@@ -41,11 +41,9 @@ HWY_INLINE SineCosine<N> sine_cosine_near_zero(N x) {
     return {x + x * z * polynomial(z, kSine), one_less + (((1.0 - one_less) - half) + z * z * polynomial(z, kCosine))};
 }
 
-// Of `turns` times 2 pi, |turns| < 2^30.
+// Those of an angle and a whole number of quarter turns, |quarters| < 2^32.
 template <class N>
-HWY_INLINE SineCosine<N> sine_cosine_of_turns(N turns) {
-    const N quarters = round(turns * 4.0);
-    const SineCosine<N> s = sine_cosine_near_zero<N>((turns - quarters * 0.25) * (2 * kPi));
+HWY_INLINE SineCosine<N> turned(SineCosine<N> s, N quarters) {
     // Which quarter: 0 ... 3.
     const N quarter = quarters - floor(quarters * 0.25) * 4.0;
     const Mask<N> odd = (quarter == 1.0) | (quarter == 3.0);
@@ -53,10 +51,28 @@ HWY_INLINE SineCosine<N> sine_cosine_of_turns(N turns) {
     return {select(quarter >= 2.0, -sine, sine), select((quarter == 1.0) | (quarter == 2.0), -cosine, cosine)};
 }
 
-// The angle of (cosine, sine), of any length, from 0 to 2 pi, within some units in the last place. Arc tangent as in
-// Cephes (atan.c).
+// Of `turns` times 2 pi, |turns| < 2^30.
 template <class N>
-HWY_INLINE N angle_of(const SineCosine<N>& at) {
+HWY_INLINE SineCosine<N> sine_cosine_of_turns(N turns) {
+    const N quarters = round(turns * 4.0);
+    return turned(sine_cosine_near_zero<N>((turns - quarters * 0.25) * (2 * kPi)), quarters);
+}
+
+// Of |radians| <= 2^20. A quarter turn is subtracted in three parts, the products of the first two without rounding
+// (fdlibm, e_rem_pio2.c).
+template <class N>
+HWY_INLINE SineCosine<N> sine_cosine(N radians) {
+    constexpr double kFirst = 1.57079632673412561417, kSecond = 6.07710050630396597660e-11,
+                     kThird = 2.02226624879595063154e-21;
+    const N quarters = round(radians * (2 / kPi));
+    const N more = radians - quarters * kFirst, second = quarters * kSecond, rest = more - second;
+    return turned(sine_cosine_near_zero<N>(rest - (quarters * kThird - ((more - rest) - second))), quarters);
+}
+
+// The angle of (cosine, |sine|), of any length but 0, from 0 to pi, within some units in the last place. Arc tangent as
+// in Cephes (atan.c).
+template <class N>
+HWY_INLINE N angle_of_upper(const SineCosine<N>& at) {
     constexpr double kUpper[] = {-8.750608600031904122785e-1, -1.615753718733365076637e1, -7.500855792314704667340e1,
                                  -1.228866684490136173410e2, -6.485021904942025371773e1};
     constexpr double kLower[] = {1.0,
@@ -75,7 +91,13 @@ HWY_INLINE N angle_of(const SineCosine<N>& at) {
     const N arc = t + t * (z * polynomial(z, kUpper) / polynomial(z, kLower));
     N angle = select(large, kPi / 4 + arc, arc);
     angle = select(steep, kPi / 2 - angle, angle);
-    angle = select(at.cosine < 0.0, kPi - angle, angle);
+    return select(at.cosine < 0.0, kPi - angle, angle);
+}
+
+// The angle of (cosine, sine), from 0 to 2 pi.
+template <class N>
+HWY_INLINE N angle_of(const SineCosine<N>& at) {
+    const N angle = angle_of_upper(at);
     return select(at.sine < 0.0, 2 * kPi - angle, angle);
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/elementary.h"
+
 namespace limn::pattern {
 
 namespace {
@@ -66,7 +68,7 @@ double turbulence_factor(const PerlinLattice& lattice, double scale, const Point
 double marble(const PerlinLattice& lattice, double scale, const Point3& p) {
     const Point3 q = scaled(scale, p);
     const double phase = q.z + 10 * turbulence(lattice, q);
-    return std::isfinite(phase) ? (1 + std::sin(phase)) / 2 : 0.5;
+    return std::isfinite(phase) ? (1 + sine(phase)) / 2 : 0.5;
 }
 
 }  // namespace limn::pattern

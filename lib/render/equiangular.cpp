@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace limn::transport {
 
 namespace {
@@ -26,12 +28,12 @@ Equiangular::Equiangular(const Ray& ray, const Stretch& stretch, const Point3& p
     const Vec3 way = pivot - ray.origin, along = ray.direction / speed_;
     middle_ = dot(way, along);
     height_ = std::max(length(way - middle_ * along), least_height);
-    begin_ = std::atan((stretch.from * speed_ - middle_) / height_);
-    end_ = std::atan((stretch.to * speed_ - middle_) / height_);
+    begin_ = arc_tangent((stretch.from * speed_ - middle_) / height_);
+    end_ = arc_tangent((stretch.to * speed_ - middle_) / height_);
 }
 
 double Equiangular::sample(double u) const {
-    const double t = (middle_ + height_ * std::tan(begin_ + u * angle())) / speed_;
+    const double t = (middle_ + height_ * tangent(begin_ + u * angle())) / speed_;
     return std::clamp(t, stretch_.from, stretch_.to);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "core/elementary.h"
 #include "render/parallel.h"
 #include "render/pixel_errors.h"
 #include "render/window.h"
@@ -85,9 +86,10 @@ ErrorEstimate estimate(const Film& film, PixelMaps* maps) {
     ErrorEstimate e;
     e.estimate = errors.sum / static_cast<double>(film.pixels());
     if (e.estimate > 0) {
-        const double deviation = std::hypot(ratio_deviation(equal_pixels(film, errors)), errors.by_noise);
-        e.ci95_low = e.estimate * std::exp(-kNormal975 * deviation - errors.by_surround);
-        e.ci95_high = e.estimate * std::exp(kNormal975 * deviation + errors.not_found);
+        const double deviation =
+            std::sqrt(square(ratio_deviation(equal_pixels(film, errors))) + square(errors.by_noise));
+        e.ci95_low = e.estimate * exponential(-kNormal975 * deviation - errors.by_surround);
+        e.ci95_high = e.estimate * exponential(kNormal975 * deviation + errors.not_found);
     }
     if (maps) maps->error = std::move(errors.error);
     return e;

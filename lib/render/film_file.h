@@ -17,7 +17,7 @@
 namespace limn::transport {
 
 // Raised when the same scene, settings, seed and number give another sample than before: sums of both are of neither.
-inline constexpr std::uint32_t kSampleVersion = 3;
+inline constexpr std::uint32_t kSampleVersion = 4;
 
 enum class FilmContent : std::uint8_t { film, plan };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace limn::transport {
 
 namespace {
@@ -107,7 +109,7 @@ double MediaAlongRay::transmittance() const {
         depth += extinction * ((steps_[end].t - t) * speed_);
         return true;
     });
-    return std::exp(-depth);
+    return exponential(-depth);
 }
 
 // Of the media entered and not yet left before step `end`, one in proportion to its scattering.
@@ -145,14 +147,14 @@ FreeFlight MediaAlongRay::sample(double depth, double choose) const {
             scatter(flight, choose_medium(end, choose * scattering));
             flight.t = t + before / speed_;
             absorbed += absorption * before;
-            flight.density = scattering * std::exp(-depth);
+            flight.density = scattering * exponential(-depth);
             return false;
         }
         flight.depth += scattering * way;
         absorbed += absorption * way;
         return true;
     });
-    if (absorbed > 0) flight.weight *= std::exp(-absorbed);
+    if (absorbed > 0) flight.weight *= exponential(-absorbed);
     return flight;
 }
 
@@ -169,8 +171,8 @@ FreeFlight MediaAlongRay::scatter_at(double where, double choose) const {
         if (!(scattering > 0)) return false;
         scatter(flight, choose_medium(end, choose * scattering));
         flight.t = where;
-        flight.weight *= std::exp(-absorbed);
-        flight.density = scattering * std::exp(-depth);
+        flight.weight *= exponential(-absorbed);
+        flight.density = scattering * exponential(-depth);
         return false;
     });
     return flight;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/elementary.h"
 #include "core/spawn.h"
 #include "limn/scene/background.h"
 #include "shade/shading.h"
@@ -132,7 +133,7 @@ void PathTracer::draw_flights(std::size_t first) {
         sampling::Row numbers[2];
         draw(s, first, some, Use::flight, 2, numbers);
         for (std::size_t i = 0; i < some; ++i) {
-            s.depth[first + i] = -std::log1p(-numbers[0][i]);  // 53 bits: up to 36.7 mean free paths
+            s.depth[first + i] = -logarithm(1 - numbers[0][i]);  // 53 bits: exact, up to 36.7 mean free paths
             s.choose[first + i] = numbers[1][i];
         }
     }

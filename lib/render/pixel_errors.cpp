@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "image/compare_values.h"
 #include "render/parallel.h"
 #include "render/window.h"
@@ -130,7 +131,7 @@ private:
             mean += here.channels[c].value / 3;
         }
         if (share > kSingle && square(mean) > kDarkness)
-            sums.not_found = sums.error * own * std::log(square(mean) / kDarkness) / 2;
+            sums.not_found = sums.error * own * logarithm(square(mean) / kDarkness) / 2;
         errors_.error[film_.index(x, y)] = static_cast<float>(sums.error);
         errors_.own[film_.index(x, y)] = static_cast<float>(own);
         return sums;

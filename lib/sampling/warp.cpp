@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "limn/core/frame.h"
 #include "sampling/warps-inl.h"
 
@@ -42,10 +43,10 @@ double pdf_uniform_cone(double one_minus_cos_max) { return inl::uniform_cone_pdf
 
 Uv sample_uniform_triangle(double u, double v) { return v > u ? Uv{u / 2, v - u / 2} : Uv{u - v / 2, v / 2}; }
 
-double sample_exponential(double u, double sigma) { return sigma > 0 ? -std::log1p(-u) / sigma : kInfinity; }
+double sample_exponential(double u, double sigma) { return sigma > 0 ? -logarithm_of_1_plus(-u) / sigma : kInfinity; }
 
 double pdf_exponential(double distance, double sigma) {
-    return distance >= 0 ? sigma * std::exp(-sigma * distance) : 0;
+    return distance >= 0 ? sigma * exponential(-sigma * distance) : 0;
 }
 
 }  // namespace limn

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/elementary.h"
 #include "limn/core/error.h"
 #include "limn/core/math.h"
 #include "sampling/warps-inl.h"
@@ -77,7 +78,7 @@ void require(bool holds, const char* what) {
 // tan(degrees / 2), right to a few roundings. Near 180 degrees the tangent magnifies that of the angle: what is missing
 // there is exact.
 double tan_of_half(double degrees) {
-    return degrees <= 90 ? std::tan(radians(degrees) / 2) : 1 / std::tan(radians(180 - degrees) / 2);
+    return degrees <= 90 ? tangent(radians(degrees) / 2) : 1 / tangent(radians(180 - degrees) / 2);
 }
 
 double half_height_of(const Camera& camera) {
@@ -159,8 +160,8 @@ Camera frame_box(const Box& box, double aspect_ratio) {
     camera.vertical_fov = 30;
     const double half_height = tan_of_half(camera.vertical_fov);
     // The bounding sphere fits the narrower of the two angles; 2 % stay free around it.
-    const double narrow = std::atan(half_height * std::min(1.0, aspect_ratio));
-    const double distance = 1.02 * radius / std::sin(narrow);
+    const double narrow = arc_tangent(half_height * std::min(1.0, aspect_ratio));
+    const double distance = 1.02 * radius / sine(narrow);
     camera.look_at = center;
     camera.look_from = center + distance * back;
     return camera;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/require.h"
 #include "limn/core/math.h"
 
@@ -23,7 +24,7 @@ struct Describe {
         require(
             inner >= 0 && inner <= outer && outer > 0 && outer <= 90,
             "SpotLight: the cone angles must be 0 <= inner_cone_angle <= outer_cone_angle, and that within (0, 90]");
-        record.cos_inner = std::cos(radians(inner)), record.cos_outer = std::cos(radians(outer));
+        record.cos_inner = cosine(radians(inner)), record.cos_outer = cosine(radians(outer));
         return record;
     }
     LightRecord operator()(const DirectionalLight& light) const {
@@ -36,7 +37,8 @@ struct Describe {
         record.direction = unit(light.direction, "SunLight: direction");
         require(light.angular_radius > 0 && light.angular_radius <= 90,
                 "SunLight: angular_radius must lie within (0, 90]");
-        record.one_minus_cos = 2 * std::pow(std::sin(radians(light.angular_radius) / 2), 2);
+        const double half_sine = sine(radians(light.angular_radius) / 2);
+        record.one_minus_cos = 2 * half_sine * half_sine;
         return record;
     }
 

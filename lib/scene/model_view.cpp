@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/elementary.h"
 #include "limn/core/error.h"
 #include "limn/core/frame.h"
 #include "limn/material/diffuse_light.h"
@@ -77,7 +78,7 @@ struct Reach {
 // The tightest frame. Its four planes touch corners, or two of them do and the eye is in the middle between the others.
 Camera frame_perspective(const std::vector<Vec3>& corners, const Vec3& forward, const Vec3& right, const Vec3& up,
                          double aspect) {
-    const double upward = kFilled * std::tan(radians(kFieldOfView) / 2), across = upward * aspect;
+    const double upward = kFilled * tangent(radians(kFieldOfView) / 2), across = upward * aspect;
     Reach x, y;
     for (const Vec3& c : corners) {
         x.add(dot(c, right), dot(c, forward), across);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/require.h"
 #include "limn/core/math.h"
 #include "sampling/equirectangular-inl.h"
@@ -23,8 +24,9 @@ struct Perez {
 
     double operator()(double turbidity, double cos_zenith, double from_sun) const {
         const auto c = [&](std::size_t i) { return slope[i] * turbidity + offset[i]; };
-        return (1 + c(0) * std::exp(c(1) / cos_zenith)) *
-               (1 + c(2) * std::exp(c(3) * from_sun) + c(4) * std::pow(std::cos(from_sun), 2));
+        const double cos_sun = cosine(from_sun);
+        return (1 + c(0) * exponential(c(1) / cos_zenith)) *
+               (1 + c(2) * exponential(c(3) * from_sun) + c(4) * cos_sun * cos_sun);
     }
 };
 constexpr Perez kLuminance{{0.1787, -0.3554, -0.0227, 0.1206, -0.0670}, {-1.4630, 0.4275, 5.3251, -2.5771, 0.3703}};
@@ -57,9 +59,9 @@ Color from_chromaticity(double x, double y, double luminance) {
 class Skylight {
 public:
     Skylight(double turbidity, const Vec3& to_sun)
-        : turbidity_(turbidity), to_sun_(to_sun), sun_(std::acos(std::min(to_sun.y, 1.0))) {
+        : turbidity_(turbidity), to_sun_(to_sun), sun_(arc_cosine(std::min(to_sun.y, 1.0))) {
         const double chi = (4.0 / 9 - turbidity / 120) * (kPi - 2 * sun_);
-        const double luminance = (4.0453 * turbidity - 4.9710) * std::tan(chi) - 0.2155 * turbidity + 2.4192;
+        const double luminance = (4.0453 * turbidity - 4.9710) * tangent(chi) - 0.2155 * turbidity + 2.4192;
         luminance_ = 1000 * luminance / kLuminance(turbidity, 1, sun_);
         x_ = at_zenith(kZenithX, turbidity, sun_) / kX(turbidity, 1, sun_);
         y_ = at_zenith(kZenithY, turbidity, sun_) / kY(turbidity, 1, sun_);
@@ -67,17 +69,17 @@ public:
 
     // In cd / m^2. \pre direction.y > 0
     Color operator()(const Vec3& direction) const {
-        const double from_sun = std::acos(std::clamp(dot(direction, to_sun_), -1.0, 1.0));
+        const double from_sun = arc_cosine(std::clamp(dot(direction, to_sun_), -1.0, 1.0));
         const auto of = [&](const Perez& perez) { return perez(turbidity_, direction.y, from_sun); };
         return from_chromaticity(x_ * of(kX), y_ * of(kY), std::max(0.0, luminance_ * of(kLuminance)));
     }
 
     // Of a plane across the light of the Sun, in lx. The air mass is Kasten's.
     Color sun() const {
-        const double mass = 1 / (std::cos(sun_) + 0.15 * std::pow(93.885 - sun_ * 180 / kPi, -1.253));
+        const double mass = 1 / (cosine(sun_) + 0.15 * power(93.885 - sun_ * 180 / kPi, -1.253));
         const double haze = 0.04608 * turbidity_ - 0.04586;
         const auto passes = [&](double micrometres) {
-            return std::exp(-mass * (0.008735 * std::pow(micrometres, -4.08) + haze * std::pow(micrometres, -1.3)));
+            return exponential(-mass * (0.008735 * power(micrometres, -4.08) + haze * power(micrometres, -1.3)));
         };
         return kSunIlluminance * Color{passes(0.68), passes(0.55), passes(0.44)};
     }
@@ -109,7 +111,7 @@ Sky make_sky(const SkySettings& settings) {
     SunLight sun{.direction = -to_sun, .irradiance = unit * skylight.sun()};
     Color irradiance = to_sun.y * sun.irradiance;  // of the ground
     for (int y = 0; y < horizon; ++y) {
-        const double angle = kPi * (y + 0.5) / height, cosine = std::cos(angle), sine = std::sin(angle);
+        const auto [sine, cosine] = sine_cosine(kPi * (y + 0.5) / height);
         const double share = kPi / height * (2 * kPi / width) * sine * cosine;
         for (int x = 0; x < width; ++x) {
             const auto d = sampling::HWY_NAMESPACE::map_direction<double>((x + 0.5) / width, cosine, sine);

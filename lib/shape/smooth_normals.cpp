@@ -6,6 +6,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "core/elementary.h"
 #include "core/nearest_float3.h"
 #include "core/require.h"
 #include "limn/core/math.h"
@@ -21,7 +22,7 @@ namespace {
 class Smoother {
 public:
     Smoother(const MeshData& data, double crease_degrees)
-        : data_(data), cosine_(std::cos(crease_degrees * kPi / 180)), joined_(3 * data.triangles.size()) {
+        : data_(data), cosine_(cosine(radians(crease_degrees))), joined_(3 * data.triangles.size()) {
         std::iota(joined_.begin(), joined_.end(), std::size_t{0});
         measure();
         join_across_edges();
@@ -108,7 +109,7 @@ private:
         const Point3 p[3] = {v.a, v.b, v.c};
         const std::size_t k = corner % 3;
         const Vec3 one = p[(k + 1) % 3] - p[k], other = p[(k + 2) % 3] - p[k];
-        return std::atan2(length(cross(one, other)), dot(one, other));
+        return arc_tangent(length(cross(one, other)), dot(one, other));
     }
 
     // Where the triangles cancel, that of one of them; without an area, any.

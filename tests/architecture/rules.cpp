@@ -228,6 +228,17 @@ Violations check_clocks(const SourceTree& tree) {
     return found;
 }
 
+Violations check_elementary(const SourceTree& tree) {
+    static const std::regex function(
+        R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log2?|log10|log1p|pow|cbrt)\b(?!::))");
+    static const std::regex home(R"(lib/image/(compare|encode|error_image)\.cpp)");
+    Violations found;
+    for (const SourceFile& file : tree)
+        if ((is_public(file) || is_lib(file)) && !std::regex_match(file.path, home))
+            find_all(file, function, "core/elementary.h has the same bits everywhere", found);
+    return found;
+}
+
 Violations check_lengths(const SourceTree& tree) {
     static const std::regex figure(R"(examples/figures/fig\d\d_\w+\.cpp)"), custom(R"(examples/custom_\w+\.cpp)");
     Violations found;

@@ -38,6 +38,10 @@ Violations check_pointers(const SourceTree& tree);
 /// std::chrono::steady_clock.
 Violations check_clocks(const SourceTree& tree);
 
+/// What enters a picture calls no sine, exponential or the like of the C library: their last bits differ between
+/// processors and versions. Only what is told of finished pictures does.
+Violations check_elementary(const SourceTree& tree);
+
 /// Files can be read in one sitting: 400 lines; 80 in cmake/, 25 and 60 for the examples, 60 of code for a figure.
 Violations check_lengths(const SourceTree& tree);
 

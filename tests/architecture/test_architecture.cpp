@@ -58,6 +58,10 @@ TEST_CASE("No pointer reaches beyond the member that it was taken of", "[archite
 
 TEST_CASE("Nothing that renders asks for the date", "[architecture]") { require_none(check_clocks(the_house())); }
 
+TEST_CASE("No picture depends on the C library's last bits", "[architecture]") {
+    require_none(check_elementary(the_house()));
+}
+
 TEST_CASE("Every file can be read in one sitting", "[architecture]") { require_none(check_lengths(the_house())); }
 
 TEST_CASE("The floors stand in the architecture paper word for word", "[architecture]") {
@@ -251,6 +255,18 @@ TEST_CASE("A question for the date is reported", "[architecture]") {
                                            "apps/limn/a.cpp:1: a date can go back: time(nullptr)",
                                            "apps/limn/a.cpp:2: a date can go back: st_mtime",
                                            "apps/limn/a.cpp:2: a date can go back: st_mtim"});
+}
+
+TEST_CASE("A sine of the C library is reported", "[architecture]") {
+    const SourceTree tree{
+        {"lib/core/a.cpp", "const double s = std::sin(x), e = std::exp(-x) + exponential(x) + std::expm1(x);\n"},
+        {"include/limn/core/a.h", "inline double f(double x) { return sine(x) * std::sqrt(x) + std::log1p(x); }\n"},
+        {"lib/image/compare.cpp", "const double decibels = std::log10(x);\n"},
+        {"tests/core/a.cpp", "CHECK(sine(x) == std::sin(x));\n"}};
+    const std::string what = " core/elementary.h has the same bits everywhere: std::";
+    CHECK(check_elementary(tree) == Violations{"lib/core/a.cpp:1:" + what + "sin", "lib/core/a.cpp:1:" + what + "exp",
+                                               "lib/core/a.cpp:1:" + what + "expm1",
+                                               "include/limn/core/a.h:1:" + what + "log1p"});
 }
 
 TEST_CASE("A file that is too long is reported", "[architecture]") {

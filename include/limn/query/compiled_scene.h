@@ -155,8 +155,8 @@ public:
     /// What is compiled in, separated by spaces: "sphere quad mesh instance moving-instance foreign-shape texture ..."
     const std::string& features() const;
     const std::string& name() const;  ///< Scene::name
-    /// Of all that its pictures depend on: the same however it was compiled, on machines of one kind
-    /// (docs/long-renders.md). User-defined objects are in it by their tags (core/tagged.h).
+    /// Of all that its pictures depend on: the same wherever and however it was compiled. User-defined objects are in
+    /// it by their tags (core/tagged.h).
     const Hash128& digest() const;
     bool has_untagged() const;  ///< whether it has user-defined objects without a tag
 

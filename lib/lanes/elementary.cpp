@@ -1,0 +1,90 @@
+#include "core/elementary.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "lanes/functions-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn {
+
+namespace inl = HWY_NAMESPACE;
+
+namespace {
+
+// ln 2 in two parts. The first has 32 bits, so that its product with an exponent is exact.
+constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
+// Beyond these, exp is infinite, and 0.
+constexpr double kLargest = 709.782712893383973096, kSmallest = -745.133219101941108420;
+constexpr double kSqrt2 = 1.41421356237309504880;
+// Up to here quarter turns are subtracted without an error.
+constexpr double kFewTurns = 0x1p20;
+
+}  // namespace
+
+SineAndCosine sine_cosine(double radians) {
+    // More turns are taken off with a period of 2 pi as double has it; the angle is not known better than that.
+    const double some = std::abs(radians) < kFewTurns ? radians : std::remainder(radians, 2 * kPi);
+    const auto [s, c] = inl::sine_cosine(some);
+    return {s, c};
+}
+
+double sine(double radians) { return sine_cosine(radians).sine; }
+double cosine(double radians) { return sine_cosine(radians).cosine; }
+
+double tangent(double radians) {
+    const auto [s, c] = sine_cosine(radians);
+    return s / c;
+}
+
+double arc_cosine(double cosine) {
+    return inl::angle_of_upper(inl::SineCosine<double>{std::sqrt((1 - cosine) * (1 + cosine)), cosine});
+}
+
+double arc_tangent(double y, double x) {
+    if (x == 0 && y == 0) return 0;
+    return std::copysign(inl::angle_of_upper(inl::SineCosine<double>{std::abs(y), x}), y);
+}
+
+// fdlibm, e_exp.c.
+double exponential(double x) {
+    if (!(x <= kLargest)) return std::isnan(x) ? x : kInfinity;
+    if (x < kSmallest) return 0;
+    constexpr double kRest[] = {4.13813679705723846039e-08, -1.65339022054652515390e-06, 6.61375632143793436117e-05,
+                                -2.77777777770155933842e-03, 1.66666666666666019037e-01};
+    const double twos = std::nearbyint(x * (1 / (kLn2High + kLn2Low)));
+    const double high = x - twos * kLn2High, low = twos * kLn2Low;
+    const double r = high - low, z = r * r;
+    const double c = r - z * inl::polynomial(z, kRest);
+    const double y = 1 - ((low - r * c / (2 - c)) - high);
+    // By a product, which is faster, where 2^twos is a normal number.
+    if (std::abs(twos) > 1022) return std::ldexp(y, static_cast<int>(twos));
+    return y * std::bit_cast<double>((static_cast<std::int64_t>(twos) + 1023) << 52);
+}
+
+// fdlibm, e_log.c.
+double logarithm(double x) {
+    if (!(x > 0) || std::isinf(x)) return x == 0 ? -kInfinity : x;
+    constexpr double kOdd[] = {1.479819860511658591e-01, 1.818357216161805012e-01, 2.857142874366239149e-01,
+                               6.666666666666735130e-01};
+    constexpr double kEven[] = {1.531383769920937332e-01, 2.222219843214978396e-01, 3.999999999940941908e-01};
+    int twos = 0;
+    double m = std::frexp(x, &twos);
+    if (m < kSqrt2 / 2) m *= 2, --twos;
+    const double f = m - 1, s = f / (2 + f), z = s * s, w = z * z;
+    const double rest = z * inl::polynomial(w, kOdd) + w * inl::polynomial(w, kEven), half = 0.5 * f * f;
+    return twos * kLn2High - ((half - (s * (half + rest) + twos * kLn2Low)) - f);
+}
+
+// Kahan: what 1 + x loses of x is lost on both sides of the quotient (Goldberg, What every computer scientist should
+// know about floating-point arithmetic, 1991, theorem 4).
+double logarithm_of_1_plus(double x) {
+    const double sum = 1 + x;
+    return sum == 1 ? x : logarithm(sum) * (x / (sum - 1));
+}
+
+double power(double base, double exponent) { return exponential(exponent * logarithm(base)); }
+
+}  // namespace limn
+HWY_AFTER_NAMESPACE();
