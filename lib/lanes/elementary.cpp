@@ -15,8 +15,8 @@ namespace {
 
 // ln 2 in two parts. The first has 32 bits, so that its product with an exponent is exact.
 constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
-// Beyond these, exp is infinite, and 0.
-constexpr double kLargest = 709.782712893383973096, kSmallest = -745.133219101941108420;
+// Where exp leaves the range of double.
+constexpr double kInfiniteAbove = 709.782712893383973096, kZeroBelow = -745.133219101941108420;
 constexpr double kSqrt2 = 1.41421356237309504880;
 // Up to here quarter turns are subtracted without an error.
 constexpr double kFewTurns = 0x1p20;
@@ -49,8 +49,8 @@ double arc_tangent(double y, double x) {
 
 // fdlibm, e_exp.c.
 double exponential(double x) {
-    if (!(x <= kLargest)) return std::isnan(x) ? x : kInfinity;
-    if (x < kSmallest) return 0;
+    if (!(x <= kInfiniteAbove)) return std::isnan(x) ? x : kInfinity;
+    if (x < kZeroBelow) return 0;
     constexpr double kRest[] = {4.13813679705723846039e-08, -1.65339022054652515390e-06, 6.61375632143793436117e-05,
                                 -2.77777777770155933842e-03, 1.66666666666666019037e-01};
     const double twos = std::nearbyint(x * (1 / (kLn2High + kLn2Low)));
