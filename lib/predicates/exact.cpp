@@ -71,6 +71,11 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     SphereHits hits;
     hits.near = near != nullptr ? *near : b.sign() < 0 ? inner : outer;
     hits.far = far != nullptr ? *far : b.sign() < 0 ? outer : inner;
+    // Roundings may reverse them. The one that the filter knows stays: a search that it decides alone reports it.
+    if (near != nullptr)
+        hits.far = larger(hits.far, hits.near);
+    else
+        hits.near = smaller(hits.near, hits.far);
     hits.near_found = search.contains(hits.near);
     hits.far_found = search.contains(hits.far);
     return hits;

@@ -1,4 +1,5 @@
 // Rays that an earlier form of the kernels got wrong.
+#include <cmath>
 #include <memory>
 
 #include "catch.h"
@@ -73,4 +74,27 @@ TEST_CASE("Instance: a matrix is refused where it is exactly singular, though it
     m.rows[1] = {0.2f, 0.1f, 0.1f, 0};
     for (std::size_t j = 0; j < 3; ++j) m.rows[2][j] = m.rows[0][j] + m.rows[1][j];  // exact: they are float32
     CHECK_THROWS_AS(Instance(std::make_shared<Sphere>(Point3{0, 0, 0}, 1, nullptr), m), ArgumentError);
+}
+
+TEST_CASE("Sphere: of two roots that are one in double the nearer is not reported behind the farther one",
+          "[hard][reviewed]") {
+    const auto ball = std::make_shared<Sphere>(Point3{0.1, 0.2, 0.3}, 1.5, nullptr);
+    const Transform turned = Transform::translate({0.5, -0.25, 1}) * Transform::rotate({1, 2, 3}, 40);
+    const auto object =
+        std::make_shared<Instance>(std::make_shared<Instance>(ball, Transform::scale(1, -0.5, 2)), turned);
+    Ray ray{.origin = {0x1.b2e12baf37c85p-1, -0x1.d89e17d9be266p-3, 0x1.18f11d4d2bcbbp+119},
+            .direction = {0, 0, -0x1.30b68d8d2c29p+591}};
+    const auto hit = object->hit(ray);
+    REQUIRE(hit);
+    // Whatever interval holds it, it is the nearest; and without it there is none.
+    const CompiledScene scene = scene_of(object);
+    const std::vector<RayHit> all = scene.all_hits(ray);
+    REQUIRE(!all.empty());
+    CHECK(all.front().t == hit->t);
+    ray.t_max = hit->t;
+    CHECK(object->hit(ray)->t == hit->t);
+    ray.t_max = std::nextafter(hit->t, 0);
+    CHECK_FALSE(object->hit(ray));
+    CHECK_FALSE(scene.closest_hit(ray));
+    CHECK(scene.all_hits(ray).empty());
 }
