@@ -40,7 +40,8 @@ Cone merge(Cone a, Cone b) {
     const double turn = spread - spread_a;  // from a towards b
     const Vec3 aside = normalize(cross(cross(a.axis, b.axis), a.axis));
     if (!is_finite(aside)) return {a.axis, cosine(spread)};
-    return {normalize(cosine(turn) * a.axis + sine(turn) * aside), cosine(spread)};
+    const auto [s, c] = sine_cosine(turn);
+    return {normalize(c * a.axis + s * aside), cosine(spread)};
 }
 
 LightBounds merge(const LightBounds& a, const LightBounds& b) {
@@ -52,10 +53,10 @@ LightBounds merge(const LightBounds& a, const LightBounds& b) {
 // The integral over all directions, each weighed by the largest cosine that any normal within the cone makes with it.
 double orientation_measure(double cos_spread) {
     if (cos_spread == flat::kNoNormals) return 4 * kPi;
-    const double spread = arc_cosine(cos_spread), sine_of = sine(spread);
+    const double spread = arc_cosine(cos_spread), sine_spread = sine(spread);
     const double reach = std::min(spread + kPi / 2, kPi);
     return 2 * kPi * (1 - cos_spread) +
-           kPi / 2 * (2 * reach * sine_of - cosine(spread - 2 * reach) - 2 * spread * sine_of + cos_spread);
+           kPi / 2 * (2 * reach * sine_spread - cosine(spread - 2 * reach) - 2 * spread * sine_spread + cos_spread);
 }
 
 double cost(const LightBounds& b) {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/elementary.h"
 #include "core/spawn.h"
+#include "limn/core/warp.h"
 #include "limn/scene/background.h"
 #include "shade/shading.h"
 
@@ -133,7 +133,7 @@ void PathTracer::draw_flights(std::size_t first) {
         sampling::Row numbers[2];
         draw(s, first, some, Use::flight, 2, numbers);
         for (std::size_t i = 0; i < some; ++i) {
-            s.depth[first + i] = -logarithm(1 - numbers[0][i]);  // 53 bits: exact, up to 36.7 mean free paths
+            s.depth[first + i] = sample_exponential(numbers[0][i], 1);  // 53 bits: up to 36.7 mean free paths
             s.choose[first + i] = numbers[1][i];
         }
     }

@@ -3,12 +3,12 @@
 // changed.
 #include <bit>
 #include <cstdint>
-#include <cstdio>
 
 #include "catch.h"
 #include "flat/scene.h"
 #include "hard/corpus.h"
 #include "limn/query/compiled_scene.h"
+#include "support/text.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -55,11 +55,7 @@ public:
     }
     void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
     void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
-    std::string text() const {
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
-        return digits;
-    }
+    std::string text() const { return hexadecimal(hash_); }
 
 private:
     std::uint64_t hash_ = 0xcbf29ce484222325;

@@ -1,11 +1,10 @@
 // One number for the pictures of a scene, the same in every build, on every instruction set, and whatever code the C
 // library picks for the processor. A change of it is a change of samples: film_file.h has their version.
-#include <cstdio>
-
 #include "catch.h"
 #include "core/checksum.h"
 #include "limn/limn.h"
 #include "support/meshes.h"
+#include "support/text.h"
 
 using namespace limn;
 using namespace limn::test;
@@ -15,12 +14,6 @@ namespace {
 using MaterialPtr = std::shared_ptr<const Material>;
 
 const std::string kRoom = "732d66ce5c00a6f2", kOutdoors = "1d0c6200e15171fa";
-
-std::string hexadecimal(std::uint64_t value) {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
-    return digits;
-}
 
 MaterialPtr matte(double r, double g, double b) { return std::make_shared<Lambertian>(Color{r, g, b}); }
 
@@ -35,8 +28,9 @@ Scene room() {
                                      std::make_shared<DiffuseLight>(Color{9, 8, 7})));
     const auto box = make_box({-0.4, -1, -0.4}, {0.4, 0.3, 0.4}, matte(0.4, 0.6, 0.4));
     scene.add(std::make_shared<Instance>(box, Transform::translate({-1, 0, -0.7}) * Transform::rotate_y(18)));
-    const auto smoke = std::make_shared<Instance>(
-        box, Transform::translate({0.9, 0.2, 0}) * Transform::rotate({1, 2, 0.5}, 33) * Transform::scale(1.5, 1.5, 1.5));
+    const auto smoke =
+        std::make_shared<Instance>(box, Transform::translate({0.9, 0.2, 0}) * Transform::rotate({1, 2, 0.5}, 33) *
+                                            Transform::scale(1.5, 1.5, 1.5));
     scene.add(std::make_shared<ConstantMedium>(smoke, 0.9, Color{0.8, 0.6, 0.9}));
     scene.add(std::make_shared<Mesh>(icosphere(2, 0.5, {-0.1, -0.5, 0.6}),
                                      std::make_shared<Metal>(Color{0.9, 0.8, 0.6}, 0.2)));
