@@ -5,11 +5,12 @@
 
 namespace limn {
 
-struct SineAndCosine {
-    double sine, cosine;
+template <class N>
+struct SineCosine {
+    N sine, cosine;
 };
 
-SineAndCosine sine_cosine(double radians);  // infinite: NaN
+SineCosine<double> sine_cosine(double radians);  // infinite: NaN
 double sine(double radians);
 double cosine(double radians);
 double tangent(double radians);

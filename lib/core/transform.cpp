@@ -13,7 +13,7 @@ namespace limn {
 namespace {
 
 // Exact at multiples of a quarter turn, so that permutations of the axes stay permutations.
-SineAndCosine sine_cosine_of_degrees(double degrees) {
+SineCosine<double> sine_cosine_of_degrees(double degrees) {
     const double turn = std::remainder(degrees, 360.0);
     if (turn == 0) return {0, 1};
     if (turn == 90) return {1, 0};

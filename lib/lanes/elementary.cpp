@@ -23,11 +23,10 @@ constexpr double kFewTurns = 0x1p20;
 
 }  // namespace
 
-SineAndCosine sine_cosine(double radians) {
+SineCosine<double> sine_cosine(double radians) {
     // More turns are taken off with a period of 2 pi as double has it; the angle is not known better than that.
     const double some = std::abs(radians) < kFewTurns ? radians : std::remainder(radians, 2 * kPi);
-    const auto [s, c] = inl::sine_cosine(some);
-    return {s, c};
+    return inl::sine_cosine(some);
 }
 
 double sine(double radians) { return sine_cosine(radians).sine; }
@@ -39,12 +38,12 @@ double tangent(double radians) {
 }
 
 double arc_cosine(double cosine) {
-    return inl::angle_of_upper(inl::SineCosine<double>{std::sqrt((1 - cosine) * (1 + cosine)), cosine});
+    return inl::angle_of_upper(SineCosine<double>{std::sqrt((1 - cosine) * (1 + cosine)), cosine});
 }
 
 double arc_tangent(double y, double x) {
     if (x == 0 && y == 0) return 0;
-    return std::copysign(inl::angle_of_upper(inl::SineCosine<double>{std::abs(y), x}), y);
+    return std::copysign(inl::angle_of_upper(SineCosine<double>{std::abs(y), x}), y);
 }
 
 // fdlibm, e_exp.c.

@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "core/elementary.h"
 #include "lanes/lanes-inl.h"
 #include "limn/core/math.h"
 
@@ -16,11 +17,6 @@ HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
 inline constexpr std::int64_t kHighBits = ~std::int64_t{0xffffffff};
-
-template <class N>
-struct SineCosine {
-    N sine, cosine;
-};
 
 template <class N, std::size_t n>
 HWY_INLINE N polynomial(N x, const double (&highest_first)[n]) {
