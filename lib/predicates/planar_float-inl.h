@@ -7,6 +7,8 @@
 #define LIMN_PREDICATES_PLANAR_FLOAT_INL_H
 #endif
 
+#include <limits>
+
 #include "predicates/float_hits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -129,7 +131,10 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     const N e = 4.0f * (w.across + coordinate_error) * coordinate_error;
     const N det = w.wa + (w.wb + w.wc), inverse = 1.0f / det;
     const N mean = mul_add(w.wa, p.a.z, mul_add(w.wb, p.b.z, w.wc * p.c.z)) * inverse;
-    const N lowest = min(p.a.z, min(p.b.z, p.c.z)), highest = max(p.a.z, max(p.b.z, p.c.z)), depth = highest - lowest;
+    // Finite on the side of the other: infinity less an infinite error would be a NaN, which min and max may pass over.
+    constexpr float kMost = std::numeric_limits<float>::max();
+    const N lowest = min(min(p.a.z, min(p.b.z, p.c.z)), N(kMost));
+    const N highest = max(max(p.a.z, max(p.b.z, p.c.z)), N(-kMost)), depth = highest - lowest;
     const N weight_error = 10.0f * e * abs(inverse), e4 = 4.0f * coordinate_error;
     const N z_error = mul_add(weight_error, depth, mul_add(ray.direction_error, abs(mean), e4));
     const N around = kQuad ? depth + e4 : e4;

@@ -61,6 +61,12 @@ RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const T
     const Vec3 d = outer_frame.ray.direction;
     origin_error = of_inverse.error * max_abs(v) + 1.25 * of_inverse.norm * outer_frame.origin_error + kTiny;
     direction_error = of_inverse.error * max_abs(d) + 1.25 * of_inverse.norm * outer_frame.direction_error + kTiny;
+    // Cancelled to nothing; a ray without direction could not be used.
+    if (ray.direction == Vec3{} && is_usable(outer_frame.ray)) {
+        const ExactRay exact = exact_ray(*this);
+        const auto nearest = [&](const Dyadic& x) { return ratio(x, exact.unit); };
+        ray.direction = {nearest(exact.direction.x), nearest(exact.direction.y), nearest(exact.direction.z)};
+    }
 }
 
 RayFrame frame_of(const Ray& ray) {

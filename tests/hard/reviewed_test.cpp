@@ -67,6 +67,40 @@ TEST_CASE("Instance: boxes are met where the rounded direction tells little of t
     CHECK(hit->t == Approx(9));
 }
 
+TEST_CASE("Instance: a direction that the rounded matrix takes to nothing is still one", "[hard][reviewed]") {
+    const Transform m{{{{0x1.5423dbabd0f85p+0, 0x1.7c6523769e138p-2, 0x1.c19cbdd8d70ecp-1, -0x1.1e1672ac3c648p+0},
+                        {-0x1.8194880127a88p-2, 0x1.1e1620bb1e67bp+1, 0x1.dc8de8bb3586ep-1, -0x1.b6f9ebba9c7acp+0},
+                        {0x1.5423dbabd0f85p+0, 0x1.7c6523769e135p-2, 0x1.c19cbdd8d70ecp-1, -0x1.1153de02e237ep+1}}}};
+    const Ray ray{.origin = {0x1.17769c9e9309ep-1, -0x1.255e05ccc683bp+1, -0x1.e357ec28fa194p-2},
+                  .direction = {-0x1.68f9c60913e2ap+0, 0x1.993304709ed6bp-2, -0x1.68f9c60913e2ap+0}};
+    REQUIRE(transform_vector(inverse(m), ray.direction) == Vec3{});
+    const auto ball = std::make_shared<Instance>(
+        std::make_shared<Sphere>(Point3{-0x1.11cb52a409p-10, -0x1.29b7d9bfc454p-5, -0x1.1ffe0c90f908p-6},
+                                 0x1.4653d9318b25cp+0, nullptr),
+        m);
+    const auto hit = ball->hit(ray);
+    REQUIRE(hit);
+    CHECK(hit->t == Approx(0x1.352b816fbc267p-5).epsilon(0x1p-32));  // by exact arithmetic
+    const CompiledScene scene = scene_of(ball);
+    CHECK(scene.closest_hit(ray)->t == hit->t);
+    CHECK(scene.any_hit(ray));
+}
+
+TEST_CASE("Triangle: beyond the largest float it is hit in a tree as well", "[hard][reviewed]") {
+    const auto triangle = std::make_shared<Triangle>(Point3{0x1.4p+127, -0x1.4p+128, 0x1.6cp+129},
+                                                     Point3{-0x1.2p+128, -0x1.ap+127, 0x1.88p+128},
+                                                     Point3{0x1.8p+128, -0x1.4p+125, 0x1.f8p+129}, nullptr);
+    const Ray ray{.origin = {0x1.a9p+133, -0x1.5ap+133, 0x1.01bp+135},
+                  .direction = {-0x1.4p-704, 0x1p-704, -0x1.8p-703}};
+    const auto hit = triangle->hit(ray);
+    REQUIRE(hit);
+    CHECK(hit->t == 0x1.5p+837);
+    const CompiledScene scene = scene_of(triangle);
+    REQUIRE(scene.closest_hit(ray));
+    CHECK(scene.closest_hit(ray)->t == hit->t);
+    CHECK(scene.any_hit(ray));
+}
+
 TEST_CASE("Instance: a matrix is refused where it is exactly singular, though its rounded determinant is not 0",
           "[hard][reviewed]") {
     Transform m;
