@@ -14,8 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-inline constexpr Search kEndlessSearch{-kInfinity, kInfinity};
-
 HWY_INLINE Point3 to_point(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 HWY_INLINE Vec3 to_vec(const Vector<double>& v) { return {v.x, v.y, v.z}; }
 
@@ -54,22 +52,25 @@ HWY_INLINE bool is_inward(const Shape& shape, const RayFrame& frame) {
     return with_numbers(shape, [&](const auto&... of_shape) { return exact_facing(of_shape..., frame) < 0; });
 }
 
-// Whether a t, as accurate as kAccurate says, is on the same side of an end as the exact one.
-HWY_INLINE bool is_clear_of(double t, double end) {
-    return !std::isfinite(end) || std::abs(t - end) > 2 * kAccurate * std::abs(t);
+// Whether a t, where it is as accurate as kAccurate says, is on the same side of both ends as the exact one.
+HWY_INLINE bool is_clear(double t, const Search& search) {
+    const auto is_clear_of = [&](double end) {
+        return !std::isfinite(end) || std::abs(t - end) > 2 * kAccurate * std::abs(t);
+    };
+    return is_clear_of(search.t_min) && is_clear_of(search.t_max);
 }
 
-// What double tells of a line and a shape: whether they surely meet, surely miss each other, or neither.
+// What double tells of a line and a shape: whether they surely meet within the search, surely do not, or neither.
 enum class Told { nothing, met, missed };
 
 template <template <class> class Predicate>
-HWY_INLINE Told tell_line(const Predicate<double>& shape, const RayFrame& frame, PlanarHit& hit) {
+HWY_INLINE Told tell(const Predicate<double>& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
     const typename Predicate<Single>::Ray ray(ray_of<Single>(frame));
-    const auto r = in_lanes<Single>(shape).filter(ray, {-kInfinity, kInfinity});
+    const auto r = in_lanes<Single>(shape).filter(ray, {search.t_min, search.t_max});
     hit = {first_of_lanes(r.t), first_of_lanes(r.u), first_of_lanes(r.v)};
-    if (any(r.hit)) return Told::met;
     // A line that meets the shape beyond all doubles is none that misses it.
-    return any(r.miss) && std::abs(hit.t) < kInfinity ? Told::missed : Told::nothing;
+    if (!(std::abs(hit.t) < kInfinity && is_clear(hit.t, search))) return Told::nothing;
+    return any(r.hit) ? Told::met : any(r.miss) ? Told::missed : Told::nothing;
 }
 
 // report(passage) for each passage of the moved ray through a shape, until it returns true: whether it did. Where only
@@ -78,12 +79,12 @@ template <class Shape, class Undecided, class Report>
 HWY_INLINE bool for_each_passage(const Shape& shape, const RayFrame& frame, const Search& search,
                                  const Undecided& undecided, const Report& report) {
     Passage p;
-    const Told told = tell_line(shape, frame, p);
+    const Told told = tell(shape, frame, search, p);
     if (told == Told::missed) return false;
     const int side = told == Told::met ? facing(shape, frame) : 0;
-    if (HWY_LIKELY(side != 0 && is_clear_of(p.t, search.t_min) && is_clear_of(p.t, search.t_max))) {
+    if (HWY_LIKELY(side != 0)) {
         p.inward = side < 0;
-        return search.contains(p.t) && report(p);
+        return report(p);
     }
     undecided();
     return exact_passage(shape, frame, search, p) && report(p);
@@ -92,14 +93,16 @@ HWY_INLINE bool for_each_passage(const Shape& shape, const RayFrame& frame, cons
 template <class Undecided, class Report>
 HWY_INLINE bool for_each_passage(const SpherePredicate<double>& sphere, const RayFrame& frame, const Search& search,
                                  const Undecided& undecided, const Report& report) {
-    const SphereHits hits = sphere.hits(frame, kEndlessSearch);
-    if (!hits.near_found && !hits.far_found) return false;
-    const auto is_clear = [&](double t) { return is_clear_of(t, search.t_min) && is_clear_of(t, search.t_max); };
-    Passage passages[2]{{{hits.near, 0, 0}, sphere.radius > 0}, {{hits.far, 0, 0}, sphere.radius < 0}};
-    if (HWY_LIKELY(hits.near_found && hits.far_found && hits.near < hits.far && is_clear(hits.near) &&
-                   is_clear(hits.far)))
-        return (search.contains(hits.near) && report(passages[0])) ||
-               (search.contains(hits.far) && report(passages[1]));
+    const SphereRoots<double> r = sphere.roots(ray_of<double>(frame));
+    if (r.missed) return false;
+    const Interval<double> within{search.t_min, search.t_max};
+    const Judgement<double> near = judge(r.near, r.near_error, within), far = judge(r.far, r.far_error, within);
+    const auto is_told = [&](const Judgement<double>& j, double t) {
+        return (j.hit() || j.miss()) && is_clear(t, search);
+    };
+    Passage passages[2]{{{r.near, 0, 0}, sphere.radius > 0}, {{r.far, 0, 0}, sphere.radius < 0}};
+    if (HWY_LIKELY(r.known && is_told(near, r.near) && is_told(far, r.far)))
+        return (near.hit() && report(passages[0])) || (far.hit() && report(passages[1]));
     undecided();
     const int count = exact_passages(to_point(sphere.center), sphere.radius, frame, search, passages);
     return (count > 0 && report(passages[0])) || (count > 1 && report(passages[1]));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/elementary.h"
 
@@ -11,28 +12,6 @@ namespace {
 
 // Extinctions at the end of double must add up, and go away again where they end: infinities would leave NaN.
 constexpr double kLargestExtinction = 1e300;
-
-// In no plane and along no line that anybody would describe.
-constexpr Vec3 kAside{0.4327561, -0.7915372, 0.4313921};
-
-// Crossings of one surface point come once for each primitive that meets there, their t apart by rounding alone.
-// Where primitives share an edge exactly their t are a few 2^-53 apart; true crossings that close bound no visible
-// depth.
-bool same_point(double a, double b) { return std::abs(a - b) <= 0x1p-40 * std::abs(a); }
-
-// For each place where crossings are, in order, one of them, and whether the others there go the same way. It goes into
-// `places`, replacing what is there.
-void gather(std::vector<trace::Crossing>& crossings, std::vector<MediaAlongRay::Place>& places) {
-    std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
-    places.clear();
-    for (std::size_t i = 0; i < crossings.size();) {
-        const trace::Crossing& first = crossings[i];
-        bool agree = true;
-        for (; i < crossings.size() && same_point(first.t, crossings[i].t); ++i)
-            agree = agree && crossings[i].inward == first.inward;
-        places.push_back({first.t, agree});
-    }
-}
 
 }  // namespace
 
@@ -44,7 +23,9 @@ void MediaAlongRay::trace(const flat::Scene& scene, const Ray& ray) {
     for (const std::uint32_t medium : met_) add_intervals(scene, medium, ray);
     if (steps_.empty()) return;
     speed_ = length(ray.direction);
-    std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.t < b.t; });
+    // A medium is left before it is entered again at the same place.
+    const auto key = [](const Step& s) { return std::pair(s.t, s.extinction > 0); };
+    std::sort(steps_.begin(), steps_.end(), [&](const Step& a, const Step& b) { return key(a) < key(b); });
 }
 
 void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray) {
@@ -53,19 +34,12 @@ void MediaAlongRay::add_intervals(const flat::Scene& scene, std::uint32_t medium
     Ray beyond = ray;
     beyond.t_max = kInfinity;
     trace::crossings(scene, scene.media[medium], beyond, crossings_);
-    gather(crossings_, places_);
-    // From the far end, which is outside, to the near one.
-    bool inside = false;
-    double end = 0;
-    for (std::size_t i = places_.size(); i-- > 0;) {
-        const auto [t, is_crossed] = places_[i];
-        const bool inside_before =
-            is_crossed ? !inside : is_inside(scene, medium, ray, i > 0 ? places_[i - 1].t : ray.t_min, t);
-        if (inside_before && !inside) end = t;
-        if (!inside_before && inside) add_interval(t, end, extinction, medium);
-        inside = inside_before;
+    std::sort(crossings_.begin(), crossings_.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    // In pairs from the far end, which is outside.
+    for (std::size_t i = crossings_.size(); i > 0; i -= std::min<std::size_t>(i, 2)) {
+        const double from = i > 1 ? std::max(ray.t_min, crossings_[i - 2].t) : ray.t_min;
+        add_interval(from, crossings_[i - 1].t, extinction, medium);
     }
-    if (inside) add_interval(ray.t_min, end, extinction, medium);
 }
 
 void MediaAlongRay::add_interval(double from, double to, double extinction, std::uint32_t medium) {
@@ -74,17 +48,6 @@ void MediaAlongRay::add_interval(double from, double to, double extinction, std:
     const double scattering = extinction * scene_->media[medium].scattered;
     steps_.push_back({from, extinction, scattering, medium});
     steps_.push_back({to, -extinction, -scattering, medium});
-}
-
-// Of a stretch of the ray without crossings, from another ray that starts in its middle. That one meets no edges: it
-// only touches where its crossings disagree.
-bool MediaAlongRay::is_inside(const flat::Scene& scene, std::uint32_t medium, const Ray& ray, double from, double to) {
-    const double middle = std::max(from, to - 1 - std::abs(to)) / 2 + to / 2;  // `from` may be -infinity
-    const Ray aside{ray.at(middle), kAside, 0, kInfinity, ray.time};
-    if (!is_usable(aside)) return false;
-    trace::crossings(scene, scene.media[medium], aside, crossings_);
-    gather(crossings_, places_aside_);
-    return std::count_if(places_aside_.begin(), places_aside_.end(), [](const Place& p) { return p.is_crossed; }) % 2;
 }
 
 template <class Visit>

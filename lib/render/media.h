@@ -26,9 +26,8 @@ struct Stretch {
 };
 
 // Extinction along one ray, a step function of t. It is worked out anew for each ray from the crossings of all
-// boundaries up to infinity: a point is inside where their number ahead is odd. At an edge or vertex the faces are all
-// crossed at one place. Where they disagree whether the ray enters or leaves there, a ray in another direction tells
-// what lies before. So nothing is carried along the path, and the eye, lights and scattering points may be anywhere;
+// boundaries up to infinity: a point is inside where their number ahead is odd, which is decided exactly at edges and
+// vertices too. So nothing is carried along the path, and the eye, lights and scattering points may be anywhere;
 // boundaries may be hollow, non-convex and overlapping.
 // Reuse one object for many rays: it keeps its memory.
 class MediaAlongRay {
@@ -50,13 +49,6 @@ public:
     // changes by more than the factor `most_change`.
     std::optional<Stretch> scattering_stretch(double deepest, double most_change) const;
 
-    // Where one or more faces of a boundary are met; if they disagree about the way, it may be crossed there or
-    // touched.
-    struct Place {
-        double t;
-        bool is_crossed;
-    };
-
 private:
     struct Step {
         double t;
@@ -65,7 +57,6 @@ private:
     };
     void add_intervals(const flat::Scene& scene, std::uint32_t medium, const Ray& ray);
     void add_interval(double from, double to, double extinction, std::uint32_t medium);
-    bool is_inside(const flat::Scene& scene, std::uint32_t medium, const Ray& ray, double from, double to);
     // visit(end, t, extinction, scattering) for each stretch inside media, from t to step `end`, until it returns
     // false.
     template <class Visit>
@@ -77,7 +68,6 @@ private:
     double t_max_ = 0, speed_ = 1;  // t is in units of the ray's direction, `speed_` long
     std::vector<std::uint32_t> met_;
     std::vector<trace::Crossing> crossings_;
-    std::vector<Place> places_, places_aside_;
     std::vector<Step> steps_;  // sorted by t; every medium entered is left again at t_max_ at the latest
 };
 

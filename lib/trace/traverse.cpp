@@ -127,7 +127,7 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     out.clear();
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-        Every query{ray.t_max, out};
+        Passages query{{}, ray.t_max, &out};
         search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
     });
 }

@@ -46,7 +46,8 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
 // Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`; of boundaries of media too,
 // which are flagged. \pre is_usable(ray)
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
-// The same for the boundary of a medium alone, replacing what is in `out`.
+// What the moved ray (predicates/passage.h) passes through of the boundary of a medium, in no particular order, replacing
+// what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
 // What a ray passes over.

@@ -34,6 +34,30 @@ TEST_CASE("Media: through nested instances the outer one is applied last", "[ren
     CHECK(depth_along({{4, -3, 0}, {0, 1, 0}}, ellipsoid) == Approx(std::sqrt(3)).epsilon(1e-12));
 }
 
+TEST_CASE("Media: a ray that leaves just before an edge, and touches that, was inside before", "[render][media]") {
+    const double size = 1e-5;
+    const Object u = std::make_shared<Instance>(
+        std::make_shared<Mesh>(u_shape(), nullptr),
+        Transform::translate({1e3 * size, -1e3 * size, 5e2 * size}) * Transform::scale(size, size, size));
+    const Ray ray{.origin = {0x1.48762d6f7940bp-7, -0x1.475f2b9a96b62p-7, 0x1.480c85c5cd5a2p-8},
+                  .direction = {-0x1.d0d879d1ad624p-20, 0x1.3e7d763f064aep-24, -0x1.79c52bb049a4ep-21}};
+    CHECK(depth_along(ray, smoke(u)) == Approx(8 * length(ray.direction)).epsilon(1e-9));
+}
+
+TEST_CASE("Media: the wall between two halves of a boundary is no border, and light scatters behind it",
+          "[render][media]") {
+    const Object halves = std::make_shared<HittableList>(
+        std::vector<Object>{make_box({1, -1, -1}, {2, 1, 1}, nullptr), make_box({2, -1, -1}, {3, 1, 1}, nullptr)});
+    CHECK(depth_up_to(kInfinity, smoke(halves)) == Approx(2).epsilon(1e-12));
+    const CompiledScene scene = compile_with(sky(0), {smoke(halves)});
+    transport::MediaAlongRay media;
+    media.trace(scene.flat(), {{0, 0, 0}, {1, 0, 0}});
+    const transport::FreeFlight flight = media.sample(1.5, 0.5);
+    CHECK(flight.scatters);
+    CHECK(flight.t == Approx(2.5).epsilon(1e-12));
+    CHECK(flight.phase == scene.flat().medium_shapes[0].phase);
+}
+
 TEST_CASE("Media: a bubble that touches the skin from inside leaves outside outside", "[render][media]") {
     const auto skin = std::make_shared<HittableList>();
     skin->add(sphere({5, 0, 0}, 2, nullptr));
