@@ -1,8 +1,8 @@
 """The accuracy report: docs/accuracy.md and its plots.
 
 Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more
-rays than the suite has. Interrupted, it goes on where it was. Exit status 0 only
-if limn is wrong nowhere; the report is written in any case.
+rays than the suite has: a tenth of what they name, with --full all. Interrupted, it goes on where it was. Exit status 0
+only if limn is wrong nowhere; the report is written in any case.
 
 Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
 """
@@ -39,12 +39,12 @@ def measure(group, full):
     return json.loads(run.stdout)
 
 
-def hard_cases(all_rays, kept):
+def hard_cases(full, kept):
     """Every case of tests/hard in a process of its own: name, passed, seconds. None where there is no such program."""
     program = BIN / "test_hard"
     if not program.exists():
         return None
-    environment = dict(os.environ, LIMN_ACCURACY="1", **({"LIMN_FULL": "1"} if all_rays else {}))
+    environment = dict(os.environ, **{"LIMN_FULL" if full else "LIMN_ACCURACY": "1"})
     names = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True).stdout.splitlines()
 
     def run(name):
@@ -65,25 +65,23 @@ def hard_cases(all_rays, kept):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--full", action="store_true", help="1e7 rays a row of leaks, 1e6 in others")
-    parser.add_argument("--hard-cases", choices=("tenth", "all"), default="tenth",
-                        help="how many of their rays; all takes hours")
-    arguments = parser.parse_args()
-    full, all_rays = arguments.full, arguments.hard_cases == "all"
+    parser.add_argument("--full", action="store_true",
+                        help="1e7 rays a row of leaks, 1e6 in others, and all rays of the hard cases: an hour more")
+    full = parser.parse_args().full
     RAW.mkdir(parents=True, exist_ok=True)
     head = origin("accuracy", "./build.sh accuracy" + (" --full" if full else ""))
-    kept = Kept(RAW / "kept.json", sources=head["sources"], full=full, all_rays=all_rays)
+    kept = Kept(RAW / "kept.json", sources=head["sources"], full=full)
     head = kept("head", lambda: head)
 
     results = [kept(name, lambda: measure(name, full)) for name in GROUPS]
     groups = [result["groups"][0] for result in results]
-    cases = hard_cases(all_rays, kept)
+    cases = hard_cases(full, kept)
 
     faults = accuracy_tables.faults(groups)
     faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
     head = {**head, "faults": len(faults), "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
     accuracy_plots.draw(groups, ROOT / "docs/accuracy")
-    write("accuracy", accuracy_tables.report(head, groups, cases, all_rays, faults))
+    write("accuracy", accuracy_tables.report(head, groups, cases, full, faults))
     if not faults:
         kept.forget()
     for fault in faults:

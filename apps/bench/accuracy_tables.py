@@ -152,19 +152,19 @@ def tables(group):
             + table(group, columns, precision, bound=False))
 
 
-def hard_section(cases, all_rays):
+def hard_section(cases, full):
     lines = ["## The hard cases of the suite", ""]
     if cases is None:
         lines += ["Not run.", ""]
     else:
         failed = [c["case"] for c in cases if not c["passed"]]
-        lines += [f"`tests/hard`, with {'all' if all_rays else 'a tenth of'} the rays that its cases name: "
+        lines += [f"`tests/hard`, with {'all' if full else 'a tenth of'} the rays that its cases name: "
                   f"{len(cases)} cases, {len(failed)} failed, {sum(c['seconds'] for c in cases):.0f} s of one core.", ""]
         lines += [f"- failed: {name}" for name in failed] + [""] * bool(failed)
     return lines
 
 
-def report(head, groups, cases, all_rays, found):
+def report(head, groups, cases, full, found):
     lines = [
         f"{stamp(head)}, g++ {head['compiler']}, {head['minutes']:.0f} minutes. " +
         (f"Embree {head['embree']} in both modes, in a process of its own."
@@ -183,4 +183,4 @@ def report(head, groups, cases, all_rays, found):
     for group in groups:
         title, text = TEXTS[group["group"]]
         lines += [f"## {title}", "", text, ""] + tables(group)
-    return "\n".join(lines + hard_section(cases, all_rays)).rstrip() + "\n"
+    return "\n".join(lines + hard_section(cases, full)).rstrip() + "\n"

@@ -66,7 +66,7 @@ REPORTS = (
            CORE + IO + FIGURES + ("apps/limn/merge.cpp", "tests/faults")),
     Report("cluster", "docs/long-renders.md", "./build.sh cluster", 4,
            CORE + IO + FIGURES + ("apps/limn/merge.cpp", "tests/cluster", "tests/faults/bits.py", "examples/cluster")),
-    Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 25,
+    Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 80,
            CORE + ("tests/accuracy", "tests/hard", "tests/support", "apps/bench/accuracy.py", "-*_test.py")),
     Report("compilers", "docs/checks.md", "./build.sh compilers --aarch64", 110, CHECKED),
     Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, CHECKED),

@@ -110,16 +110,19 @@ inline const Real kLargest = std::numeric_limits<double>::max();
 // truth by that rule: asks for hits with the interval a little wider, and what limn reports for them.
 inline ExactHit truth_at_ends(const Ray& ray, const ExactQuery& exact, const LimnQuery& limn) {
     const auto beside = [](double t, double sign) { return t + sign * 0x1p-22 * std::max(std::abs(t), 0x1p-1050); };
-    Ray wide = ray;
-    wide.t_min = beside(ray.t_min, -1), wide.t_max = beside(ray.t_max, 1);
+    Ray of_truth = ray;
+    of_truth.t_min = beside(ray.t_min, -1), of_truth.t_max = beside(ray.t_max, 1);
+    Ray of_limn = of_truth;
     for (int root = 0; root < 2; ++root) {
-        const ExactHit truth = exact(wide);
-        const std::optional<Answer> reported = limn(wide);
+        const ExactHit truth = exact(of_truth);
+        const std::optional<Answer> reported = limn(of_limn);
         if (!reported && truth.hit && absolute(truth.t) > Real(1 - 0x1p-22) * kLargest) return {};  // to infinity
+        if (root > 0 && !reported && truth.t <= Real(beside(ray.t_min, 1))) return {};  // one with the root before
         if (!reported || !truth.hit) return truth;
         if (reported->t > ray.t_max) return {};
         if (reported->t > ray.t_min) return truth;
-        wide.t_min = beside(ray.t_min, 1);
+        of_limn.t_min = reported->t, of_truth.t_min = static_cast<double>(truth.t);
+        if (Real(of_truth.t_min) < truth.t) of_truth.t_min = std::nextafter(of_truth.t_min, kInfinity);
     }
     return {};
 }
