@@ -44,6 +44,16 @@ TEST_CASE("Media: a ray that leaves just before an edge, and touches that, was i
     CHECK(depth_along(ray, smoke(u)) == Approx(8 * length(ray.direction)).epsilon(1e-9));
 }
 
+TEST_CASE("Media: a surface that is there twice bounds nothing", "[render][media]") {
+    const Object ball = sphere({3, 0, 0}, 1, nullptr);
+    const auto of = [&](std::vector<Object> copies) {
+        return smoke(std::make_shared<HittableList>(std::move(copies)));
+    };
+    CHECK(depth_up_to(kInfinity, of({ball})) == Approx(2).epsilon(1e-12));
+    CHECK(depth_up_to(kInfinity, of({ball, ball})) == 0);
+    CHECK(depth_up_to(kInfinity, of({ball, ball, ball})) == Approx(2).epsilon(1e-12));
+}
+
 TEST_CASE("Media: the wall between two halves of a boundary is no border, and light scatters behind it",
           "[render][media]") {
     const Object halves = std::make_shared<HittableList>(

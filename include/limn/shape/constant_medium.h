@@ -14,7 +14,7 @@ namespace limn {
 class ConstantMedium final : public Hittable {
 public:
     /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is
-    /// inside, so nested closed surfaces make shells.
+    /// inside, so nested closed surfaces make shells, and a surface that is there twice bounds nothing.
     /// \param density extinction per world unit of length: light goes 1 / density far in the mean
     /// \param albedo the share of it that scatters, in [0, 1]; a texture is evaluated by position alone
     ///
