@@ -61,6 +61,13 @@ BlasId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
     return scene.medium_shapes[medium.shape].boundary;
 }
 
+template <class Query>
+void search_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, Query& query) {
+    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
+        search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+    });
+}
+
 // A search of the scene, then of all boundaries of media, which are flagged where they are listed in `out`.
 template <class Query>
 void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vector<Crossing>* out) {
@@ -68,9 +75,7 @@ void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vec
     const std::size_t before = out != nullptr ? out->size() : 0;
     for (const flat::Medium& medium : scene.media) {
         if (query.ended()) return;
-        inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-            search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
-        });
+        search_boundary(scene, medium, ray, query);
     }
     for (std::size_t i = before; out != nullptr && i < out->size(); ++i) (*out)[i].index_matched = true;
 }
@@ -126,10 +131,8 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
 
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out) {
     out.clear();
-    inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-        Passages query{{}, ray.t_max, &out};
-        search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
-    });
+    Passages query{{}, ray.t_max, &out};
+    search_boundary(scene, medium, ray, query);
 }
 
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {

@@ -117,8 +117,10 @@ TEST_CASE("Crossings: a ray that is cut has each once, also where it is cut, and
         return crossings(scene, {{0, 0, 0}, {0, 0, -1}, t_min, t_max, 0}).size();
     };
     CHECK(count(-kInfinity, kInfinity) == 2);  // the other ball is no boundary
+    CHECK(count(0, kInfinity) == 2);
     CHECK(count(9, kInfinity) == 1);
     CHECK(count(0, 11) == 1);
+    CHECK(count(0, std::nextafter(12, 0)) == 1);
     CHECK(count(0, std::nextafter(8, 0)) == 0);
     CHECK(count(std::nextafter(12, 13), kInfinity) == 0);
     for (const double cut : {std::nextafter(8, 0), 8.0, std::nextafter(8, 9), 12.0})
