@@ -88,7 +88,8 @@ private:
     }
 
     void write_leaf(const accel::Leaf& leaf, Place place) {
-        auto [at, reference] = place;
+        std::size_t at = place.word;
+        std::uint32_t reference = place.reference;
         for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
             std::uint32_t* words = scene_.blocks.data() + at;
             const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,

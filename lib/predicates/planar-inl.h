@@ -130,9 +130,9 @@ HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within
                              FilterResult<N>& result) {
     const auto undecided = inside & !(result.hit | result.miss);
     if (HWY_LIKELY(!any(undecided))) return;
-    const auto is_outside =
-        is_behind(u, v, q, edge_error, 0.5 * ray.absolute, against) | is_beyond(ray, u, v, q, within.t_max, against);
-    result.miss = result.miss | (undecided & is_outside & (within.t_min >= 0.0));
+    const auto behind = is_behind(u, v, q, edge_error, 0.5 * ray.absolute, against);
+    const auto beyond = is_beyond(ray, u, v, q, within.t_max, against);
+    result.miss = result.miss | (undecided & (behind | beyond) & (within.t_min >= 0.0));
 }
 
 }  // namespace limn::HWY_NAMESPACE

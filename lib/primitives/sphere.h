@@ -42,6 +42,8 @@ struct MovingSphere : SphereRecord, Primitive {
 
     std::uint32_t padding = 0;
 
+    explicit MovingSphere(const SphereRecord& s) : SphereRecord(s) {}
+
     Box bounds() const { return sphere_bounds(center0, center1, radius); }
     Sphere at(double time) const {
         const Point3 center = interpolate(center0, center1, time);

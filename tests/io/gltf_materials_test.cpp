@@ -107,6 +107,6 @@ TEST_CASE("glTF: materials that show the same picture share it", "[io][gltf]") {
         replaced(with_texture("\"uri\": \"four.png\""), "\"materials\": [{", "\"materials\": [{" + kTextured + "}, {");
     const Model model = load_model(folder.write("a.gltf", two));
     RecordSink sink;
-    for (std::size_t i : {1, 2}) lower_material(sink, model.meshes.at(0)->materials().at(i));
+    for (const std::size_t i : {1U, 2U}) lower_material(sink, model.meshes.at(0)->materials().at(i));
     CHECK(sink.records().images.size() == 1);
 }

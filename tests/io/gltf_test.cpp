@@ -68,7 +68,7 @@ TEST_CASE("glTF: strips and fans are cut as the specification says", "[io][gltf]
 TEST_CASE("glTF: interleaved, normalised and sparse accessors are read", "[io][gltf]") {
     // Positions of 16 bits in steps of 8 bytes, as KHR_mesh_quantization has them; the rest as before.
     std::string bytes;
-    for (const int corner : {0, 1, 3, 2})
+    for (const unsigned corner : {0U, 1U, 3U, 2U})
         bytes += little((corner & 1) * 65535U, 2) + little((corner >> 1) * 65535U, 2) + little(0, 2) + little(7, 2);
     bytes += std::string(16, '\0') + square_bytes().substr(48);
     const std::string whole = square_gltf("\"uri\": \"" + data_uri(bytes) + "\", ");

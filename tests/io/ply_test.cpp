@@ -39,7 +39,7 @@ std::string binary_square(bool is_big, const std::string& index_type = "int", st
         is_big ? "binary_big_endian" : "binary_little_endian");
     for (const float v : std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) bytes += in_order(floats({v}), is_big);
     bytes += '\4';
-    for (const std::uint64_t index : {0, 1, 2, 3}) bytes += in_order(little(index, index_size), is_big);
+    for (const std::uint64_t index : {0U, 1U, 2U, 3U}) bytes += in_order(little(index, index_size), is_big);
     return bytes;
 }
 

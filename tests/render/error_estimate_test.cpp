@@ -52,7 +52,8 @@ TEST_CASE("Error estimate: a pixel alone has the variance between its replicates
         for (int i = 0; i < samples; ++i) {
             const double value = random.uniform(0, 9);
             film.add(0, 0, grey_of(value));
-            sums[i % 2] += value, ++counts[i % 2];
+            const std::size_t half = i % 2 == 0 ? 0 : 1;
+            sums[half] += value, ++counts[half];
         }
         const double mean = (sums[0] + sums[1]) / samples;
         const double variance =

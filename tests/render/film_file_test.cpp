@@ -176,7 +176,7 @@ TEST_CASE("Film files: more tiles than a film can have, or than the file holds, 
     // Behind the content and the two empty names.
     const auto with_sides = [&](std::int32_t side) {
         std::string other = bytes;
-        for (const std::size_t place : {24 + 17, 24 + 21}) std::memcpy(&other[place], &side, 4);
+        for (const std::size_t place : {24U + 17U, 24U + 21U}) std::memcpy(&other[place], &side, 4);
         return other;
     };
     CHECK(fault(with_sides(1 << 20)) == "is damaged: its header");
@@ -250,7 +250,8 @@ TEST_CASE("Shards: each tile is in one, as many in each, and all over the pictur
                     for (const bool by_column : {false, true}) {
                         const auto is_there = [&](std::uint32_t number) {
                             const Film::Tile t = all.tile(number);
-                            return 4 * (by_column ? t.left : t.top) / (by_column ? width : height) == quarter;
+                            return 4 * (by_column ? t.left : t.top) / (by_column ? all.width() : all.height()) ==
+                                   quarter;
                         };
                         const auto mine = std::ranges::count_if(film.tiles(), is_there);
                         const auto theirs = std::ranges::count_if(all.tiles(), is_there);

@@ -246,7 +246,7 @@ TEST_CASE("Jobs: shards merge to the picture of one render, in any order", "[ren
     }
     for (int order = 0; order < 3; ++order) {
         check_same(render_result(Film::merge(paths)), whole);
-        std::ranges::rotate(paths, paths.begin() + 1);
+        std::rotate(paths.begin(), paths.begin() + 1, paths.end());
     }
     // What was merged can be continued.
     Film::merge(paths).save(folder.path("all.film"));
