@@ -52,7 +52,7 @@ TEST_CASE("Error estimate: a pixel alone has the variance between its replicates
         for (int i = 0; i < samples; ++i) {
             const double value = random.uniform(0, 9);
             film.add(0, 0, grey_of(value));
-            const std::size_t half = i % 2 == 0 ? 0 : 1;
+            const auto half = static_cast<std::size_t>(i % 2);
             sums[half] += value, ++counts[half];
         }
         const double mean = (sums[0] + sums[1]) / samples;
