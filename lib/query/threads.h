@@ -17,11 +17,12 @@ inline constexpr int kMostThreads = 1024;
 // As many as are worth a task.
 inline constexpr std::size_t kPart = 1024;
 
-// work(first, count) for all parts of `size`, on so many threads; 0: on those of the caller's arena.
+// work(first, count) for all parts of `size`, none of which is empty, on so many threads; 0: on those of the arena.
 template <class Work>
 void for_all_parts(std::size_t size, int threads, const char* who, const Work& work) {
     if (threads < 0 || threads > kMostThreads)
         throw ArgumentError(std::string(who) + ": threads must lie in 0 to " + std::to_string(kMostThreads));
+    if (size == 0) return;
     if (threads == 1 || size <= kPart) return work(std::size_t{0}, size);
     with_threads(threads, [&] {
         accel::for_all(0, (size + kPart - 1) / kPart, 1,
