@@ -17,7 +17,7 @@ inline constexpr int kMostThreads = 1024;
 // As many as are worth a task.
 inline constexpr std::size_t kPart = 1024;
 
-// work(first, count) for all parts of `size`, none of which is empty, on so many threads; 0: on those of the arena.
+// work(first, count) for all parts of `size`, on so many threads; 0: on those of the caller's arena. No part is empty.
 template <class Work>
 void for_all_parts(std::size_t size, int threads, const char* who, const Work& work) {
     if (threads < 0 || threads > kMostThreads)
