@@ -12,6 +12,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
+// Where a ray meets the plane of a disk, from its center: w / b, at t = -a / b; and what each is off by.
+template <class N>
+struct DiskCrossing {
+    Vector<N> w;
+    N a, b, w_error, a_error, b_error;
+    Mask<N> known;  // else products may have overflowed, or underflowed by more than that
+};
+
 template <class N>
 struct DiskPredicate {
     using Ray = RayOf<N>;
@@ -25,30 +33,32 @@ struct DiskPredicate {
         return {three<N>(number, 0), three<N>(number, 3), number(6)};
     }
 
-    // The rim belongs to the disk, a ray in its plane misses.
-    //
-    // With p = o - c, a = p.n, b = d.n the plane is met at t = -a / b, at c + w / b, w = b p - a d: inside where w.w <=
-    // r^2 b^2. Let P, D, M be the largest coordinates of p, d, n, origin and direction be off by e and s, u = 2^-53.
-    // Then p is off by u P + e; a by A = 12 u P M + 4 M e, b by B = 9 u D M + 4 M s; w by (15 u P D M + 3 D M e + 3 P M
-    // s) from each of its products and 6 u P D M from their difference, by E = 40 u P D M + 7 D M e + 7 P M s in all.
-    // So w.w is off by 6 |w| E + 3 E^2 and 8 u |w|^2, |w| the largest coordinate, and r^2 b^2 by r^2 B (2 |b| + B) and
-    // 3 u of itself. Where r^2 b^2 exceeds w.w by more than both, |b| > 2 B, and t is off by 2 (A + |t| B) / |b|, and u
-    // of itself.
-    //
-    // Nothing is decided where products could overflow, or underflow by more than that.
-    HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
+    // With p = o - c, a = p.n, b = d.n the plane is met at t = -a / b, at c + w / b, w = b p - a d. Let P, D, M be the
+    // largest coordinates of p, d, n, origin and direction be off by e and s, u = 2^-53. Then p is off by u P + e; a by
+    // A = 12 u P M + 4 M e, b by B = 9 u D M + 4 M s; w by (15 u P D M + 3 D M e + 3 P M s) from each of its products
+    // and 6 u P D M from their difference, by E = 40 u P D M + 7 D M e + 7 P M s in all.
+    HWY_INLINE DiskCrossing<N> crossing(const Ray& ray) const {
         const Vector<N> p = ray.origin - center;
         const Vector<N>& d = ray.direction;
         const N a = dot(p, normal), b = dot(d, normal);
-        const Vector<N> w = b * p - a * d;
-        const N reach = max_abs(p), along = max_abs(d), size = max_abs(normal), across = max_abs(w), slope = abs(b);
+        const N reach = max_abs(p), along = max_abs(d), size = max_abs(normal);
         const auto is_in_range = [](N x) HWY_ATTR { return (x > 0x1p-100) & (x < 0x1p100); };
-        const auto known = is_in_range(reach) & is_in_range(along) & is_in_range(size) & is_in_range(radius);
+        return {.w = b * p - a * d,
+                .a = a,
+                .b = b,
+                .w_error =
+                    size * (along * (40 * kRoundoff * reach + 7 * ray.origin_error) + 7 * reach * ray.direction_error),
+                .a_error = size * (12 * kRoundoff * reach + 4 * ray.origin_error),
+                .b_error = size * (9 * kRoundoff * along + 4 * ray.direction_error),
+                .known = Mask<N>(is_in_range(reach) & is_in_range(along) & is_in_range(size) & is_in_range(radius))};
+    }
 
-        const N a_error = size * (12 * kRoundoff * reach + 4 * ray.origin_error);
-        const N b_error = size * (9 * kRoundoff * along + 4 * ray.direction_error);
-        const N w_error =
-            size * (along * (40 * kRoundoff * reach + 7 * ray.origin_error) + 7 * reach * ray.direction_error);
+    // The rim belongs to the disk, a ray in its plane misses: inside is where w.w <= r^2 b^2. w.w is off by 6 |w| E + 3
+    // E^2 and 8 u |w|^2, |w| the largest coordinate, and r^2 b^2 by r^2 B (2 |b| + B) and 3 u of itself. Where r^2 b^2
+    // exceeds w.w by more than both, |b| > 2 B, and t is off by 2 (A + |t| B) / |b|, and u of itself.
+    HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
+        const auto [w, a, b, w_error, a_error, b_error, known] = crossing(ray);
+        const N across = max_abs(w), slope = abs(b);
         const N r2 = radius * radius, inside_by = r2 * (b * b) - dot(w, w);
         const N error = 3 * w_error * (2 * across + w_error) + r2 * b_error * (2 * slope + b_error) +
                         16 * kRoundoff * (across * across + r2 * (b * b));

@@ -13,12 +13,20 @@ namespace limn {
 
 bool intersect_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame,
                     const Search& search, PlanarHit& hit) {
-    if (!HWY_NAMESPACE::intersect(HWY_NAMESPACE::disk_of<double>(center, normal, radius), frame, search, hit))
-        return false;
-    const Frame axes(normalize(normal));
-    const Vec3 from_center = frame.ray.at(hit.t) - center;
-    hit.u = 0.5 + 0.5 * dot(from_center, axes.x) / radius;
-    hit.v = 0.5 + 0.5 * dot(from_center, axes.y) / radius;
+    const auto disk = HWY_NAMESPACE::disk_of<double>(center, normal, radius);
+    if (!HWY_NAMESPACE::intersect(disk, frame, search, hit)) return false;
+    const auto c = disk.crossing(HWY_NAMESPACE::ray_of<double>(frame));
+    const double reach = c.b * radius;
+    if (c.known && 2 * c.w_error + radius * c.b_error <= kAccurateWeight * std::abs(reach)) {
+        const Frame axes(normalize(normal));
+        const Vec3 w{c.w.x, c.w.y, c.w.z};
+        hit.u = 0.5 + 0.5 * dot(w, axes.x) / reach;
+        hit.v = 0.5 + 0.5 * dot(w, axes.y) / reach;
+        return true;
+    }
+    PlanarHit exact;
+    exact_disk(center, normal, radius, frame, search, exact);
+    hit.u = exact.u, hit.v = exact.v;
     return true;
 }
 
@@ -32,7 +40,9 @@ bool exact_disk(const Point3& center, const Vec3& normal, double radius, const R
     const Dyadic3 w = a * ray.direction - b * q;
     const Dyadic reach = b * (ray.unit * Dyadic(radius));
     if (reach * reach < dot(w, w)) return false;
-    hit = {ratio(a, b), 0, 0};
+    const Frame axes(normalize(normal));
+    const auto along = [&](const Vec3& axis) { return ratio(reach + dot(w, to_dyadic(axis)), reach + reach); };
+    hit = {ratio(a, b), along(axes.x), along(axes.y)};
     return search.contains(hit.t);
 }
 

@@ -13,7 +13,7 @@ namespace limn {
 bool intersect_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame,
                     const Search& search, PlanarHit& hit);
 
-// The same without a filter, and without u and v.
+// The same without a filter. Where the disk is hit, `hit` is set even if t is not within the search.
 bool exact_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame, const Search& search,
                 PlanarHit& hit);
 

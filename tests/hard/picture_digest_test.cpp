@@ -13,7 +13,7 @@ namespace {
 
 using MaterialPtr = std::shared_ptr<const Material>;
 
-const std::string kRoom = "732d66ce5c00a6f2", kOutdoors = "1d0c6200e15171fa";
+const std::string kRoom = "732d66ce5c00a6f2", kOutdoors = "c738be11b57454e5";
 
 MaterialPtr matte(double r, double g, double b) { return std::make_shared<Lambertian>(Color{r, g, b}); }
 

@@ -138,6 +138,40 @@ TEST_CASE("Disk: what its filter decides is exactly so, in instances too", "[sha
     CHECK(decided < rays);
 }
 
+TEST_CASE("Disk: u and v are within 2^-26, from afar, at a slant and in flat instances", "[shape][disk]") {
+    Random random(64);
+    int wrong = 0, hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Point3 c = Point3{} + random.in_cube(4);
+        const Vec3 n = random.log_uniform(1e-3, 1e3) * random.unit();
+        const double r = random.log_uniform(1e-2, 1e2), far = random.log_uniform(1, 1e12);
+        const Frame axes(normalize(n));
+        const Point3 target = c + r * (random.uniform(-1, 1) * axes.x + random.uniform(-1, 1) * axes.y);
+        const Vec3 way = normalize(random.log_uniform(1e-6, 1) * axes.z + axes.to_world({random.uniform(), 1, 0}));
+        const Ray ray{.origin = target - far * way, .direction = random.log_uniform(1e-3, 1e3) * way};
+        PlanarHit hit;
+        if (!intersect_disk(c, n, r, frame_of(ray), {0, kInfinity}, hit)) continue;
+        ++hits;
+        const Real3 p = Real3(ray.origin) - Real3(c), d(ray.direction), normal(n);
+        const Real3 at = p - (dot(p, normal) / dot(d, normal)) * d;
+        const auto is_off = [&](double found, const Vec3& axis) {
+            return absolute(Real(found) - (dot(at, Real3(axis)) / Real(2 * r) + Real(0.5))) > kAccurateWeight;
+        };
+        wrong += is_off(hit.u, axes.x) || is_off(hit.v, axes.y);
+
+        // Within rounding of singular. The exact fallback is that of the first part.
+        const Transform m = Transform::rotate({1, 2, 3}, 40) * Transform::scale(1, 1, random.log_uniform(1e-14, 1));
+        const RayFrame outer(
+            {.origin = transform_point(m, ray.origin), .direction = transform_vector(m, ray.direction)});
+        PlanarHit exact, found;
+        if (!intersect_disk(c, n, r, RayFrame(outer, m), {0, kInfinity}, found)) continue;
+        wrong += !exact_disk(c, n, r, RayFrame(outer, m), {0, kInfinity}, exact) ||
+                 std::abs(found.u - exact.u) > kAccurateWeight || std::abs(found.v - exact.v) > kAccurateWeight;
+    }
+    CHECK(wrong == 0);
+    CHECK(hits > 10000);
+}
+
 TEST_CASE("Disk: compiled it is hit as described, t bit for bit, in instances and beside others", "[shape][disk]") {
     Random random(63);
     const auto grey = std::make_shared<Lambertian>(Color{0.5, 0.5, 0.5});
