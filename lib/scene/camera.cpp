@@ -81,12 +81,14 @@ double tan_of_half(double degrees) {
     return degrees <= 90 ? tangent(radians(degrees) / 2) : 1 / tangent(radians(180 - degrees) / 2);
 }
 
+bool is_height(double height) { return height > 0 && std::isfinite(height); }
+
 double half_height_of(const Camera& camera) {
     const double half_angle = tan_of_half(camera.vertical_fov);
     if (camera.projection != Projection::orthographic) return half_angle;
     const double half =
         camera.view_height ? *camera.view_height / 2 : length(camera.look_at - camera.look_from) * half_angle;
-    require(half > 0 && std::isfinite(half), "the height of the view must be positive and finite");
+    require(is_height(half), "the height of the view must be positive and finite");
     return half;
 }
 
@@ -98,6 +100,7 @@ CameraRays::View view_of(const Camera& camera, int width, int height) {
     require(width > 0 && height > 0, "width and height must be positive");
     require(is_finite(camera.look_from), "look-from must be finite");
     require(is_finite(camera.look_at), "look-at must be finite");
+    require(is_height(camera.view_height.value_or(1)), "the height of the view must be positive and finite");
     require(is_finite(camera.up) && !(camera.up == Vec3{}), "up must be finite and not zero");
     require(camera.vertical_fov > 0 && camera.vertical_fov < 180, "the vertical field of view must lie in (0, 180)");
     require(camera.aperture_angle >= 0 && camera.aperture_angle < 180, "the aperture angle must lie in [0, 180)");

@@ -97,6 +97,8 @@ TEST_CASE("Camera: an impossible one is refused with a message that says why", "
         refused([&](Camera& c) { c.focus_distance = focus; }, "focus");
     for (const double aspect : {0.0, -1.0, nan, kInfinity})
         refused([&](Camera& c) { c.aspect_ratio = aspect; }, "aspect");
+    for (const double height : {0.0, -1.0, nan, kInfinity})  // also in the projections that do not use it
+        refused([&](Camera& c) { c.view_height = height; }, "height of the view");
     refused([](Camera& c) { c.shutter_open = 0.6, c.shutter_close = 0.5; }, "shutter");
     refused([](Camera& c) { c.shutter_open = -0.1; }, "shutter");
     refused([](Camera& c) { c.shutter_close = 1.1; }, "shutter");

@@ -87,7 +87,8 @@ struct RenderResult {
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
 
 /// What a film is worth so far; `error` is the one that was asked for. Of the report those fields that only a render
-/// knows are empty. Runs on the threads of the caller's TBB arena.
+/// knows are empty. Runs on the threads of the caller's TBB arena. \throws ArgumentError if `error` is not positive and
+/// finite
 RenderResult render_result(const Film& film, std::optional<double> error = {});
 
 /// limn's version, "major.minor.patch".
