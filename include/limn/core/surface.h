@@ -28,11 +28,12 @@ struct MaterialRef {
 struct Surface {
     Point3 position;         ///< as computed: rounded
     Vec3 position_error;     ///< bound on the distance of `position` from the true surface along each axis
-    Normal3 normal;          ///< geometric, unit, on the side that the ray came from
+    Normal3 normal;          ///< geometric, unit, on the side of front_face
     Normal3 shading_normal;  ///< interpolated, unit, same side; equals `normal` where the shape has no own normals
     Uv uv;                   ///< texture coordinates
-    bool front_face = true;  ///< whether the ray came from the side of the shape's outward normal
-    MaterialRef material;    ///< valid as long as the compiled scene
+    bool front_face =
+        true;  ///< whether the ray came from the side of the outward normal; within 1e-15 of the plane: either
+    MaterialRef material;  ///< valid as long as the compiled scene
     /// How the position moves with `uv`; zero of user-defined shapes and at poles of spheres, edges of a mesh's
     /// triangle where its uv have no area.
     Vec3 dp_du, dp_dv;

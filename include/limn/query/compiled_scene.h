@@ -53,10 +53,10 @@ public:
     bool any_hit(const Ray& ray) const;
 
     /// Every hit with t in (t_min, t_max], by t and, of equals, by the primitive's number: at a shared edge or vertex
-    /// each triangle that the ray meets, once; a sphere where it is entered and where it is left, and once where the
-    /// ray touches it. Ties within rounding may stand in either order. Boundaries of media count, flagged; an unusable
-    /// ray meets nothing. The first one is closest_hit's. The second form replaces what is in `hits` and keeps its
-    /// memory, here and below.
+    /// each triangle that the ray meets, once; a sphere where it is entered and where it is left, once where the
+    /// ray touches it or both t are rounded to one. Ties within rounding may stand in either order. Boundaries of media
+    /// count, flagged; an unusable ray meets nothing. The first one is closest_hit's. The second form replaces what is
+    /// in `hits` and keeps its memory, here and below.
     ///@{
     std::vector<RayHit> all_hits(const Ray& ray) const;
     void all_hits(const Ray& ray, std::vector<RayHit>& hits) const;
@@ -66,8 +66,8 @@ public:
     /// a vertex. The ray counts as moved by less than any number, both ends with it, always the same way
     /// (docs/queries.md). So a ray that touches a closed surface or runs along a face crosses it twice or not at all:
     /// between two points outside, the count is even. An end that lies on a surface counts as on one side of it. A ray
-    /// that touches a sphere misses it. Disks and user-defined shapes answer as they do for all_hits. None for an
-    /// unusable ray.
+    /// that touches a sphere between its ends misses it. Disks and user-defined shapes answer as they do for all_hits.
+    /// None for an unusable ray.
     ///@{
     std::vector<RayCrossing> crossings(const Ray& ray) const;
     void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;
