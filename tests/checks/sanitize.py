@@ -51,7 +51,11 @@ def instrumented_tbb():
 def sanitized(kind):
     """Builds with the preset; yields for each room what its tests said."""
     folder = ROOT / "build" / kind
-    options = [f"-DTBB_DIR={instrumented_tbb()}"] if kind == "tsan" else []
+    options = []
+    if kind == "tsan":
+        config = instrumented_tbb()
+        options = [f"-DTBB_DIR={config}"]
+        os.environ["LD_LIBRARY_PATH"] = str(config.parents[1])  # for the programs of the consumers' tests
     suite.build(folder, ["--preset", kind, *options])
     for room in suite.rooms(folder):
         yield room or "others", lambda room=room: suite.run(folder, room, preset=kind)
