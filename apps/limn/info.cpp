@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands.h"
 #include "json_output.h"
@@ -25,9 +26,13 @@ struct Description {
 
 const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-// Vertices are float32: as such they have few digits.
+// Vertices are float32: as such they have few digits. Their instances may lie beyond all floats.
 std::string corner(const Point3& p) {
-    return fmt::format("({}, {}, {})", static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
+    const auto text = [](double x) {
+        const auto rounded = static_cast<float>(x);
+        return std::isfinite(rounded) && (rounded != 0 || x == 0) ? fmt::format("{}", rounded) : fmt::format("{}", x);
+    };
+    return fmt::format("({}, {}, {})", text(p.x), text(p.y), text(p.z));
 }
 
 // What all meshes of a model are together, each once.

@@ -105,6 +105,10 @@ ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, c
     const char* type = format == FileFormat::hdr                           ? "float"
                        : call(stbi_is_16_bit_from_callbacks, depth_reader) ? "uint16"
                                                                            : "uint8";
+    // Of a PNG without a palette stb does not count the colour that is transparent (11.3.2.1), but it reads its alpha.
+    const auto is_transparency = [](const PngChunk& chunk) { return chunk.type == "tRNS"; };
+    if (format == FileFormat::png && channels % 2 == 1)
+        channels += std::ranges::any_of(png_header_chunks(bytes), is_transparency) ? 1 : 0;
     constexpr const char* kNames[] = {"Y", "YA", "RGB", "RGBA"};
     for (const char* c = kNames[channels - 1]; *c != '\0'; ++c) info.channels.push_back({std::string(1, *c), type});
     return info;

@@ -21,6 +21,7 @@ struct Mark {
 };
 
 constexpr bool kMayBeText = true;
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 // The first that fits. UTF-32 begins with the mark of UTF-16. Boxes of AVIF and HEIF begin with their size in four
 // bytes.
@@ -54,6 +55,8 @@ constexpr Mark kMarks[] = {
     {"\0\0"sv, {"a HEIF picture"}, 4, "ftypmif1"sv},
     {"ply\n"sv, {"a PLY model", {}, false, ModelFormat::ply}},
     {"ply\r"sv, {"a PLY model", {}, false, ModelFormat::ply}},
+    {"ply "sv, {"a PLY model", {}, false, ModelFormat::ply}, 3, " \n"sv},
+    {"ply "sv, {"a PLY model", {}, false, ModelFormat::ply}, 3, " \r"sv},
     {"glTF"sv, {"a binary glTF model", {}, false, ModelFormat::gltf}},
     {"Kaydara FBX Binary"sv, {"an FBX model"}},
     {"; FBX"sv, {"an FBX model"}},
@@ -105,7 +108,7 @@ bool is_binary_stl(std::string_view contents) {
 }
 
 bool begins_with_solid(std::string_view contents) {
-    std::string_view text = contents.substr(contents.starts_with("\xef\xbb\xbf") ? 3 : 0);  // a byte order mark
+    std::string_view text = contents.substr(contents.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
     text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
     const bool has_word = text.starts_with("solid") || text.starts_with("SOLID") || text.starts_with("Solid");
     return has_word && contents.substr(0, kStlHeader).find('\0') == std::string_view::npos;
@@ -121,6 +124,7 @@ FileKind kind_of_contents(std::string_view contents) {
     if (is_ascii_stl(contents)) return kStl;
     if (is_utf16(contents)) return {"UTF-16 text"};
     if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
+    if (contents.starts_with(kByteOrderMark)) contents.remove_prefix(kByteOrderMark.size());
     const std::size_t first = contents.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || contents[first] != '{') return {};
     if (contents.find("\"asset\"") == std::string_view::npos) return {"JSON text"};

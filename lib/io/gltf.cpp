@@ -1,6 +1,7 @@
 // glTF 2.0 (Khronos, 2021), as JSON with files beside it or as one binary file.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "io/bytes.h"
@@ -155,16 +156,28 @@ private:
         visit_children(node["children"], world_from_node);
     }
 
+    // Files hold it rounded.
+    static std::vector<double> unit_quaternion(const GltfValue& rotation) {
+        std::vector<double> q = rotation.numbers_or({0, 0, 0, 1});
+        const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        if (!(std::abs(length - 1) < 0.01)) rotation.fail("is no unit quaternion");
+        for (double& component : q) component /= length;
+        return q;
+    }
+
     static Transform transform_of(const GltfValue& node) {
         Transform m;
         if (node["matrix"].exists()) {
+            for (const char* other : {"translation", "rotation", "scale"})
+                if (node[other].exists()) node[other].fail("stands beside a matrix");
             const std::vector<double> columns = node["matrix"].numbers_or(std::vector<double>(16));
+            if (columns[3] != 0 || columns[7] != 0 || columns[11] != 0 || columns[15] != 1)
+                node["matrix"].fail("its last row is not 0 0 0 1");
             for (std::size_t row = 0; row < 3; ++row)
                 for (std::size_t column = 0; column < 4; ++column) m.rows[row][column] = columns[4 * column + row];
             return m;
         }
-        const std::vector<double> t = node["translation"].numbers_or({0, 0, 0}),
-                                  q = node["rotation"].numbers_or({0, 0, 0, 1}),
+        const std::vector<double> t = node["translation"].numbers_or({0, 0, 0}), q = unit_quaternion(node["rotation"]),
                                   s = node["scale"].numbers_or({1, 1, 1});
         const double x = q[0], y = q[1], z = q[2], w = q[3];
         const double rotation[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
@@ -197,16 +210,19 @@ private:
             description["type"].fail("is neither perspective nor orthographic");
         if (type == "orthographic") {
             const GltfValue frame = description["orthographic"];
-            const double half_width = frame["xmag"].number(), half_height = frame["ymag"].number();
-            if (!(half_width > 0 && half_height > 0)) frame.fail("its xmag and ymag are not above 0");
+            const double half_width = std::abs(frame["xmag"].number()), half_height = std::abs(frame["ymag"].number());
+            if (!(half_width > 0 && half_height > 0)) frame.fail("its xmag or ymag is 0");
             camera.camera.projection = Projection::orthographic;
             camera.camera.view_height = 2 * half_height;
             camera.camera.aspect_ratio = half_width / half_height;
         } else {
             const GltfValue perspective = description["perspective"], angle = perspective["yfov"];
             camera.camera.vertical_fov = angle.number() * 180 / kPi;
-            if (!(camera.camera.vertical_fov > 0 && camera.camera.vertical_fov < 180))
-                angle.fail("is not between 0 and pi");
+            if (!(camera.camera.vertical_fov > 0)) angle.fail("is not above 0");
+            if (!(camera.camera.vertical_fov < 180)) {
+                model_.warnings.push_back(angle.place() + " is not below pi, and the camera left out");
+                return;
+            }
             const GltfValue ratio = perspective["aspectRatio"];
             if (ratio.exists()) camera.camera.aspect_ratio = ratio.number();
             if (!(camera.camera.aspect_ratio.value_or(1) > 0)) ratio.fail("is not above 0");

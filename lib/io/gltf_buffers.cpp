@@ -27,6 +27,8 @@ std::size_t size_of(std::uint64_t type) {
     }
 }
 
+bool is_unsigned(std::uint64_t type) { return type == kUint8 || type == kUint16 || type == kUint32; }
+
 int base64_digit(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -51,8 +53,9 @@ std::string gltf_path_beside(const std::string& file, const std::string& uri) {
     for (std::size_t i = 0; i < uri.size(); ++i) {
         const bool is_coded =
             uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0;
-        name += is_coded ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2])) : uri[i];
-        if (is_coded) i += 2;
+        const int code = is_coded ? 16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2]) : 0;
+        name += code > 0 ? static_cast<char>(code) : uri[i];  // %00 would end the name
+        if (code > 0) i += 2;
     }
     return (std::filesystem::path(file).parent_path() / name).string();
 }
@@ -64,7 +67,9 @@ std::string GltfBuffers::decode_data(const GltfValue& uri) {
         uri.fail("its data are not in base64");
     std::string bytes;
     unsigned bits = 0, count = 0;
-    for (std::size_t i = comma + 1; i < text.size() && text[i] != '='; ++i) {
+    const std::size_t end = std::min(text.find('=', comma), text.size());
+    if (text.find_first_not_of('=', end) != std::string::npos) uri.fail("has characters behind the end of its base64");
+    for (std::size_t i = comma + 1; i < end; ++i) {
         const int digit = base64_digit(text[i]);
         if (digit < 0) uri.fail("character " + std::to_string(i) + " is none of base64");
         bits = bits << 6 | static_cast<unsigned>(digit);
@@ -139,7 +144,10 @@ GltfBuffers::Elements GltfBuffers::elements_in(const GltfValue& holder, Elements
     const std::span<const std::byte> bytes = this->view(view);
     const std::uint64_t offset = holder["byteOffset"].natural_or(0);
     e.stride = view.in(document_["bufferViews"])["byteStride"].natural_or(size);
-    if (e.stride < 1 || e.stride > 252) view.in(document_["bufferViews"]).fail("byteStride is not in 4 to 252");
+    const bool is_stated = view.in(document_["bufferViews"])["byteStride"].exists();
+    if (is_stated && (e.stride < std::max<std::size_t>(size, 4) || e.stride > 252 || e.stride % 4 != 0))
+        view.in(document_["bufferViews"])
+            .fail("byteStride is no multiple of 4, from the " + std::to_string(size) + " bytes of an element to 252");
     const std::uint64_t end = offset + (std::uint64_t{e.count} - 1) * e.stride + size;
     if (end > bytes.size())
         holder.fail("reaches to byte " + std::to_string(end) + " of its view, which has " +
@@ -175,13 +183,17 @@ std::vector<double> GltfBuffers::values(const GltfValue& accessor, std::size_t c
     if (places.count == 0) return values;
     places.components = 1;
     places.type = sparse["indices"]["componentType"].natural();
+    if (!is_unsigned(places.type)) sparse["indices"]["componentType"].fail("is no type of unsigned integers");
     places = elements_in(sparse["indices"], places);
     Elements replaced = dense;
     replaced.count = places.count;
     replaced = elements_in(sparse["values"], replaced);
+    double last = -1;
     for (std::size_t i = 0; i < places.count; ++i) {
         const double place = places.at(i, 0);
-        if (!(place >= 0 && place < static_cast<double>(dense.count)))
+        if (place <= last) sparse["indices"].fail("element " + std::to_string(i) + " is not above the one before");
+        last = place;
+        if (!(place < static_cast<double>(dense.count)))
             sparse["indices"].fail("element " + std::to_string(i) + " is beyond the " + std::to_string(dense.count) +
                                    " of the accessor");
         for (std::size_t c = 0; c < components; ++c)
@@ -194,6 +206,8 @@ const std::vector<float>& GltfBuffers::floats(const GltfValue& number, const std
     const GltfValue accessor = number.in(document_["accessors"]);
     if (accessor["type"].text_or("") != type)
         accessor["type"].fail("is not " + type + ", which " + number.place() + " needs");
+    if (accessor["componentType"].natural() == kUint32)
+        accessor["componentType"].fail("is that of indices alone, which " + number.place() + " are not");
     const auto [place, is_new] = accessors_.try_emplace(accessor.place());
     if (is_new)
         for (const double value : values(accessor, static_cast<std::size_t>(type.back() - '0')))
@@ -203,9 +217,8 @@ const std::vector<float>& GltfBuffers::floats(const GltfValue& number, const std
 
 std::vector<std::uint32_t> GltfBuffers::indices(const GltfValue& number) {
     const GltfValue accessor = number.in(document_["accessors"]);
-    const std::uint64_t type = accessor["componentType"].natural();
-    const bool is_unsigned = type == kUint8 || type == kUint16 || type == kUint32;
-    if (accessor["type"].text_or("") != "SCALAR" || !is_unsigned || accessor["normalized"].flag())
+    if (accessor["type"].text_or("") != "SCALAR" || !is_unsigned(accessor["componentType"].natural()) ||
+        accessor["normalized"].flag())
         accessor.fail("its values are not the unsigned integers that " + number.place() + " needs");
     std::vector<std::uint32_t> indices;
     for (const double value : values(accessor, 1)) indices.push_back(static_cast<std::uint32_t>(value));

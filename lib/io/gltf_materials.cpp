@@ -50,7 +50,6 @@ public:
         for (std::size_t i = 0; i < materials.size(); ++i) {
             made_ = {};
             made_.name = materials[i]["name"].text_or("material " + std::to_string(i));
-            is_placed_ = false;
             unused_.begin(made_.name);
             made_.material = make(materials[i]);
             all.push_back(made_);
@@ -151,11 +150,11 @@ private:
     // All textures lie on the surface as the first one does. \param name of this one
     TexturePtr texture(const GltfValue& info, std::shared_ptr<const Image> picture, const std::string& name) {
         const GltfPlace place = place_of(info);
-        if (!is_placed_)
+        if (!made_.has_pictures)
             made_.place = place;
         else if (!(place == made_.place))
             unused_.note("the texCoord or KHR_texture_transform of " + name);
-        is_placed_ = true;
+        made_.has_pictures = true;
         return pictures_.texture(info, std::move(picture));
     }
 
@@ -175,7 +174,6 @@ private:
     GltfUnused unused_;
     GltfPictures pictures_;
     GltfMaterial made_;  // the current one
-    bool is_placed_ = false;
 };
 
 }  // namespace

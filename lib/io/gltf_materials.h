@@ -22,6 +22,7 @@ struct GltfMaterial {
     std::string name{};
     std::shared_ptr<const Material> material{};
     GltfPlace place{};  // of all its pictures
+    bool has_pictures = false;
 };
 
 /// All materials of a glTF, as the table in docs/models.md says; what is not used becomes a warning of the model.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/text_lines.h"
+
 namespace limn {
 
 namespace {
@@ -85,7 +87,7 @@ MeshData GltfMeshes::mesh_of(const GltfValue& primitive, std::uint32_t slot) {
     const GltfValue number = primitive["attributes"]["POSITION"];
     const std::vector<float>& positions = buffers_.floats(number, "VEC3");
     const std::size_t vertices = positions.size() / 3;
-    model_.vertices += vertices;
+    if (counted_.insert(number.natural()).second) model_.vertices += vertices;
     constexpr std::uint32_t kNone = 0xffffffff;
     std::vector<std::uint32_t> numbers(vertices, kNone), used;
     const auto own = [&](std::uint32_t vertex) {
@@ -121,7 +123,12 @@ void GltfMeshes::add_attributes(const GltfValue& primitive, const std::vector<st
     }
     const GltfPlace place = slot == 0 ? GltfPlace{} : materials_[slot - 1].place;
     const GltfValue uv = attributes["TEXCOORD_" + std::to_string(place.uv_set)];
-    if (!uv.exists()) return;
+    if (!uv.exists()) {
+        if (slot > 0 && materials_[slot - 1].has_pictures)
+            warn_once("material " + in_quotes(materials_[slot - 1].name) +
+                      " has pictures, but triangles of it have no " + "TEXCOORD_" + std::to_string(place.uv_set));
+        return;
+    }
     const std::vector<float>& uvs = attribute(uv, "VEC2", vertices);
     for (const std::uint32_t vertex : used) {
         const double u = uvs[2 * vertex], v = uvs[2 * vertex + 1];

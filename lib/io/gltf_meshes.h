@@ -37,6 +37,7 @@ private:
     FaceCutter cutter_;
     std::map<std::uint64_t, std::vector<std::size_t>> made_;
     std::set<std::string> warnings_;
+    std::set<std::uint64_t> counted_;  // accessors of positions
 };
 
 }  // namespace limn

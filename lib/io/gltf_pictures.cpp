@@ -70,6 +70,7 @@ std::shared_ptr<const Texture> GltfPictures::texture(const GltfValue& info, std:
         const GltfValue sampler = number.in(document_["samplers"]);
         if (sampler["magFilter"].natural_or(0) == kNearest) options.filter = Filter::nearest;
         const std::uint64_t wrap = sampler["wrapS"].natural_or(kRepeat);
+        if (sampler["wrapT"].natural_or(kRepeat) != wrap) unused_.note("a wrapT other than its wrapS");
         if (wrap == kClamp) options.wrap = Wrap::clamp;
         if (wrap == kMirror) options.wrap = Wrap::mirror;
     }

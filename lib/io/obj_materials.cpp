@@ -74,12 +74,27 @@ public:
         for (const std::string& name : model_.materials) {
             const auto found = materials_.find(name);
             if (found == materials_.end()) unknown.push_back(in_quotes(name));
+            has_pictures_.push_back(false);
             made.push_back(found == materials_.end() ? made[0] : make(name, found->second));
         }
         warn_of_unknown(unknown);
         warn_of_unused();
         model_.warnings.insert(model_.warnings.begin(), missing_.begin(), missing_.end());
         return made;
+    }
+
+    // Once for each material.
+    void warn_of_missing_uvs(const ObjFile& file) {
+        for (const ObjFace& face : file.faces) {
+            const auto has_no_uv = [](const ObjCorner& corner) { return corner.uv == ObjCorner::kNone; };
+            if (face.slot == 0 || !has_pictures_[face.slot - 1] ||
+                !std::ranges::any_of(file.corners_of(face), has_no_uv))
+                continue;
+            has_pictures_[face.slot - 1] = false;
+            model_.warnings.push_back("material " + in_quotes(model_.materials[face.slot - 1]) +
+                                      " has pictures, but its face of line " + std::to_string(face.line) +
+                                      " has no texture coordinates");
+        }
     }
 
 private:
@@ -203,19 +218,20 @@ private:
         if (map.name.empty() || !options_.textures) return nullptr;
         const std::string path = beside(m.file, map.name);
         const auto [found, is_new] = textures_.try_emplace({path, use, number});
-        if (!is_new) return found->second;
-        if (std::ranges::find(model_.files, path) == model_.files.end()) model_.files.push_back(path);
-        try {
-            found->second = std::make_shared<ImageTexture>(load(path));
-        } catch (const FileError& error) {
-            if (std::ranges::find(model_.warnings, error.what()) == model_.warnings.end())
-                model_.warnings.emplace_back(error.what());
-        }
+        if (is_new && std::ranges::find(model_.files, path) == model_.files.end()) model_.files.push_back(path);
+        if (is_new) try {
+                found->second = std::make_shared<ImageTexture>(load(path));
+            } catch (const FileError& error) {
+                if (std::ranges::find(model_.warnings, error.what()) == model_.warnings.end())
+                    model_.warnings.emplace_back(error.what());
+            }
+        if (found->second) has_pictures_.back() = true;
         return found->second;
     }
 
     const ObjOptions& options_;
     Model& model_;
+    std::vector<bool> has_pictures_;    // of Model::materials
     std::vector<std::string> missing_;  // warnings that stand before all others
     struct Unused {
         std::string text;
@@ -233,7 +249,9 @@ std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& f
                                                                 const ObjOptions& options, Model& model) {
     MaterialLoader loader(options, model);
     for (const ObjLibrary& library : file.libraries) loader.add_libraries(library, obj_path);
-    return loader.make_all();
+    std::vector<std::shared_ptr<const Material>> materials = loader.make_all();
+    loader.warn_of_missing_uvs(file);
+    return materials;
 }
 
 }  // namespace limn

@@ -28,6 +28,7 @@ public:
                 for (std::uint64_t i = 0; i < element.count; ++i) source_.read_row(element, {}, values_, list_);
             }
         }
+        source_.warn_of_rest(model_.warnings);
     }
 
     MeshData data;
@@ -81,8 +82,8 @@ private:
     template <class Add>
     void read_lists(const PlyElement& element, const Add& add) {
         if (element.count == 0) return;
-        const auto indices = element.find({"vertex_indices", "vertex_index"});
-        if (!indices || !element.properties[*indices].count_type || !is_integer(element.properties[*indices].type))
+        const auto indices = element.find({"vertex_indices", "vertex_index"}, true);
+        if (!indices || !is_integer(element.properties[*indices].type))
             source_.fail("its element " + in_quotes(element.name) + " has no list of integers vertex_indices");
         if (data.vertices.empty()) source_.fail("its faces come before its vertices");
         for (std::uint64_t i = 0; i < element.count; ++i) {

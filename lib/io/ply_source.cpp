@@ -54,9 +54,9 @@ std::string integer_text(double value) {
     return std::to_string(static_cast<long long>(std::clamp(value, -0x1p62, 0x1p62)));
 }
 
-std::optional<std::size_t> PlyElement::find(std::initializer_list<std::string_view> names) const {
+std::optional<std::size_t> PlyElement::find(std::initializer_list<std::string_view> names, bool is_list) const {
     for (std::size_t i = 0; i < properties.size(); ++i)
-        if (is_one_of(properties[i].name, names)) return i;
+        if (properties[i].count_type.has_value() == is_list && is_one_of(properties[i].name, names)) return i;
     return std::nullopt;
 }
 
@@ -153,6 +153,14 @@ void PlySource::read_row(const PlyElement& element, std::optional<std::size_t> w
             if (i == wanted) list.push_back(number);
         }
     }
+}
+
+void PlySource::warn_of_rest(std::vector<std::string>& warnings) const {
+    const std::string behind = " behind the last element that the header states were passed over";
+    if (form_ != Form::ascii && !data_.rest().empty())
+        warnings.push_back(path_ + ": " + std::to_string(data_.rest().size()) + " bytes" + behind);
+    const bool has_words = !words_.empty() || lines_.rest().find_first_not_of(" \t\r\n") != std::string_view::npos;
+    if (form_ == Form::ascii && has_words) warnings.push_back(path_ + ": words" + behind);
 }
 
 std::size_t PlySource::rest_size() const {

@@ -30,8 +30,8 @@ struct PlyElement {
     std::uint64_t count;
     std::vector<PlyProperty> properties{};
 
-    // The place of the first property of one of these names.
-    std::optional<std::size_t> find(std::initializer_list<std::string_view> names) const;
+    // The place of the first property of one of these names, among lists or among numbers.
+    std::optional<std::size_t> find(std::initializer_list<std::string_view> names, bool is_list = false) const;
 };
 
 class PlySource {
@@ -45,6 +45,9 @@ public:
     // `list` gets the numbers. \throws FileError naming the place
     void read_row(const PlyElement& element, std::optional<std::size_t> wanted, std::vector<double>& values,
                   std::vector<double>& list);
+
+    // What lies behind the last row, or nothing.
+    void warn_of_rest(std::vector<std::string>& warnings) const;
 
     /// \throws FileError naming the line, or the byte of a binary file
     [[noreturn]] void fail(const std::string& problem) const;

@@ -110,3 +110,15 @@ TEST_CASE("glTF: materials that show the same picture share it", "[io][gltf]") {
     for (const std::size_t i : {1U, 2U}) lower_material(sink, model.meshes.at(0)->materials().at(i));
     CHECK(sink.records().images.size() == 1);
 }
+
+TEST_CASE("glTF: pictures without texture coordinates, and a wrapT of its own, give a warning", "[io][gltf]") {
+    const Folder folder;
+    const std::string textured = with_texture("\"uri\": \"" + data_uri(four_pixels(folder), "image/png") + "\"");
+    CHECK(load(textured).warnings.empty());
+    CHECK(load(replaced(textured, ", \"TEXCOORD_0\": 1", "")).warnings ==
+          std::vector<std::string>{"material 'material 0' has pictures, but triangles of it have no TEXCOORD_0"});
+    CHECK(load(replaced(textured, "{\"magFilter\"", "{\"wrapS\": 33071, \"wrapT\": 33071, \"magFilter\""))
+              .warnings.empty());
+    CHECK(load(replaced(textured, "{\"magFilter\"", "{\"wrapT\": 33071, \"magFilter\"")).warnings ==
+          std::vector<std::string>{"a wrapT other than its wrapS of material 'material 0' is not used"});
+}

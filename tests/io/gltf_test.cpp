@@ -146,6 +146,19 @@ TEST_CASE("glTF: what a node with a singular matrix holds is left out, each with
     }
 }
 
+TEST_CASE("glTF: a rotation that is rounded turns, and does not scale", "[io][gltf]") {
+    const Model model = load(with("\"mesh\": 0", "\"mesh\": 0, \"rotation\": [0, 0, 0.71, 0.71]"));
+    const Transform& m = model.instances.at(0).world_from_mesh;
+    CHECK(length(transform_vector(m, {1, 0, 0}) - Vec3{0, 1, 0}) < 1e-15);
+}
+
+TEST_CASE("glTF: positions that several primitives share count once", "[io][gltf]") {
+    const std::string primitive = R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0})";
+    const Model model = load(with(primitive, primitive + ", " + primitive));
+    CHECK(model.meshes.size() == 2);
+    CHECK(model.vertices == 4);
+}
+
 TEST_CASE("glTF: an orthographic camera keeps its height", "[io][gltf]") {
     const Model model = load(with(R"("nodes": [{"mesh": 0,)", R"("cameras": [{"type": "orthographic", "name": "plan",
 "orthographic": {"xmag": 2, "ymag": 1.5, "zfar": 9, "znear": 0}}], "nodes": [{"mesh": 0, "camera": 0,)"));

@@ -79,6 +79,24 @@ TEST_CASE("load_alpha: the alpha of a PNG, of grey and coloured ones, from file 
     CHECK(load_image(path).at(0, 0).r == Approx(srgb_decode(0x1234 / 65535.0)));
 }
 
+TEST_CASE("load_alpha: the colour that a PNG without alpha calls transparent, from file and memory",
+          "[io][image][alpha]") {
+    const Folder folder;
+    const auto check = [&](const std::string& png) {
+        const std::string path = folder.write("a.png", png);
+        for (const auto& alpha : {load_alpha(path), load_alpha_from_memory(std::as_bytes(std::span(png)))}) {
+            REQUIRE(alpha);
+            CHECK(alpha->at(0, 0) == Color{});
+            CHECK(alpha->at(1, 0) == Color{1, 1, 1});
+        }
+        CHECK(load_image_from_memory(std::as_bytes(std::span(png)), Encoding::raw, "a").at(1, 0).r == Approx(1));
+    };
+    const std::string grey("\0\x07", 2), red("\0\xff\0\0\0\0", 6);
+    check(make_png(2, 8, PngColor::grey, "\x07\xff", png_chunk("tRNS", grey)));
+    check(make_png(2, 8, PngColor::rgb, std::string("\xff\0\0\xff\x01\0", 6), png_chunk("tRNS", red)));
+    check(make_png(2, 16, PngColor::grey, std::string("\0\x07\xff\xff", 4), png_chunk("tRNS", grey)));
+}
+
 TEST_CASE("load_alpha: a TGA has alpha where it has four channels, a broken file is refused", "[io][image][alpha]") {
     const Folder folder;
     const auto tga = [](int channels, int alpha_bits) {

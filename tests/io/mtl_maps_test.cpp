@@ -15,7 +15,8 @@ namespace {
 
 Model load_one(const Folder& folder, const std::string& mtl) {
     folder.write("a.mtl", "newmtl m\n" + mtl);
-    return load_obj(folder.write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    return load_obj(
+        folder.write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"));
 }
 
 }  // namespace

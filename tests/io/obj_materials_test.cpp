@@ -19,11 +19,11 @@ namespace {
 
 // One triangle in each of the planes z = 0, 1, 2, ..., of the given materials.
 std::string triangles(const std::vector<std::string>& materials) {
-    std::string text = "mtllib a.mtl\n";
+    std::string text = "mtllib a.mtl\nvt 0 0\n";
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const std::string z = std::to_string(i);
         if (!materials[i].empty()) text += "usemtl " + materials[i] + "\n";
-        text += "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf -3 -2 -1\n";
+        text += "v 0 0 " + z + "\nv 1 0 " + z + "\nv 0 1 " + z + "\nf -3/1 -2/1 -1/1\n";
     }
     return text;
 }
@@ -194,7 +194,7 @@ TEST_CASE("MTL: map_Kd is an image beside the MTL, v upward, repeated, decoded f
     std::filesystem::create_directories(folder.path("mats/my maps"));
     save_image(Image(2, 1, Color{0.5, 0.25, 0.125}), folder.path("mats/my maps/wood 1.png"));
     folder.write("mats/b.mtl", "\xef\xbb\xbfnewmtl oak\r\nKd 1 0 0\r\nmap_Kd my maps\\wood 1.png\r\n");
-    const std::string obj = "mtllib mats\\b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl oak\nf 1 2 3\n";
+    const std::string obj = "mtllib mats\\b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl oak\nf 1/1 2/1 3/1\n";
     const Model model = load_obj(folder.write("a.obj", obj));
     CHECK(model.warnings.empty());
     const Lowered lowered(model);
@@ -300,6 +300,18 @@ TEST_CASE("MTL: a missing library, material or texture is a warning, not an erro
         load_obj(folder.write("b.obj", "mtllib\nmtllib .\nmtllib a.mtl none.mtl\n" + triangles({"m"})));
     CHECK(odd_libraries.warnings.size() == 3);
     check_color(Lowered(odd_libraries).color(0), Color{1, 1, 1});
+}
+
+TEST_CASE("MTL: a material with a picture on faces without texture coordinates gives one warning", "[io][obj][mtl]") {
+    const Folder folder;
+    save_image(Image(1, 1), folder.path("a.png"));
+    load_one(folder, "Kd 1 1 1\nmap_Kd a.png\n");
+    const std::string square = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nusemtl m\n";
+    const Model none = load_obj(folder.write("b.obj", square + "f 1/1 2/1 3/1\nf 1/1 2 3\nf 2 3 4\n"));
+    CHECK(none.warnings ==
+          std::vector<std::string>{"material 'm' has pictures, but its face of line 9 has no texture coordinates"});
+    CHECK(load_obj(folder.write("b.obj", square + "f 1/1 2/1 3/1\n")).warnings.empty());
+    CHECK(load_obj(folder.path("b.obj"), {.textures = false}).warnings.empty());
 }
 
 TEST_CASE("MTL: without textures no image is read, nor missed", "[io][obj][mtl]") {
