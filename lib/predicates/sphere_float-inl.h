@@ -30,7 +30,8 @@ struct SphereFloatRay {
     }
 };
 
-// Both roots: bounds on each where the line surely meets the sphere, else both times on the whole of it.
+// Both roots: bounds on each where the line surely meets the sphere, else both times on the whole of it. Set unless all
+// have missed.
 template <class N>
 struct FloatRoots {
     Mask<N> missed, certain;

@@ -140,6 +140,7 @@ HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t cou
             return at0;
         };
         const auto roots = float_roots(three<Floats>(coordinate, 0), row(kMoving ? 6 : 3), numbers);
+        if (HWY_LIKELY(!any(!roots.missed))) continue;
         auto hits = first_root(roots, Floats(surely_after), {t_min, t_max});
         hits.possible = hits.possible & first_lanes<Floats>(count - i);
         found.add(hits, i);

@@ -128,6 +128,7 @@ private:
         const std::size_t stride = list_.sphere_stride;
         limits.bound = load<RayFloats>(bound_);
         const auto roots = listed_roots([&](std::size_t r) HWY_ATTR { return RayFloats(rows[r * stride]); }, ray);
+        if (!any(!roots.missed)) return;
         auto hits = first_listed(roots, limits);
         const std::uint32_t possible = bits(hits.possible) & active_, index = list_.planars() + i;
         if (possible == 0) return;

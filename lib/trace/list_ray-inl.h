@@ -91,7 +91,9 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
         for (std::size_t i = 0; i < list.spheres; i += kPacket) {
             const float* rows = list.round.data() + i;
             const auto row = [&](std::size_t r) HWY_ATTR { return load<RayFloats>(rows + r * list.sphere_stride); };
-            auto hits = first_listed(listed_roots(row, ray_of_spheres), found.limits);
+            const auto roots = listed_roots(row, ray_of_spheres);
+            if (!any(!roots.missed)) continue;
+            auto hits = first_listed(roots, found.limits);
             hits.possible = hits.possible & first_lanes<RayFloats>(list.spheres - i);
             if (!any(hits.possible)) continue;
             if (take_listed(scene, hits, list.planars() + i, frame, query, found, near, is_missed)) return;
