@@ -138,12 +138,13 @@ HWY_INLINE void descend_by(const flat::LightTable& lights, const Receivers& rece
     const hn::Rebind<std::uint32_t, Doubles::Tag> words;
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
         const Receiver receiver(receivers, i);
+        const Mask<Doubles> counts = first_lanes<Doubles>(receivers.count - i);  // what lies behind is not set
         Doubles node = 0.0, begin = 0.0, pick = load<Doubles>(wanted + i);
         Importance here = importance_of(Nodes(lights, node), receiver);
         Doubles probability = select(here.value == 0.0, 0.0, Doubles(1.0));
         for (;;) {
             const Doubles right = Nodes(lights, node).index(offsetof(flat::LightNode, right));
-            const Mask<Doubles> goes = (!here.alike) & ((probability > 0.0) & (right > 0.0));
+            const Mask<Doubles> goes = counts & (!here.alike) & ((probability > 0.0) & (right > 0.0));
             if (!any(goes)) break;
             const Doubles left = select(goes, node + 1.0, node);
             const Nodes at_left(lights, left);
