@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <thread>
 
@@ -182,7 +183,7 @@ TEST_CASE("Saving: whenever the process is killed, the old or the new picture st
     setenv("LIMN_TEST_PICTURE", path.c_str(), 1);
     for (int i = 0; i < kills(3); ++i) {
         folder.write("a.png", "not yet");
-        std::string program = "/proc/self/exe", filter = "[.writer]";
+        std::string program = std::filesystem::read_symlink("/proc/self/exe"), filter = "[.writer]";
         char* arguments[] = {program.data(), filter.data(), nullptr};
         pid_t child = 0;
         posix_spawn_file_actions_t quiet;
