@@ -6,6 +6,7 @@
 #include <span>
 
 #include "io/picture_checks.h"
+#include "io/text_lines.h"
 
 namespace limn {
 
@@ -21,7 +22,6 @@ struct Mark {
 };
 
 constexpr bool kMayBeText = true;
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 // The first that fits. UTF-32 begins with the mark of UTF-16. Boxes of AVIF and HEIF begin with their size in four
 // bytes.

@@ -143,11 +143,11 @@ GltfBuffers::Elements GltfBuffers::elements_in(const GltfValue& holder, Elements
     const GltfValue view = holder["bufferView"];
     const std::span<const std::byte> bytes = this->view(view);
     const std::uint64_t offset = holder["byteOffset"].natural_or(0);
-    e.stride = view.in(document_["bufferViews"])["byteStride"].natural_or(size);
-    const bool is_stated = view.in(document_["bufferViews"])["byteStride"].exists();
-    if (is_stated && (e.stride < std::max<std::size_t>(size, 4) || e.stride > 252 || e.stride % 4 != 0))
-        view.in(document_["bufferViews"])
-            .fail("byteStride is no multiple of 4, from the " + std::to_string(size) + " bytes of an element to 252");
+    const GltfValue described = view.in(document_["bufferViews"]), stride = described["byteStride"];
+    e.stride = stride.natural_or(size);
+    if (stride.exists() && (e.stride < std::max<std::size_t>(size, 4) || e.stride > 252 || e.stride % 4 != 0))
+        described.fail("byteStride is no multiple of 4, from the " + std::to_string(size) +
+                       " bytes of an element to 252");
     const std::uint64_t end = offset + (std::uint64_t{e.count} - 1) * e.stride + size;
     if (end > bytes.size())
         holder.fail("reaches to byte " + std::to_string(end) + " of its view, which has " +

@@ -33,7 +33,6 @@ std::string_view take_line(std::string_view& text) {
 
 TextLines::TextLines(std::string_view text, std::string path, LineForm form)
     : path_(std::move(path)), form_(form), rest_of_text_(text) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.substr(0, 3) == kByteOrderMark) rest_of_text_.remove_prefix(3);
 }
 

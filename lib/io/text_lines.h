@@ -11,6 +11,8 @@
 
 namespace limn {
 
+inline constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of UTF-8
+
 // What a line may hold beside words. As in OBJ: one that ends in a backslash and is no comment continues on the next,
 // and a word that begins with '#' begins a comment.
 enum class LineForm { as_in_obj, plain };

@@ -1,14 +1,13 @@
 // What a film is worth: its picture, the error of that, what it cost.
-#include <cmath>
-
 #include "limn/core/error.h"
 #include "limn/render/render.h"
 #include "render/error_estimate.h"
+#include "render/job_info.h"
 
 namespace limn {
 
 RenderResult render_result(const Film& film, std::optional<double> error) {
-    if (error && !(*error > 0 && std::isfinite(*error)))
+    if (error && !transport::is_target(*error))
         throw ArgumentError("render_result: the error asked for must be over 0 and finite");
     RenderResult r{film.image(), {}, {}, {}};
     r.error = transport::estimate_error(film, &r.maps);

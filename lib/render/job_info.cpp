@@ -24,9 +24,8 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
             "width and height must lie in 1 to 1048576");
     require(s.samples_per_pixel > 0, "samples per pixel must be at least 1");
     require(s.max_depth > 0, "the depth limit must be at least 1");
-    require(!s.error || (*s.error > 0 && std::isfinite(*s.error)), "the error asked for must be over 0 and finite");
-    require(!s.time_limit || (*s.time_limit > 0 && std::isfinite(*s.time_limit)),
-            "the time limit must be over 0 and finite");
+    require(!s.error || is_target(*s.error), "the error asked for must be over 0 and finite");
+    require(!s.time_limit || is_target(*s.time_limit), "the time limit must be over 0 and finite");
     require(s.max_samples_per_pixel > 0, "the most samples per pixel must be at least 1");
     require(s.threads >= 0 && s.threads <= kMaxThreads, "threads must lie in 0 to 1024");
     require(s.shard.count == 1 || (!s.error && !s.time_limit),

@@ -31,8 +31,8 @@ struct Surface {
     Normal3 normal;          ///< geometric, unit, on the side of front_face
     Normal3 shading_normal;  ///< interpolated, unit, same side; equals `normal` where the shape has no own normals
     Uv uv;                   ///< texture coordinates
-    bool front_face =
-        true;  ///< whether the ray came from the side of the outward normal; within 1e-15 of the plane: either
+    /// Whether the ray came from the side of the shape's outward normal. Of rays within 1e-15 of its plane: either.
+    bool front_face = true;
     MaterialRef material;  ///< valid as long as the compiled scene
     /// How the position moves with `uv`; zero of user-defined shapes and at poles of spheres, edges of a mesh's
     /// triangle where its uv have no area.
