@@ -60,12 +60,14 @@ void BoxRay::adapt(const RayFrame& frame, const flat::Blas& blas) {
         t_min = lower(ray.t_min);
         return;
     }
-    // Nothing is known of where the ray goes: every box is met, but an absent one, whose sides are infinite.
+    // Nothing is known of where the ray goes: every box is met, but an absent one, whose sides are infinite; what the
+    // leaves read has no bound on its error.
     octant = 0;
     t_min = -std::numeric_limits<float>::infinity();
     t_start = -kInfinity;
     for (std::size_t a = 0; a < 3; ++a) {
-        inverse[a] = 1;
+        direction[a] = inverse[a] = 1;
+        high[a] = low[a] = 0;
         near_shift[a] = -std::numeric_limits<float>::max();
         far_shift[a] = std::numeric_limits<float>::max();
     }
