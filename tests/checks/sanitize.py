@@ -29,7 +29,7 @@ MEMCHECK = {
     "test_compile": "~[large]",
     "test_digest": "Digest: scenes of some kinds*",
     "test_image": "",
-    "test_io": "~[large]",
+    "test_io": "~[large]~[.writer]",  # which is no test of its own
     "test_material": "~Dielectric: the cosine of the refracted*",  # the same
     "test_render": "[lobes],[determinism],[film],[sobol],[light-choice]",
     "test_shape": "",

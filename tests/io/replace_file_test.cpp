@@ -61,7 +61,7 @@ int on_small_disk(const Folder& folder, Call call) {
     const pid_t child = fork();
     if (child == 0) {
         const int user = getuid() == 0 ? 0 : CLONE_NEWUSER;
-        if (unshare(user | CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        if (unshare(user | CLONE_NEWNS) != 0 || mount("none", "/", "none", MS_REC | MS_PRIVATE, nullptr) != 0 ||
             mount("limn", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
             _exit(kNoDisk);
         _exit(call());
@@ -138,7 +138,7 @@ TEST_CASE("Files: on a full disk, and on one that is read-only, the old file sta
             refused = true;
         }
         if (!refused || folder.read("a.json") != "old") return 3;
-        if (mount(nullptr, folder.path().c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr) != 0) return kNoDisk;
+        if (mount("none", folder.path().c_str(), "none", MS_REMOUNT | MS_RDONLY, nullptr) != 0) return kNoDisk;
         if (!refused_with(path, "new", "Read-only file system")) return 4;
         return folder.read("a.json") == "old" ? 0 : 5;
     });
