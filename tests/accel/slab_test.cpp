@@ -153,6 +153,33 @@ TEST_CASE("Slab: what meets a box meets every box around it, no later, and by a 
     CHECK(met > 250);
 }
 
+// As those of a ray inside an instance are.
+TEST_CASE("Slab: a ray whose numbers are off by what it says meets what the true ray meets, where that does",
+          "[accel]") {
+    test::holds(
+        [] {
+            const Case c = draw_case();
+            Vec3 direction;  // to a point of the box, reached at t = 1
+            for (std::size_t a = 0; a < 3; ++a) {
+                const int place = test::draw_int(0, 4);
+                direction[a] = c.box.lower[a] + place / 4.0 * (c.box.upper[a] - c.box.lower[a]) - c.ray.origin[a];
+            }
+            const double length = max_abs(direction);
+            RC_PRE(length > 0);
+            const double origin_error = test::draw_power_of_two(-20, 2);
+            const double direction_error = test::draw_power_of_two(-20, -4) * length;
+            Ray off{.origin = c.ray.origin, .direction = direction, .t_min = 1, .t_max = 1};
+            for (std::size_t a = 0; a < 3; ++a) {
+                off.origin[a] += test::draw_int(-1, 1) * origin_error;
+                off.direction[a] += test::draw_int(-1, 1) * direction_error;
+            }
+            double near = 0;
+            const accel::SlabRay slab(off, accel::finite_extent(c.box), origin_error, direction_error);
+            RC_ASSERT(slab.meets(c.box, off.t_max, near));
+        },
+        1000);
+}
+
 TEST_CASE("Slab: a ray in a face, an edge or through a corner meets the closed box", "[accel]") {
     for (const double zero : {0.0, -0.0}) {
         CHECK(meets(kUnit, {{-1, 0.5, 0}, {1, zero, zero}}));  // in the low z face
