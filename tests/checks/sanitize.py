@@ -31,7 +31,7 @@ MEMCHECK = {
     "test_image": "",
     "test_io": "~[large]~[.writer]",  # which is no test of its own
     "test_material": "~Dielectric: the cosine of the refracted*",  # the same
-    "test_render": "[lobes],[determinism],[film],[sobol],[light-choice]",
+    "test_render": "[lobes],[determinism],[film],Sobol*,Light choice*",
     "test_shape": "",
     "test_texture": "",
 }
