@@ -17,8 +17,8 @@ using flat::PrimitiveList;
 
 // Rounding of instanced vertices, of the magnitudes that enter them: 4 products and sums, and slack.
 constexpr double kInstanceError = 8 * kRoundoff;
-// How thin a primitive may be, and how small beside the scene, for its weights to be worth computing in float.
-constexpr double kThinnest = 0x1p-12, kSmallest = 0x1p-12;
+// How thin or small beside the scene a primitive may be for its weights to be worth computing in float.
+constexpr double kSmallest = 0x1p-12;
 // What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be visited by most of them
 // (measured: docs/speed-against-error.md).
 constexpr double kLarge = 0.1;
@@ -142,9 +142,7 @@ private:
 
     // Whether float can tell the weights of its edges.
     bool is_plane_clear(const PrimitiveList::Entry& e) const {
-        const double area = max_abs(cross(e.edge_u, e.edge_v)), edges = max_abs(e.edge_u) * max_abs(e.edge_v);
-        return area > kThinnest * edges && e.error < 0x1p-40 * root_.extent &&
-               Weights(e).spread * root_.extent < 1 / kSmallest;
+        return e.error < 0x1p-40 * root_.extent && Weights(e).spread * root_.extent < 1 / kSmallest;
     }
 
     void pack() {
