@@ -15,9 +15,9 @@ using namespace limn;
 
 namespace {
 
-bool meets(const Box& box, const Ray& ray) {
+bool meets(const Box& box, const Ray& ray, double origin_error = 0, double direction_error = 0) {
     double near = 0;
-    return accel::SlabRay(ray, accel::finite_extent(box)).meets(box, ray.t_max, near);
+    return accel::SlabRay(ray, accel::finite_extent(box), origin_error, direction_error).meets(box, ray.t_max, near);
 }
 
 bool meets_as_float(const Box& box, const Ray& ray) {
@@ -52,6 +52,14 @@ Case draw_case() {
     if (test::draw_int(0, 1)) c.ray.t_min = test::draw_int(-64, 64) / 64.0;
     if (test::draw_int(0, 1)) c.ray.t_max = std::max(c.ray.t_min, test::draw_int(0, 128) / 64.0);
     return c;
+}
+
+// Along each axis at an end of the box, or a quarter, a half or three quarters on.
+Point3 draw_point_of(const Box& box) {
+    Point3 p;
+    for (std::size_t a = 0; a < 3; ++a)
+        p[a] = box.lower[a] + test::draw_int(0, 4) / 4.0 * (box.upper[a] - box.lower[a]);
+    return p;
 }
 
 }  // namespace
@@ -111,12 +119,7 @@ TEST_CASE("Slab: a ray that ends in a box, on its border, or begins there, meets
     test::holds(
         [] {
             Case c = draw_case();
-            for (std::size_t a = 0; a < 3; ++a) {
-                const int place = test::draw_int(0, 4);
-                const double target = c.box.lower[a] + place / 4.0 * (c.box.upper[a] - c.box.lower[a]);
-                c.ray.direction[a] =
-                    (target - c.ray.origin[a]) / 3;  // rounded, so that the end is off by an ulp or two
-            }
+            c.ray.direction = (draw_point_of(c.box) - c.ray.origin) / 3;  // rounded: the end is off by an ulp or two
             c.ray.t_min = 0, c.ray.t_max = 3;
             RC_ASSERT(entry(c.box, c.ray));
             c.ray.t_min = 3, c.ray.t_max = kInfinity;
@@ -159,23 +162,17 @@ TEST_CASE("Slab: a ray whose numbers are off by what it says meets what the true
     test::holds(
         [] {
             const Case c = draw_case();
-            Vec3 direction;  // to a point of the box, reached at t = 1
-            for (std::size_t a = 0; a < 3; ++a) {
-                const int place = test::draw_int(0, 4);
-                direction[a] = c.box.lower[a] + place / 4.0 * (c.box.upper[a] - c.box.lower[a]) - c.ray.origin[a];
-            }
+            const Vec3 direction = draw_point_of(c.box) - c.ray.origin;
             const double length = max_abs(direction);
             RC_PRE(length > 0);
             const double origin_error = test::draw_power_of_two(-20, 2);
             const double direction_error = test::draw_power_of_two(-20, -4) * length;
-            Ray off{.origin = c.ray.origin, .direction = direction, .t_min = 1, .t_max = 1};
+            Ray off{.origin = c.ray.origin, .direction = direction, .t_min = 1, .t_max = 1};  // ends in the box
             for (std::size_t a = 0; a < 3; ++a) {
                 off.origin[a] += test::draw_int(-1, 1) * origin_error;
                 off.direction[a] += test::draw_int(-1, 1) * direction_error;
             }
-            double near = 0;
-            const accel::SlabRay slab(off, accel::finite_extent(c.box), origin_error, direction_error);
-            RC_ASSERT(slab.meets(c.box, off.t_max, near));
+            RC_ASSERT(meets(c.box, off, origin_error, direction_error));
         },
         1000);
 }

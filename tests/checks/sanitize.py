@@ -30,7 +30,7 @@ MEMCHECK = {
     "test_digest": "Digest: scenes of some kinds*",
     "test_image": "",
     "test_io": "~[large]~[.writer]",  # which is no test of its own
-    "test_material": "~Dielectric: the cosine of the refracted*",  # the same
+    "test_material": "~Dielectric: the cosine of the refracted*",  # whose truth is of long double
     "test_render": "[lobes],[determinism],[film],Sobol*,Light choice*",
     "test_shape": "",
     "test_texture": "",
