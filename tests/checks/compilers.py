@@ -139,8 +139,9 @@ def main():
     head["faults"] = len(wrong)
     count = max((d["count"] for row in rows.values() for d in row["digests"].values()), default=0)
     text = (f"{reports.stamp(head)}, {kept.minutes():.0f} minutes.\n\n{table(rows)}\n\n"
-            f"`test_digest` checks {count} digests of hits and surfaces on fixed rays, traced alone and in batches. A row shows "
-            "the digest of these; one value means that all of its instruction sets agree.")
+            f"`test_digest` checks {count} digests: of hits and surfaces on fixed rays, traced alone and in batches, of "
+            "pictures, and of the elementary functions. A row shows the digest of these; one value means that all of "
+            "its instruction sets agree.")
     if wrong:
         text += "\n\n" + "\n".join(f"- wrong: {w}" for w in wrong)
     reports.write("compilers", text)

@@ -1,4 +1,4 @@
-// One number for the elementary functions, the same in every build and whatever the C library: core/elementary.h.
+// One number for each elementary function, the same in every build and whatever the C library: core/elementary.h.
 #include "catch.h"
 #include "core/checksum.h"
 #include "core/elementary.h"
