@@ -6,6 +6,7 @@
 #include "limn/shape/instance.h"
 #include "limn/shape/quad.h"
 #include "limn/shape/sphere.h"
+#include "limn/shape/triangle.h"
 
 using namespace limn;
 
@@ -54,13 +55,30 @@ TEST_CASE("compile: instances of instances cost what is stored, not what is seen
     CHECK(hit->element == 0);
 }
 
-TEST_CASE("compile: a hit endlessly far away is a miss", "[compile]") {
+// Of n by n objects in a plane, the ray meets that in the middle; one is listed, many are in a tree.
+template <class Make>
+void check_endlessly_far(int n, const Make& make) {
     const Ray ray{.origin = {0, 0, 0}, .direction = {0, 0, 1e-300}};
     Scene scene;
-    scene.add(ball({0, 0, 1e10}));
-    scene.add(std::make_shared<Quad>(Point3{-1e10, -1e10, 1e10}, Vec3{2e10, 0, 0}, Vec3{0, 2e10, 0}, nullptr));
+    for (int i = 0; i < n * n; ++i) scene.add(make(Point3{3e9 * (i % n - n / 2), 3e9 * (i / n - n / 2), 1e10}));
     for (const auto& object : scene.objects()) CHECK_FALSE(object->hit(ray));
     const CompiledScene compiled = compile(scene);
     CHECK_FALSE(compiled.closest_hit(ray));
     CHECK_FALSE(compiled.any_hit(ray));
+    Ray nearer = ray;
+    nearer.direction.z = 1e-290;
+    CHECK(compiled.closest_hit(nearer));
+    CHECK(compiled.any_hit(nearer));
+}
+
+TEST_CASE("compile: a hit endlessly far away is a miss", "[compile]") {
+    for (const int n : {1, 31}) {
+        check_endlessly_far(n, [](const Point3& p) { return std::make_shared<Sphere>(p, 1e9, nullptr); });
+        check_endlessly_far(n, [](const Point3& p) {
+            return std::make_shared<Quad>(p - Vec3{1e9, 1e9, 0}, Vec3{2e9, 0, 0}, Vec3{0, 2e9, 0}, nullptr);
+        });
+        check_endlessly_far(n, [](const Point3& p) {
+            return std::make_shared<Triangle>(p - Vec3{1e9, 1e9, 0}, p + Vec3{2e9, 0, 0}, p + Vec3{0, 2e9, 0}, nullptr);
+        });
+    }
 }
