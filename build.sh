@@ -8,7 +8,7 @@ usage() {
     cat >&2 <<'TEXT'
 usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
        ./build.sh queries [--full] [MODEL.obj ...]
-       ./build.sh convergence [--full] [--scene NAME ...] [--peer NAME ...] [--again]
+       ./build.sh convergence [--size 400] [--scene NAME ...] [--peer NAME ...] [--again]
        ./build.sh compilers [--quick | --aarch64]
        ./build.sh sanitize asan|tsan|memcheck
        ./build.sh fuzz [load_film] [load_gltf] [load_image] [load_obj] [load_ply] [load_scene] [load_stl] [read_rays]
@@ -18,7 +18,8 @@ usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
   figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
   test         build and run the whole suite
   gallery      the pictures and figures of docs/gallery.md, with their seconds and errors
-  convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md
+  convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md;
+               --size 400: five of the scenes in larger pictures
   promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
   accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
   bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
@@ -161,7 +162,7 @@ case $command in
         install_missing python3 python3-venv python3-matplotlib python3-numpy python3-openimageio
         # Mitsuba is slow without; not every Debian has it.
         ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
-        /usr/bin/python3 apps/bench/convergence.py "${full[@]}" "${others[@]}"
+        /usr/bin/python3 apps/bench/convergence.py "${others[@]}"
         # A part is for whoever looks at that part.
         [[ ${#others[@]} -gt 0 ]] || /usr/bin/python3 apps/bench/promise.py
         ;;

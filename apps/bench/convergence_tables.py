@@ -127,19 +127,24 @@ def who(scenes):
     return list(lines.values())
 
 
+def plot(head):
+    """The path of the plot, from docs."""
+    return f"speed-against-error/curves-{head['size']}.svg"
+
+
 def report(raw):
     head, scenes = raw["head"], {s: raw["scenes"][s] for s in SCENES if s in raw["scenes"]}
-    pixels = head["size"] ** 2
-    lines = [f"{stamp(head)}, {head['size']}x{head['size']} pixels, depth 10, {head['seeds']} seeds, "
+    size, pixels = f"{head['size']}x{head['size']}", head["size"] ** 2
+    lines = [f"{stamp(head)}, {size} pixels, depth 10, {head['seeds']} seeds, "
              f"{head['minutes']:.0f} minutes.", ""] + who(scenes)
     lines += [f"- without {key}: {why}" for key, why in raw.get("missing", {}).items()]
-    lines += ["", "### Seconds to relMSE 1e-3, one thread", "",
+    lines += ["", f"### Seconds to relMSE 1e-3, {size} pixels, one thread", "",
               "`~` is extrapolated. The ratio is limn's seconds over those of the fastest peer, with its 95 % interval; "
               f"bold where it is over {GOAL}.", ""] + summary(scenes)
-    lines += ["![error over time](speed-against-error/curves.svg)", ""]
+    lines += [f"![error over time]({plot(head)})", ""]
     for scene, rows in scenes.items():
         session = rows["limn"]["session"]
-        lines += [f"### {SCENES[scene][0].upper()}{SCENES[scene][1:]}", ""] + renderer_table(rows, pixels, session)
+        lines += [f"### {SCENES[scene][0].upper()}{SCENES[scene][1:]}, {size}", ""] + renderer_table(rows, pixels, session)
         if any(row.get("session") != session for row in rows.values()):
             lines += ["† Measured in another session.", ""]
         if rows["limn"]["rungs"]:

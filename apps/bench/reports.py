@@ -29,6 +29,9 @@ CORE = ("CMakeLists.txt", "cmake", "include", "lib", "-include/limn/io", "-lib/i
 IO = ("include/limn/io", "lib/io")
 FIGURES = ("apps/common", "examples/figures")
 BENCH = ("apps/bench/*.cpp", "apps/bench/*.h", "apps/bench/CMakeLists.txt", "-apps/bench/queries")
+CONVERGENCE = CORE + BENCH + FIGURES + (
+    "examples/gallery", "examples/models", "apps/bench/convergence_measure.py", "apps/bench/convergence_pictures.py",
+    "apps/bench/convergence_renderers.py", "apps/bench/peers")
 # The suite in other builds than the usual one.
 CHECKED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "tests", "-*.py",
            "-apps/bench/without", "-tests/mutants", "tests/checks")
@@ -49,9 +52,8 @@ REPORTS = (
     Report("performance", "docs/performance.md", "./build.sh bench", 20,
            CORE + BENCH + ("apps/limn/bench.cpp", "apps/bench/performance.py", "apps/bench/patches.py",
                            "apps/bench/performance_instructions.py", "apps/bench/without")),
-    Report("convergence", "docs/speed-against-error.md", "./build.sh convergence", 40,
-           CORE + BENCH + FIGURES + ("examples/gallery", "examples/models", "apps/bench/convergence_measure.py", "apps/bench/convergence_pictures.py",
-                                     "apps/bench/convergence_renderers.py", "apps/bench/peers")),
+    Report("convergence", "docs/speed-against-error.md", "./build.sh convergence", 55, CONVERGENCE),
+    Report("convergence-400", "docs/speed-against-error.md", "./build.sh convergence --size 400", 90, CONVERGENCE),
     Report("queries", "docs/queries.md", "./build.sh queries", 25,
            CORE + ("python", "pyproject.toml", "apps/bench/queries*.py", "apps/bench/queries", "apps/bench/stopwatch.h",
                    "apps/bench/peers/query_worker.py", "apps/bench/peers/cgal_queries.cpp", "tests/python/meshes.py")),
@@ -180,7 +182,7 @@ def state(report, root=ROOT):
 
 
 def line(report, root=ROOT):
-    return f"{report.name:12} {report.paper:29} {state(report, root):30} {report.command}, {report.minutes} min"
+    return f"{report.name:15} {report.paper:29} {state(report, root):30} {report.command}, {report.minutes} min"
 
 
 class Kept:
