@@ -6,7 +6,7 @@ namespace limn::accel {
 
 namespace {
 
-constexpr int kMaxBins = 32;
+constexpr int kMaxBins = 32;  // as in Embree; small ranges have fewer, for most of theirs would be empty
 
 struct Bins {
     Bounds bounds[3][kMaxBins];

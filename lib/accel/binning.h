@@ -12,7 +12,7 @@ struct Split {
     float origin = 0, scale = 0, first_upper = 0;
 
     bool exists() const { return cost < std::numeric_limits<float>::infinity(); }
-    // What is said for Bins::add below, in the same operations.
+    // As Bins::add (binning.cpp) places it, in the same operations.
     bool is_lower(const BuildPrimitive& p) const {
         return ((p.lower[axis] + p.upper[axis]) - origin) * scale < first_upper;
     }

@@ -8,8 +8,8 @@ namespace limn::accel {
 
 namespace {
 
-constexpr std::uint32_t kChunk = 1 << 15;
-constexpr float kBounded = 0x1p125f;
+constexpr std::uint32_t kChunk = 1 << 15;  // primitives of a task; the tree does not depend on it
+constexpr float kBounded = 0x1p125f;       // of such coordinates sums and differences of two are finite
 
 // Of what they are around nothing is known yet.
 std::vector<Range> chunks_of(std::uint32_t begin, std::uint32_t end) {

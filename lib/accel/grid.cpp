@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kMaxBits = 15;               // of a cell's number: the table of cells stays in the second-level cache
 constexpr std::uint32_t kChunk = 1 << 18;  // primitives that share a table of cells; the tree does not depend on it
-constexpr std::uint32_t kMaxChunks = 64;
-constexpr float kMinExtent = 0x1p-110f;  // its reciprocal, times a number of cells, is finite
-constexpr std::uint32_t kMinCells = 8;   // with fewer a range gets a grid of its own
+constexpr std::uint32_t kMaxChunks = 64;   // for the memory that their tables take
+constexpr float kMinExtent = 0x1p-110f;    // its reciprocal, times a number of cells, is finite
+constexpr std::uint32_t kMinCells = 8;     // with fewer a range gets a grid of its own
 
 class Grid {
 public:
@@ -47,7 +47,7 @@ private:
 struct Chunk {
     std::uint32_t begin, end;
     std::vector<Bounds> bounds;        // by cell
-    std::vector<std::uint32_t> count;  // by cell, then by leaf: where its next reference goes
+    std::vector<std::uint32_t> count;  // by cell, then by leaf: where its next primitive goes
 };
 
 // Splits cells until their primitives are few enough.

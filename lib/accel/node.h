@@ -1,4 +1,4 @@
-// A node of a tree as the builder makes it and the kernels read it.
+// A node of a tree as the builder makes it and traversal reads it.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ namespace limn::compiler {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kGrain = 4096;  // primitives of a task
 
 class BlasTree {
 public:

@@ -114,6 +114,7 @@ void release_arrays(flat::Scene& s) {
     if (!f.user_defined_shapes && !f.user_defined_materials && !f.user_defined_textures) s.kept.clear();
 }
 
+// So few primitives have a table of their objects; those of more are found by a binary search.
 constexpr std::uint64_t kFewPrimitives = 4096;
 
 void name_objects(flat::Scene& s) {

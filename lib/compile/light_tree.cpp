@@ -16,7 +16,7 @@ namespace limn::compiler {
 
 namespace {
 
-constexpr std::size_t kBins = 12;
+constexpr std::size_t kBins = 12;  // as many as pbrt-v4's
 // Deeper than any sensible tree; from here on halves have as many lights, so that recursion ends.
 constexpr int kDeepest = 48;
 // Neighbours as near to each other as they are large are not worth a node each: what is gained by telling them apart
@@ -79,7 +79,7 @@ public:
         const std::size_t count = end - begin;
         const bool compact = count <= kMostInLeaf && length(all.box.diagonal()) <= kWidestLeaf * largest &&
                              all.cone.cos_spread >= kLeafCosine;
-        // A pair of lights alone in the scene is told apart for the price of two nodes.
+        // A few lights alone in the scene are told apart: that costs few nodes.
         if (count == 1 || (compact && items_.size() > kMostInLeaf)) return;
         const std::size_t middle = split(begin, end, all, depth);
         build(begin, middle, depth + 1);

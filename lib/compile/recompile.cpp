@@ -13,7 +13,7 @@ namespace limn::compiler {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;  // objects
+constexpr std::size_t kGrain = 256;  // objects of a task
 
 // The row of Scene::instances that is the object.
 std::uint32_t row_of(const flat::Scene& scene, std::size_t object) {

@@ -34,9 +34,9 @@ void place_media(flat::Scene& scene);
 // Fills the tables by which directions towards the map are drawn; none where all is black.
 void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
 
-// Fills scene.lights with every emitter that can be sampled: the sources, the environment, triangles, quads and spheres
-// of a diffuse light, not under a moving instance, spheres not under one that bends them, none with a user-defined
-// texture. What is left out is found by scattering alone.
+// Fills scene.lights with every emitter that can be sampled: the sources, the environment, and of a diffuse light
+// meshes, triangles, quads, disks and spheres, not under more than four moving instances, spheres not under one that
+// bends them, none with a user-defined texture. What is left out is found by scattering alone.
 void collect_lights(flat::Scene& scene);
 
 }  // namespace limn::compiler

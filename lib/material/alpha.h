@@ -13,7 +13,7 @@ struct Alphas {
     double x, y;  // both 0: smooth
 };
 
-// Roughnesses whose alphas are below bsdf::kLeastAlpha are none.
+// Smooth where both alphas are below bsdf::kLeastAlpha; one alone is raised to it.
 Alphas checked_alphas(const Roughness& r, const std::string& material);
 
 // \param eta see bsdf::albedo_of

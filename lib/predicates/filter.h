@@ -10,7 +10,7 @@
 
 namespace limn {
 
-// What is good enough, where 2^-23 is promised: relative for t, absolute for u and v.
+// The largest errors that a filter may report a hit with: of t relative, of u and v absolute.
 inline constexpr double kAccurate = 0x1p-32, kAccurateWeight = 0x1p-26;
 
 // Where hits may lie: t in (t_min, t_max], finite. The t that is reported decides, so that the interval and the

@@ -12,7 +12,7 @@ namespace limn::query {
 
 using accel::with_threads;
 
-inline constexpr int kMostThreads = 1024;
+inline constexpr int kMostThreads = 1024;  // more are taken for a mistake
 
 // As many as are worth a task.
 inline constexpr std::size_t kPart = 1024;

@@ -1,4 +1,4 @@
-// How limn uses threads: the one loop that it runs in parallel, and in which arena.
+// How a render uses threads: the loop that it runs in parallel, and in which arena.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>

@@ -60,7 +60,10 @@ PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estima
 
 // The rendering equation by scattering: L = sum over path vertices of throughput * emission, where the throughput grows
 // by f |cos| / pdf at each. With light sampling, every vertex also asks for the emission in one direction drawn towards
-// a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1.
+// a light. A direction that both ways could have found is counted by both, weighted so that the weights add to 1 (the
+// power heuristic; Veach and Guibas 1995). For that each segment keeps `scatter_pdf`, the density by which scattering
+// chose it: 0 where light sampling could not have, and whatever it finds counts whole. In media light is also sampled
+// along a segment: `light_odds` is how much more densely its place was drawn for that than by free flight.
 void PathTracer::trace(std::span<Path> paths) {
     begin(paths);
     while (next_->count > 0) {
@@ -112,7 +115,7 @@ void PathTracer::draw(const sampling::PathRows<n>& paths, std::size_t first, std
     draw_numbers({count, paths.base + first, paths.index + first, group}, dimensions, sampler_at, numbers);
 }
 
-// For the next segments, from a row on.
+// One for each of the next segments, from a row on: whether it passes holes.
 void PathTracer::draw_holes(std::size_t first) {
     shade::Segments& s = *next_;
     for (; first < s.count; first += kShaded) {
@@ -123,7 +126,7 @@ void PathTracer::draw_holes(std::size_t first) {
     }
 }
 
-// The same.
+// What is drawn before a segment's hits are known: of the next segments, from a row on.
 void PathTracer::draw_flights(std::size_t first) {
     if (has_holes_) draw_holes(first);
     if (scene_.media.empty()) return;

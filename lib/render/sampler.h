@@ -58,6 +58,7 @@ public:
     }
 
 private:
+    // Room for 256 uses at a vertex, of 16 groups each: more than there are, so that new ones change no other.
     static constexpr std::uint32_t kGroupsOfVertex = 4096, kGroupsOfUse = 16;
 
     SamplerKind kind_;

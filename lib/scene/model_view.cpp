@@ -21,7 +21,7 @@ const Vec3 kTowardsEye{0.5, 0.42, 1};
 constexpr double kFieldOfView = 30;
 constexpr double kFilled = 0.88;  // of the frame, by the model where it is as wide or as high
 
-// The key light is 62 degrees from the eye, enough for shadows that show the shape, and far enough to stay out of the
+// The key light is 60 degrees from the eye, enough for shadows that show the shape, and far enough to stay out of the
 // picture. In radii of the bounding sphere: clear of any model, wide enough for soft shadows (0.24 sr).
 const Vec3 kTowardsKey{-0.7, 1.1, 0.8};
 constexpr double kKeyDistance = 4, kKeySide = 2;

@@ -36,8 +36,8 @@ struct BoxRay {
     float reach;   // R, in space as it is
     float extent;  // Blas::extent
     float t_min;
-    float t_error;                        // of what is reported as t, beyond 2^-23 of it: of a ray that starts anew
-    float scale;                          // of the boxes: Blas::scale
+    float t_error;  // of what is reported as t, beyond what above() allows: of a ray that starts anew
+    float scale;    // of the boxes: Blas::scale
     float origin_error, direction_error;  // as in RayFrame, the direction's when the longest coordinate is 1
     bool is_taken_as_it_is;
     unsigned octant;          // bit a: direction[a] is negative

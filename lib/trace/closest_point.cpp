@@ -14,7 +14,8 @@ namespace limn::trace {
 
 namespace {
 
-// Boxes are compared by what they may be off by: 2^-40 of the way to them, and of a transformed box's coordinates.
+// Boxes are compared by what they may be off by: 2^-40 of the squared way to them, 2^-45 of a transformed box's
+// coordinates.
 constexpr double kLess = 1 - 0x1p-40, kSlack = 0x1p-45;
 
 Transform placed(const flat::Instance& instance, const Transform* outer, double time) {

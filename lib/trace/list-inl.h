@@ -1,5 +1,5 @@
-// Rays against listed primitives: in float, sixteen rays or primitives at once, and exactly. Per-target include guard,
-// as Highway has it.
+// Rays against listed primitives: in float, up to sixteen rays or primitives at once, and exactly. Per-target include
+// guard, as Highway has it.
 #if defined(LIMN_TRACE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_LIST_INL_H
 #undef LIMN_TRACE_LIST_INL_H

@@ -1,4 +1,4 @@
-// Which of the kernels' builds is used: one for each instruction set, the best that the processor has unless a test
+// Which build of the inner loops is used: one for each instruction set, the best that the processor has unless a test
 // says otherwise.
 #pragma once
 

@@ -12,7 +12,7 @@
 namespace limn::trace {
 
 struct Hit : flat::RawHit {
-    double u = 0, v = 0;         // of triangles and quads, and as user-defined shapes say
+    double u = 0, v = 0;         // of triangles, quads and disks, and as user-defined shapes say
     bool index_matched = false;  // as user-defined shapes say
 };
 
@@ -46,8 +46,8 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
 // Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`; of boundaries of media too,
 // which are flagged. \pre is_usable(ray)
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
-// What the moved ray (predicates/passage.h) passes through of the boundary of a medium, in no particular order, replacing
-// what is in `out`.
+// What the moved ray (predicates/passage.h) passes through of the boundary of a medium, in no particular order,
+// replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
 // What a ray passes over.

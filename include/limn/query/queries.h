@@ -20,8 +20,10 @@ struct RayHit {
     std::uint32_t object = 0;  ///< in the order of Scene::add
     /// The primitive's number within the object: the triangle of a mesh, the place in a list.
     std::uint64_t element = 0;
-    double u = 0;  ///< triangle: weight of the second vertex; quad: along edge u; user-defined: its own; sphere: 0
-    double v = 0;  ///< triangle: weight of the third vertex; quad: along edge v; user-defined: its own; sphere: 0
+    /// Triangle: weight of the second vertex; quad: along edge u; disk: over the square around it; user-defined: its
+    /// own; sphere: 0.
+    double u = 0;
+    double v = 0;                 ///< triangle: weight of the third vertex; others as u, quads along edge v
     bool index_matched = false;   ///< the boundary of a medium
     std::uint64_t primitive = 0;  ///< the primitive's number within the scene
 };
