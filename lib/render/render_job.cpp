@@ -24,8 +24,9 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-// Passes over all tiles, each of as many samples as there are already or kLargestPass, so that a render that is stopped
-// leaves a whole picture. What a pass leads to depends on the film alone, not on how often it was interrupted.
+// Passes over all tiles, each of at most as many samples as there are already, and of at most kLargestPass, so that a
+// render that is stopped leaves a whole picture. What a pass leads to depends on the film alone, not on how often it
+// was interrupted.
 class RenderJob::Impl {
 public:
     Impl(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings)

@@ -186,8 +186,8 @@ private:
         pending_[pending_count_++] = hit;
     }
 
-    // Makes the query's limit say all that is known, before others than this traversal read it: those inside an
-    // instance and user-defined shapes. In between `bound_` is ahead of it, by the hits that are pending.
+    // Makes the query's limit say all that is known, before an instance's inside or a user-defined shape reads it. In
+    // between `bound_` is ahead of it, by the hits that are pending.
     void update_limit() {
         if constexpr (Query::kNearest) {
             if (box_ray_.is_taken_as_it_is)

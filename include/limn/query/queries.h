@@ -23,7 +23,7 @@ struct RayHit {
     /// Triangle: weight of the second vertex; quad: along edge u; disk: over the square around it; user-defined: its
     /// own; sphere: 0.
     double u = 0;
-    double v = 0;                 ///< triangle: weight of the third vertex; others as u, quads along edge v
+    double v = 0;                 ///< triangle: weight of the third vertex; quad: along edge v; otherwise as u
     bool index_matched = false;   ///< the boundary of a medium
     std::uint64_t primitive = 0;  ///< the primitive's number within the scene
 };
