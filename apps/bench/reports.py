@@ -71,9 +71,9 @@ REPORTS = (
     Report("accuracy", "docs/accuracy.md", "./build.sh accuracy --full", 80,
            CORE + ("tests/accuracy", "tests/hard", "tests/support", "apps/bench/accuracy.py", "-*_test.py")),
     Report("compilers", "docs/checks.md", "./build.sh compilers --aarch64", 110, CHECKED),
-    Report("asan", "docs/checks.md", "./build.sh sanitize asan", 60, CHECKED),
-    Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 60, CHECKED),
-    Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 60, CHECKED),
+    Report("asan", "docs/checks.md", "./build.sh sanitize asan", 115, CHECKED),
+    Report("tsan", "docs/checks.md", "./build.sh sanitize tsan", 80, CHECKED),
+    Report("memcheck", "docs/checks.md", "./build.sh sanitize memcheck", 100, CHECKED),
     Report("mutants", "docs/mutants.md", "./build.sh mutants", 120, ALL + ("tests", "apps/bench/patches.py")),
 )
 
