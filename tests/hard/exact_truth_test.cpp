@@ -304,3 +304,22 @@ TEST_CASE(
     CHECK(faults({ray.origin, ray.direction, 0, 2, 0}, three, Answer{1, 0.25, 0.5, 0}) == 1);
     CHECK(faults({ray.origin, ray.direction, 2.9, 3, 0}, three, std::nullopt) == 1);
 }
+
+TEST_CASE("The judge goes on behind a hit at t_min by its rounding, however little the exact t is above",
+          "[hard][truth]") {
+    // To z = -1 and z = 1: the first t is -1 + 2^-1022, which is -1 as a Real, too.
+    const Ray ray{{0, 0, -0x1p-1022}, {0, 0, 1}, -1, kInfinity, 0};
+    const auto exact = [](const Ray& asked) {
+        const ExactHit first = exact_quad_hit({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, asked);
+        return first.hit ? first : exact_quad_hit({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, asked);
+    };
+    REQUIRE(exact(ray).t == -1);
+    const auto faults = [&](const std::optional<Answer>& second) {
+        Tally tally;
+        judge(tally, ray, exact, [&](const Ray& asked) { return asked.t_min < -1 ? Answer{-1, 0.5, 0.5, 0} : second; });
+        return tally.wrong;
+    };
+    CHECK(faults(Answer{1, 0.5, 0.5, 0}) == 0);
+    CHECK(faults(Answer{1 + 0x1p-20, 0.5, 0.5, 0}) == 1);
+    CHECK(faults(std::nullopt) == 1);
+}

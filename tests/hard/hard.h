@@ -122,7 +122,9 @@ inline ExactHit truth_at_ends(const Ray& ray, const ExactQuery& exact, const Lim
         if (reported->t > ray.t_max) return {};
         if (reported->t > ray.t_min) return truth;
         of_limn.t_min = reported->t, of_truth.t_min = static_cast<double>(truth.t);
-        if (Real(of_truth.t_min) < truth.t) of_truth.t_min = std::nextafter(of_truth.t_min, kInfinity);
+        // Beyond this root, whose t may be rounded twice: -1 + 2^-1022 is -1 as a Real, too.
+        if (const ExactHit same = exact(of_truth); same.hit && same.t <= truth.t)
+            of_truth.t_min = std::nextafter(of_truth.t_min, kInfinity);
     }
     return {};
 }
