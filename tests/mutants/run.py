@@ -122,7 +122,7 @@ def mark(mutant, tests, full):
     room = tests[0].split(":")[0] if tests and not full else "consumer"
     judges = ("tests", "-tests/mutants")
     if room != "consumer" and (ROOT / "tests" / room).is_dir():
-        judges = ("tests/CMakeLists.txt", "tests/catch.h", "tests/property.h", "tests/support", f"tests/{room}")
+        judges = ("tests/CMakeLists.txt", "tests/*.h", "-tests/*/*.h", "tests/support", f"tests/{room}")
     patch = (ROOT / f"tests/mutants/{mutant.name}.patch").read_text()
     return hashlib.sha256(repr((FLAGS, digest(reports.ALL), digest(judges), patch, full)).encode()).hexdigest()[:12]
 
