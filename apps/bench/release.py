@@ -48,15 +48,14 @@ def claim_faults(root):
 def test_names(root):
     """A pattern for the names of all tests, "program: name", as the sources of the suite spell them."""
     found = []
-    for source in root.glob("tests/*/*.cpp"):
-        listing = source.parent / "CMakeLists.txt"
-        programs = re.findall(r"^limn_test\((\w+)", listing.read_text(), re.MULTILINE) if listing.exists() else []
-        program = "|".join([source.parent.name, *programs])
-        for literals in re.findall(r'\bTEST_CASE\(\s*((?:"(?:\\.|[^"\\])*"\s*)+)', source.read_text()):
-            name = "".join(re.findall(r'"((?:\\.|[^"\\])*)"', literals)).replace('\\"', '"')
-            found.append(f"(?:{program}): {re.escape(name)}")
-    for listing in root.glob("tests/*/CMakeLists.txt"):
-        text = listing.read_text()
+    for room in root.glob("tests/*"):
+        listing = room / "CMakeLists.txt"
+        text = listing.read_text() if listing.exists() else ""
+        program = "|".join([room.name, *re.findall(r"^limn_test\((\w+)", text, re.MULTILINE)])
+        for source in room.glob("*.cpp"):
+            for literals in re.findall(r'\bTEST_CASE\(\s*((?:"(?:\\.|[^"\\])*"\s*)+)', source.read_text()):
+                name = "".join(re.findall(r'"((?:\\.|[^"\\])*)"', literals)).replace('\\"', '"')
+                found.append(f"(?:{program}): {re.escape(name)}")
         names = re.findall(r'add_test\(NAME "([^"]+)"', text)
         names += [f"consumer: {name}" for name in re.findall(r'^consumer_test\("([^"]+)"', text, re.MULTILINE)]
         # What CMake puts in for a variable may be anything.
