@@ -71,15 +71,22 @@ install_needs() {
         libboost-dev make parallel
 }
 
+# configure OPTION...: the usual build. g++ compiles in a tenth less time if it collects its garbage later.
+configure() {
+    local later=--param=ggc-min-heapsize=300000
+    "${CXX:-c++}" -Werror "$later" -E -x c++ /dev/null >/dev/null 2>&1 || later=
+    CXXFLAGS="${CXXFLAGS:-} $later" cmake --preset release "$@"
+}
+
 build() {
     install_needs
-    cmake --preset release -DLIMN_BUILD_TESTS=ON
+    configure -DLIMN_BUILD_TESTS=ON
     cmake --build --preset release
 }
 
 figures() {
     install_missing "${program_packages[@]}"
-    cmake --preset release -DLIMN_BUILD_TESTS=OFF
+    configure -DLIMN_BUILD_TESTS=OFF
     cmake --build --preset release --target figures
     local out=build/figures program name status failed=0
     mkdir -p "$out"
