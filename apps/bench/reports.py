@@ -35,9 +35,9 @@ CONVERGENCE = CORE + BENCH + FIGURES + (
 # The suite in other builds than the usual one.
 CHECKED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "lib", "apps", "examples", "tests", "-*.py",
            "-apps/bench/without", "-tests/mutants", "tests/checks")
-# Of tests/hard the digests alone: MEMCHECK in sanitize.py.
+# Of tests/hard the digests alone, and no outside projects: MEMCHECK in sanitize.py.
 MEMCHECKED = CHECKED + (
-    "-tests/hard", "tests/hard/CMakeLists.txt", "tests/hard/*digest_test.cpp", "tests/hard/corpus.h")
+    "-tests/consumer", "-tests/hard", "tests/hard/CMakeLists.txt", "tests/hard/*digest_test.cpp", "tests/hard/corpus.h")
 ALL = ("CMakeLists.txt", "cmake", "include", "lib", "apps", "examples", "-*.py", "-apps/bench/without")
 
 
