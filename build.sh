@@ -162,7 +162,8 @@ case $command in
     figures) figures ;;
     test)
         build
-        ctest --preset release
+        # One more than there are processors: some tests wait for others' programs, or for the network.
+        ctest --preset release --parallel $(($(nproc) + 1))
         ;;
     convergence)
         build
