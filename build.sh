@@ -162,8 +162,7 @@ case $command in
     figures) figures ;;
     test)
         build
-        # One more than there are processors: some tests wait for others' programs, or for the network.
-        ctest --preset release --parallel $(($(nproc) + 1))
+        ctest --preset release
         ;;
     convergence)
         build
