@@ -3,6 +3,9 @@
 #include <bit>
 
 #define XXH_INLINE_ALL  // who links limn needs no library for it
+#ifndef NDEBUG
+#define XXH_NO_INLINE_HINTS 1  // what is called through a pointer: g++ -Og cannot inline it, and stops
+#endif
 #include <xxhash.h>
 
 namespace limn {
