@@ -83,7 +83,6 @@ struct Wide {
 
 // The kinds of number.
 using Doubles = Wide<hn::CappedTag<double, 8>>;
-using Single = Wide<hn::CappedTag<double, 1>>;  // where a double's branches would be mispredicted
 template <class N>
 using Mask = decltype(std::declval<N>() < std::declval<N>());
 template <class N>
@@ -94,6 +93,10 @@ inline constexpr std::size_t kLanes<double> = 1;
 template <class D>
 HWY_INLINE bool any(WideMask<D> mask) {
     return !hn::AllFalse(D(), mask.m);
+}
+template <class D>
+HWY_INLINE bool all(WideMask<D> mask) {
+    return hn::AllTrue(D(), mask.m);
 }
 // The lowest bit is the first lane's.
 template <class D>
@@ -154,6 +157,7 @@ HWY_INLINE Wide<D> rounded_to_float(Wide<D> x) {
 HWY_INLINE double select(bool mask, double yes, double no) { return mask ? yes : no; }
 HWY_INLINE bool select(bool mask, bool yes, bool no) { return mask ? yes : no; }
 HWY_INLINE bool any(bool mask) { return mask; }
+HWY_INLINE bool all(bool mask) { return mask; }
 HWY_INLINE double abs(double a) { return std::abs(a); }
 HWY_INLINE double sqrt(double a) { return std::sqrt(a); }
 HWY_INLINE double min(double a, double b) { return a < b ? a : b; }

@@ -14,8 +14,7 @@ bool intersect_triangle(const Point3& a, const Point3& b, const Point3& c, const
 }
 
 std::size_t intersect_mesh(const MeshView& mesh, const RayFrame& frame, const Search& search, PlanarHit& hit) {
-    using HWY_NAMESPACE::Single;
-    const HWY_NAMESPACE::ShearedRay<Single> ray(HWY_NAMESPACE::ray_of<Single>(frame));
+    const HWY_NAMESPACE::ShearedRay<double> ray(HWY_NAMESPACE::ray_of<double>(frame));
     std::size_t nearest = mesh.triangles.size();
     hit.t = search.t_max;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

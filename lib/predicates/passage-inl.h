@@ -65,12 +65,12 @@ enum class Told { nothing, met, missed };
 
 template <template <class> class Predicate>
 HWY_INLINE Told tell(const Predicate<double>& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
-    const typename Predicate<Single>::Ray ray(ray_of<Single>(frame));
-    const auto r = in_lanes<Single>(shape).filter(ray, {search.t_min, search.t_max});
-    hit = {first_of_lanes(r.t), first_of_lanes(r.u), first_of_lanes(r.v)};
+    const typename Predicate<double>::Ray ray(ray_of<double>(frame));
+    const FilterResult<double> r = shape.filter(ray, {search.t_min, search.t_max});
+    hit = {r.t, r.u, r.v};
     // A line that meets the shape beyond all doubles is none that misses it.
     if (!(std::abs(hit.t) < kInfinity && is_clear(hit.t, search))) return Told::nothing;
-    return any(r.hit) ? Told::met : any(r.miss) ? Told::missed : Told::nothing;
+    return r.hit ? Told::met : r.miss ? Told::missed : Told::nothing;
 }
 
 // report(passage) for each passage of the moved ray through a shape, until it returns true: whether it did. Where only

@@ -29,6 +29,21 @@ public:
 private:
     Mask<N> x_over_y_, z_longest_;
 };
+// In a vector of one lane: branches could not be predicted.
+template <>
+class Axes<double> {
+public:
+    HWY_INLINE explicit Axes(const Vector<double>& direction) : axes_(broadcast<Lane>(direction)) {}
+    HWY_INLINE Vector<double> permuted(const Vector<double>& v) const {
+        const Vector<Lane> p = axes_.permuted(broadcast<Lane>(v));
+        return {first_of_lanes(p.x), first_of_lanes(p.y), first_of_lanes(p.z)};
+    }
+
+private:
+    using Lane = Wide<hn::CappedTag<double, 1>>;
+    Axes<Lane> axes_;
+};
+
 // The axes are permuted so that the direction is largest along z; shearing maps it onto z, so that a triangle is hit
 // where the origin lies inside its projection (Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1),
 // 2013; here in double).
@@ -90,8 +105,9 @@ HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& w
     const N t = h.z / ray.direction.z;
     Judgement<N> j = judge(t, z_error / abs(ray.direction.z), within);
     j.accurate = j.accurate & (h.weight_error <= kAccurateWeight);
-    return {
-        .hit = Mask<N>(inside & j.hit()), .miss = Mask<N>(missed | (inside & j.miss())), .t = t, .u = h.u, .v = h.v};
+    const Mask<N> hit = inside & j.hit();
+    if (HWY_LIKELY(all(hit))) return {hit, missed, t, h.u, h.v};
+    return {.hit = hit, .miss = Mask<N>(missed | (inside & j.miss())), .t = t, .u = h.u, .v = h.v};
 }
 
 // Whether a plane lies behind the ray's origin: a surface behind the ray that leaves it, which the t of a search, close
@@ -128,6 +144,7 @@ template <class N>
 HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> inside, const Vector<N>& u,
                              const Vector<N>& v, const Vector<N>& q, N edge_error, Mask<N> against,
                              FilterResult<N>& result) {
+    if (HWY_LIKELY(all(result.hit))) return;
     const auto undecided = inside & !(result.hit | result.miss);
     if (HWY_LIKELY(!any(undecided))) return;
     const auto behind = is_behind(u, v, q, edge_error, 0.5 * ray.absolute, against);

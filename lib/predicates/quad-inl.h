@@ -39,7 +39,8 @@ struct QuadPredicate {
         N wu = ev.x * q.y - ev.y * q.x;
         N wv = q.x * eu.y - q.y * eu.x;
         const auto turned = det < 0.0;
-        det = select(turned, -det, det), wu = select(turned, -wu, wu), wv = select(turned, -wv, wv);
+        const N sign = copy_sign(N(1.0), det);
+        det = abs(det), wu = sign * wu, wv = sign * wv;
         const N least = min(wu, wv), most = max(wu, wv);
         const N reach = max(max_abs(to_corner), max(max_abs(at_u), max_abs(at_v)));
         const N e = ray.determinant_error(reach, across(q, eu, ev));

@@ -73,16 +73,16 @@ HWY_INLINE Predicate<N> in_lanes(const Predicate<double>& shape) {
 // Exact: whether a shape is hit within the search. t, u, v as kAccurate says. `ray`: the frame's, as such shapes see
 // it.
 template <template <class> class Predicate>
-HWY_INLINE bool intersect(const Predicate<double>& shape, const typename Predicate<Single>::Ray& ray,
+HWY_INLINE bool intersect(const Predicate<double>& shape, const typename Predicate<double>::Ray& ray,
                           const RayFrame& frame, const Search& search, PlanarHit& hit) {
-    const auto r = in_lanes<Single>(shape).filter(ray, {search.t_min, search.t_max});
-    if (HWY_UNLIKELY(!any(r.hit | r.miss))) return shape.exact(frame, search, hit);
-    hit = {first_of_lanes(r.t), first_of_lanes(r.u), first_of_lanes(r.v)};
-    return any(r.hit);
+    const FilterResult<double> r = shape.filter(ray, {search.t_min, search.t_max});
+    hit = {r.t, r.u, r.v};
+    if (HWY_LIKELY(r.hit)) return true;
+    return HWY_UNLIKELY(!r.miss) && shape.exact(frame, search, hit);
 }
 template <template <class> class Predicate>
 HWY_INLINE bool intersect(const Predicate<double>& shape, const RayFrame& frame, const Search& search, PlanarHit& hit) {
-    return intersect(shape, typename Predicate<Single>::Ray(ray_of<Single>(frame)), frame, search, hit);
+    return intersect(shape, typename Predicate<double>::Ray(ray_of<double>(frame)), frame, search, hit);
 }
 
 }  // namespace limn::HWY_NAMESPACE

@@ -73,9 +73,9 @@ struct SpherePredicate {
         const auto outer_first = outer < inner;
         return {.missed = missed,
                 .known = Mask<N>(met & (outer_error <= 0.25 * size)),
-                .near = select(outer_first, outer, inner),
+                .near = min(outer, inner),
                 .near_error = select(outer_first, outer_error, inner_error),
-                .far = select(outer_first, inner, outer),
+                .far = max(outer, inner),
                 .far_error = select(outer_first, inner_error, outer_error)};
     }
 
@@ -83,6 +83,8 @@ struct SpherePredicate {
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
         const SphereRoots<N> r = roots(ray);
         const Judgement<N> first = judge(r.near, r.near_error, within);
+        const Mask<N> hit = r.known & first.hit();
+        if (HWY_LIKELY(all(hit))) return {hit, r.missed, r.near, N(0.0), N(0.0)};
         const Judgement<N> last = judge(r.far, r.far_error, within);
         return {.hit = Mask<N>(r.known & (first.hit() | (first.miss() & last.hit()))),
                 .miss = Mask<N>(r.missed | (r.known & first.miss() & last.miss())),
