@@ -30,7 +30,11 @@ public:
                                      frame.origin_error,    frame.direction_error, frame.ray.t_min,
                                      frame.ray.t_max};
         for (std::size_t k = 0; k < kRay; ++k) ray_[k][size_] = of_ray[k];
-        for (std::size_t k = 0; k < Predicate<double>::kNumbers; ++k) shape_[k][size_] = number_of<double>(shape, k);
+        // One by one: wide loads would wait for what has just been stored in parts.
+        [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
+            ((shape_[k][size_] = number_of<double>(shape, k)), ...);
+        }
+        (std::make_index_sequence<Predicate<double>::kNumbers>());
         query_[size_] = &query, number_[size_++] = number;
     }
 

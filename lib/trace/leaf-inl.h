@@ -104,6 +104,12 @@ struct Candidates {
     }
 };
 
+// Whether a vector starts at primitive i of a block. Where one holds a whole block there is no loop, before which what
+// a ray has in all lanes would be kept in memory.
+HWY_INLINE bool has_vector(std::size_t i, std::size_t count) {
+    return kLanes<Floats> >= flat::kMaxBlock ? i == 0 : i < count;
+}
+
 HWY_INLINE Floats load_row(const std::uint32_t* words) { return load_floats(words); }
 
 template <bool kQuad>
@@ -112,15 +118,15 @@ HWY_INLINE Candidates test_planar(const flat::BlockView& block, std::size_t coun
     const std::uint32_t* const rows = block.rows(count);
     const std::uint32_t *const x = rows + ray.axes[0] * count, *const y = rows + ray.axes[1] * count,
                                *const z = rows + ray.axes[2] * count;
-    const auto numbers = in_all_lanes(ray.numbers);
-    const auto leaving = first_lanes<Floats>(ray.leaves ? kLanes<Floats> : 0);
     Candidates found;
-    for (std::size_t i = 0; i < count; i += kLanes<Floats>) {
+    for (std::size_t i = 0; has_vector(i, count); i += kLanes<Floats>) {
         const auto vertex = [&](std::size_t k) HWY_ATTR {
             const std::size_t at = 3 * k * count + i;
             return Vector<Floats>{load_row(x + at), load_row(y + at), load_row(z + at)};
         };
-        const auto hits = test_planar<kQuad>(vertex, numbers, first_lanes<Floats>(count - i), leaving, {t_min, t_max});
+        const auto leaving = first_lanes<Floats>(ray.leaves ? kLanes<Floats> : 0);
+        const auto hits = test_planar<kQuad>(vertex, in_all_lanes(ray.numbers), first_lanes<Floats>(count - i), leaving,
+                                             {t_min, t_max});
         if (any(hits.possible)) found.add(hits, i);
     }
     return found;
@@ -130,16 +136,15 @@ template <bool kMoving>
 HWY_INLINE Candidates test_spheres(const flat::BlockView& block, std::size_t count, const SphereFloatRay<float>& ray,
                                    float time, float t_min, float surely_after, float t_max) {
     const std::uint32_t* const rows = block.rows(count);
-    const auto numbers = in_all_lanes(ray);
     Candidates found;
-    for (std::size_t i = 0; i < count; i += kLanes<Floats>) {
+    for (std::size_t i = 0; has_vector(i, count); i += kLanes<Floats>) {
         const auto row = [&](std::size_t r) HWY_ATTR { return load_row(rows + r * count + i); };
         const auto coordinate = [&](std::size_t a) HWY_ATTR {
             const Floats at0 = row(a);
             if constexpr (kMoving) return mul_add(time, row(3 + a) - at0, at0);
             return at0;
         };
-        const auto roots = float_roots(three<Floats>(coordinate, 0), row(kMoving ? 6 : 3), numbers);
+        const auto roots = float_roots(three<Floats>(coordinate, 0), row(kMoving ? 6 : 3), in_all_lanes(ray));
         if (HWY_LIKELY(!any(!roots.missed))) continue;
         auto hits = first_root(roots, Floats(surely_after), {t_min, t_max});
         hits.possible = hits.possible & first_lanes<Floats>(count - i);

@@ -129,10 +129,10 @@ HWY_INLINE bool with_listed(const flat::Scene& scene, const PrimitiveList::Entry
 // Of flat ones: whether the plane lies behind an origin. `against`: where the direction goes against the normal.
 template <class N>
 HWY_INLINE Mask<N> is_behind(const PrimitiveList::Entry& e, const Vector<N>& origin, Mask<N> against) {
-    const double edge = larger(max_abs(e.edge_u), max_abs(e.edge_v));
-    const double edge_error = e.error + (e.kind == PrimitiveKind::quad ? 0 : kRoundoff * edge);
-    return is_behind(broadcast<N>(e.edge_u), broadcast<N>(e.edge_v), broadcast<N>(e.corner) - origin, N(edge_error),
-                     N(e.error), against);
+    const Vector<N> u = broadcast<N>(e.edge_u), v = broadcast<N>(e.edge_v);
+    const double rounding = e.kind == PrimitiveKind::quad ? 0 : kRoundoff;
+    const N edge_error = e.error + rounding * max(max_abs(u), max_abs(v));
+    return is_behind(u, v, broadcast<N>(e.corner) - origin, edge_error, N(e.error), against);
 }
 
 // visit(shape, frame) with a primitive and a ray as it sees it. `frame`: of the world.

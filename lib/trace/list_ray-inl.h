@@ -19,7 +19,8 @@ struct ListedBound {
     std::uint64_t waiting = 0;
 
     HWY_INLINE void lower(float t) {
-        if (t < bound) bound = t, limits.bound = t;
+        bound = t < bound ? t : bound;
+        limits.bound = bound;
     }
 };
 
@@ -53,9 +54,10 @@ HWY_INLINE bool take_listed(const flat::Scene& scene, const FloatHits<RayFloats>
     return false;
 }
 
-// As ListPacket, but for the way the lanes go.
-template <class Query>
-HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query) {
+// As ListPacket, but for the way the lanes go. search_rest() searches what is not listed.
+template <class Query, class SearchRest>
+HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query,
+                            const SearchRest& search_rest) {
     const PrimitiveList& list = scene.list;
     const auto in_float = [](const auto& v) HWY_ATTR {
         return Vector<RayFloats>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -63,7 +65,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
     const ListRay seen(in_float(ray.origin), in_float(ray.direction),
                        static_cast<float>(flat::blas_at(scene, BlasId::root).extent));
     if (HWY_UNLIKELY(!any(seen.is_ordinary))) {
-        intersect_all_listed(scene, frame, query);
+        if (!intersect_all_listed(scene, frame, query)) search_rest();
         return;
     }
     const float t_max = limited(query.limit());
@@ -99,9 +101,12 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
             if (take_listed(scene, hits, list.planars() + i, frame, query, found, near, is_missed)) return;
         }
     }
+    if constexpr (Query::kNearest)
+        if (found.waiting != 0) query.lower_limit(double{found.bound});
+    search_rest();
     for (; found.waiting != 0; found.waiting &= found.waiting - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(found.waiting));
-        if (near[k] <= found.bound) intersect_listed(scene, list.entries[k], frame, query);
+        if (near[k] <= query.limit()) intersect_listed(scene, list.entries[k], frame, query);
     }
 }
 

@@ -24,9 +24,15 @@ namespace limn::trace::HWY_NAMESPACE {
 // written.
 struct Stack {
     static constexpr std::size_t kSize = accel::kMaxWideDepth * (flat::kWidth - 1) + flat::kWidth;
-    std::size_t size = 0;
-    flat::Child child[kSize];
-    float near[kSize];
+    struct Rows {
+        flat::Child child[kSize];
+        float near[kSize];
+    };
+    flat::Child* const child;
+    float* const near;
+    std::size_t size = 0;  // apart from what vectors are written to: in a register
+
+    explicit Stack(Rows& rows) : child(rows.child), near(rows.near) {}
 
     HWY_INLINE void push(flat::Child c, float t) {
         child[size] = c;
@@ -35,12 +41,12 @@ struct Stack {
 
     // The last one that is entered up to `bound`. False where there is none.
     HWY_INLINE bool pop(float bound, flat::Child& next) {
-        do {
-            if (size == 0) return false;
-            --size;
-        } while (near[size] > bound);
-        next = child[size];
-        return true;
+        while (size != 0) {
+            if (near[--size] > bound) continue;
+            next = child[size];
+            return true;
+        }
+        return false;
     }
 
 #if HWY_MAX_BYTES >= 32
@@ -149,7 +155,7 @@ struct NodeTest {
         const Lanes d;
         const std::uint32_t* const rows = block.rows(count);
         Candidates found;
-        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        for (std::size_t i = 0; has_vector(i, count); i += hn::Lanes(d)) {
             const auto plane = [&](std::size_t p) HWY_ATTR { return load_floats(rows + p * count + i); };
             const auto near = enter(plane), far = leave(plane, hn::Set(d, t_max));
             found.add({{hn::And(hn::Le(near, far), hn::FirstN(d, count - i))}, {hn::FirstN(d, 0)}, near, far}, i);

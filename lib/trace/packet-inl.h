@@ -227,7 +227,8 @@ private:
     float certain_after_[kPacket], certain_before_[kPacket];
     std::uint32_t pending_mask_ = 0;
     Pending pending_[kPacket];
-    Stack stack_;
+    Stack::Rows rows_;
+    Stack stack_{rows_};
 };
 
 }  // namespace limn::trace::HWY_NAMESPACE

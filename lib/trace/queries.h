@@ -14,16 +14,16 @@ namespace limn::trace {
 
 struct Closest {
     static constexpr bool kNearest = true, kEveryHit = false, kFirstHit = false, kMoved = false, kFewKinds = false;
-    double t_max;  // lowered as hits are known, be it by their bounds
-    Hit best = {};
+    double t_max;         // lowered as hits are known, be it by their bounds
+    Hit* best = nullptr;  // the caller's, at first a miss; copying it out would wait for what was stored in parts
 
     double limit() const { return t_max; }
     void lower_limit(double t) { t_max = smaller(t_max, t); }
     bool ended() const { return false; }
     bool passes(const UserDefinedHit&) const { return false; }
     bool report(const PlanarHit& hit, std::uint64_t number, bool /*inward*/, bool matched = false) {
-        if (hit.t < best.t || (hit.t == best.t && number < best.primitive))
-            best = {{hit.t, number}, hit.u, hit.v, matched};
+        if (hit.t < best->t || (hit.t == best->t && number < best->primitive))
+            *best = {{hit.t, number}, hit.u, hit.v, matched};
         lower_limit(hit.t);
         return false;
     }

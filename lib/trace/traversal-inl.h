@@ -52,12 +52,12 @@ public:
         if constexpr (has_spheres()) round_ = sphere_ray(box_ray_, packed_error());
     }
 
-    // A part of run(), which ends where memory is about to be waited for. False at the end. `next`, at first the root,
-    // is the caller's.
-    HWY_INLINE bool advance(flat::Child& next) {
+    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at
+    // first empty and the root, are the caller's.
+    HWY_INLINE bool advance(Stack& stack, flat::Child& next) {
         for (;;) {
             if (!(next & flat::kLeaf)) {
-                next = node_test_.visit(scene_, next, bound_, stack_);
+                next = node_test_.visit(scene_, next, bound_, stack);
                 if (next != flat::kNothing) {
                     prefetch(scene_, next);
                     return true;
@@ -65,7 +65,7 @@ public:
             } else if (next != flat::kNothing && leaf(next)) {
                 return false;
             }
-            if (!stack_.pop(bound_, next)) {
+            if (!stack.pop(bound_, next)) {
                 finish();
                 return false;
             }
@@ -75,11 +75,13 @@ public:
     // True if the query ended the search.
     bool run() {
         if (blas_.root == flat::kNothing) return false;
+        Stack::Rows rows;
+        Stack stack(rows);
         flat::Child next = blas_.root;
         for (;;) {
-            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack_);
+            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack);
             if (next != flat::kNothing && leaf(next)) return true;
-            if (!stack_.pop(bound_, next)) {
+            if (!stack.pop(bound_, next)) {
                 finish();
                 return false;
             }
@@ -323,7 +325,6 @@ private:
     std::size_t pending_count_ = 0;
     bool is_deferring_ = false;  // what is intersected from now on
     Pending pending_[kMaxPending];
-    Stack stack_;
 };
 
 }  // namespace limn::trace::HWY_NAMESPACE

@@ -56,13 +56,15 @@ HWY_INLINE void search_blas(const flat::Scene& scene, const flat::Blas& blas, co
 template <class Query>
 void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
             Query& query) {
-    if (id == BlasId::root && !scene.list.empty()) {
-        search_list(scene, ray, frame, query);
-        if (scene.list.is_all || query.ended()) return;
-    }
-    const flat::Blas& blas = flat::blas_at(scene, id);
-    with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-        search_blas<kKinds>(scene, blas, ray, frame, first_number, query, nullptr);
+    const auto search_tree = [&] {
+        const flat::Blas& blas = flat::blas_at(scene, id);
+        with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+            search_blas<kKinds>(scene, blas, ray, frame, first_number, query, nullptr);
+        });
+    };
+    if (id != BlasId::root || scene.list.empty()) return search_tree();
+    search_list(scene, ray, frame, query, [&] {
+        if (!scene.list.is_all) search_tree();
     });
 }
 
@@ -99,6 +101,7 @@ public:
         slot.frame.emplace(ray);
         set_up(ray, *slot.frame, root_, slot.box);
         slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query, deferred_);
+        slot.stack.size = 0;
         slot.next = root_.root;
     }
 
@@ -115,13 +118,15 @@ private:
         BoxRay box;
         alignas(64) std::byte storage[sizeof(One)];
         One* traversal;
+        Stack::Rows rows;
+        Stack stack{rows};
         flat::Child next;
     };
 
     HWY_INLINE void turn() {
         for (std::size_t i = 0; i < active_;) {
             Slot& slot = slots_[order_[i]];
-            if (slot.traversal->advance(slot.next))
+            if (slot.traversal->advance(slot.stack, slot.next))
                 ++i;
             else
                 std::swap(order_[i], order_[--active_]);
@@ -201,7 +206,7 @@ void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size
     DeferredHits deferred(queries);
     search_many(scene, rays, count, queries, &deferred);
     deferred.finish(count, [&](std::size_t i) HWY_ATTR {
-        queries[i] = {rays[i].t_max};
+        *queries[i].best = {}, queries[i].t_max = rays[i].t_max;
         search(scene, BlasId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
     });
 }

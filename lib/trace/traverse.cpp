@@ -32,9 +32,10 @@ HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
 Hit nearest(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
-    Closest query{frame.ray.t_max};
+    Hit best;
+    Closest query{frame.ray.t_max, &best};
     search(scene, id, ray, frame, first_number, query);
-    return query.best;
+    return best;
 }
 
 // visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
@@ -99,9 +100,8 @@ bool any_hit(const flat::Scene& scene, const Ray& ray) {
 
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
     std::array<Closest, kMostRays> queries;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max};
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {}, queries[i] = {rays[i].t_max, &hits[i]};
     HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.data());
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].best;
 }
 
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
@@ -147,9 +147,9 @@ PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touch
 }
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
-    Filtered<Closest> query{{ray.t_max}, &filter};
+    Hit best;
+    Filtered<Closest> query{{ray.t_max, &best}, &filter};
     search_all(scene, ray, query, nullptr);
-    Hit& best = query.best;
     if (!scene.media.empty() && best.primitive != flat::RawHit::kMiss)
         best.index_matched = best.index_matched || flat::locate(scene, best.primitive).index_matched;
     return best;

@@ -189,6 +189,33 @@ TEST_CASE("Lists: rays that end about the side of the box of the rest stop where
     }
 }
 
+TEST_CASE("Lists: what a ray meets beyond them is met however far away it is", "[compile][list]") {
+    class Floor final : public Hittable {  // y = 0, everywhere
+    public:
+        Box bounds() const override { return {{-kInfinity, 0, -kInfinity}, {kInfinity, 0, kInfinity}}; }
+        std::optional<Hit> hit(const Ray& ray) const override {
+            const double t = -ray.origin.y / ray.direction.y;
+            if (!(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
+            return Hit{.t = t, .normal = {0, 1, 0}};
+        }
+    };
+    Scene scene;
+    scene.add(std::make_shared<Floor>());
+    scene.add(ball({0, 5, 0}, 1));
+    const CompiledScene compiled = compile(scene);
+    REQUIRE(compiled.flat().list.spheres == 1);
+    for (const double t : {0x1p10, 0x1p100, 0x1p150, 0x1p300}) {
+        const std::vector<Ray> rays(3, Ray{.origin = {0, 1, 0}, .direction = {1, -1 / t, 0}});
+        std::vector<RayHit> hits(rays.size());
+        compiled.closest_hit(rays, hits);
+        for (const RayHit& hit : hits) CHECK(hit.t == t);
+        const std::optional<RayHit> alone = compiled.closest_hit(rays[0]);
+        REQUIRE(alone);
+        CHECK(alone->t == t);
+        CHECK(compiled.any_hit(rays[0]));
+    }
+}
+
 TEST_CASE("Lists: quads come first, then triangles, then spheres, each with its number", "[compile][list]") {
     Scene scene;
     scene.add(ball({0, 0, 0}, 1));
