@@ -116,15 +116,6 @@ TEST_CASE("compile: empty and unbounded objects are hit as the described ones", 
         Box bounds() const override { return {}; }
         std::optional<Hit> hit(const Ray&) const override { return std::nullopt; }
     };
-    class Floor final : public Hittable {  // y = 0, everywhere
-    public:
-        Box bounds() const override { return {{-kInfinity, 0, -kInfinity}, {kInfinity, 0, kInfinity}}; }
-        std::optional<Hit> hit(const Ray& ray) const override {
-            const double t = -ray.origin.y / ray.direction.y;
-            if (!is_usable(ray) || ray.direction.y == 0 || !(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
-            return Hit{.t = t, .normal = {0, 1, 0}, .u = 0.5, .v = 0.25};
-        }
-    };
     compare(zoo_of("nothing", {std::make_shared<Nothing>(), std::make_shared<HittableList>(),
                                std::make_shared<Bvh>(std::vector<Object>{}),
                                std::make_shared<Instance>(std::make_shared<HittableList>(), Transform{})}),

@@ -190,15 +190,6 @@ TEST_CASE("Lists: rays that end about the side of the box of the rest stop where
 }
 
 TEST_CASE("Lists: what a ray meets beyond them is met however far away it is", "[compile][list]") {
-    class Floor final : public Hittable {  // y = 0, everywhere
-    public:
-        Box bounds() const override { return {{-kInfinity, 0, -kInfinity}, {kInfinity, 0, kInfinity}}; }
-        std::optional<Hit> hit(const Ray& ray) const override {
-            const double t = -ray.origin.y / ray.direction.y;
-            if (!(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
-            return Hit{.t = t, .normal = {0, 1, 0}};
-        }
-    };
     Scene scene;
     scene.add(std::make_shared<Floor>());
     scene.add(ball({0, 5, 0}, 1));

@@ -37,6 +37,17 @@ private:
     Object inner_;
 };
 
+/// y = 0, everywhere: a user's shape without bounds.
+class Floor final : public Hittable {
+public:
+    Box bounds() const override { return {{-kInfinity, 0, -kInfinity}, {kInfinity, 0, kInfinity}}; }
+    std::optional<Hit> hit(const Ray& ray) const override {
+        const double t = -ray.origin.y / ray.direction.y;
+        if (!is_usable(ray) || ray.direction.y == 0 || !(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
+        return Hit{.t = t, .normal = {0, 1, 0}, .u = 0.5, .v = 0.25};
+    }
+};
+
 struct ZooScene {
     std::string name;
     Scene scene;
