@@ -85,10 +85,11 @@ struct SpherePredicate {
         const Judgement<N> first = judge(r.near, r.near_error, within);
         const Mask<N> hit = r.known & first.hit();
         if (HWY_LIKELY(all(hit))) return {hit, r.missed, r.near, N(0.0), N(0.0)};
+        const Mask<N> passed = r.known & first.miss();
         const Judgement<N> last = judge(r.far, r.far_error, within);
-        return {.hit = Mask<N>(r.known & (first.hit() | (first.miss() & last.hit()))),
-                .miss = Mask<N>(r.missed | (r.known & first.miss() & last.miss())),
-                .t = select(first.hit(), r.near, r.far),
+        return {.hit = Mask<N>(hit | (passed & last.hit())),
+                .miss = Mask<N>(r.missed | (passed & last.miss())),
+                .t = select(hit, r.near, r.far),
                 .u = N(0.0),
                 .v = N(0.0)};
     }
