@@ -15,7 +15,10 @@ void* allocate_on_huge_pages(std::size_t bytes) {
     void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-    if (alignment == kPage) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it
+    if (alignment == kPage) {  // wishes: nothing depends on them
+        madvise(memory, bytes, MADV_DONTNEED);  // memory that was in use before has small pages
+        madvise(memory, bytes, MADV_HUGEPAGE);
+    }
 #endif
     return memory;
 }
