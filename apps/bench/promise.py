@@ -116,8 +116,8 @@ def rate_lines(rows):
     samples = list(rows[0]["variance"])
     lines = ["### How fast pixels converge", "",
              f"The relative variance of single pixels, over {rows[0]['seeds']} seeds, by the number of samples, and the slope of its "
-             "logarithm. The two replicates, which the error estimate needs, are part of it: they cost an even sequence a "
-             "factor of 1.4 at edges (slope -1.5), four where it is smooth (slope -3).", "",
+             "logarithm. The two replicates, which the error estimate needs, are part of it: they cost a factor of 1.4 where "
+             "the slope is -1.5, and four where it is -3.", "",
              "| pixel | sampler | " + " | ".join(samples) + " | slope |", "|---|---|" + "---:|" * (len(samples) + 1)]
     for r in rows:
         lines.append(f"| {r['pixel']} | {r['sampler']} | " + " | ".join(f"{v:.1e}" for v in r["variance"].values()) +
