@@ -6,37 +6,30 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 usage() {
     cat >&2 <<'TEXT'
-usage: ./build.sh COMMAND [--full] [MODEL.obj ...]
-       ./build.sh queries [--full] [MODEL.obj ...]
-       ./build.sh convergence [--size 400] [--scene NAME ...] [--peer NAME ...] [--again]
-       ./build.sh compilers [--quick | --aarch64]
-       ./build.sh sanitize asan|tsan|memcheck
-       ./build.sh fuzz [load_film] [load_gltf] [load_image] [load_obj] [load_ply] [load_scene] [load_stl] [read_rays]
-                       [--seconds N]
-       ./build.sh release [--renew]
+usage: ./build.sh COMMAND [OPTION ...]
 
-  figures      build limn and render the eighteen figures to a relMSE of 2e-3 into build/figures/, as EXR and PNG
-  test         build and run the whole suite
-  gallery      the pictures and figures of docs/gallery.md, with their seconds and errors
-  convergence  speed against error beside Mitsuba, Cycles and LuxCore, then promise: docs/speed-against-error.md;
-               --size 400: five of the scenes in larger pictures
-  promise      how good limn's estimate of its error is, how often --error is kept: docs/speed-against-error.md
-  accuracy     how often intersections are wrong, in limn and in others: docs/accuracy.md
-  bench        rays a second beside Embree, scaling, growth, instruction counts: docs/performance.md
-  queries      wrong answers and speeds of limn, embreex, Open3D, trimesh and CGAL: docs/queries.md
-  compilers    the suite and its digests under g++ 12, clang 14 and clang 19: docs/checks.md; --quick: clang 19, in minutes;
-               --aarch64: limn::core too, cross-built (adds Debian's packages of that architecture)
-  sanitize     the suite under asan (with UBSan), tsan or memcheck: docs/checks.md
-  fuzz         the readers of films, compiled scenes, pictures, models and rays on damaged files, half an hour each
-  films        what checkpoints cost, how even shards are, how long a merge takes: docs/long-renders.md
-  faults       killed renders, full disks, damaged films: docs/long-renders.md
-  cluster      a render on a Slurm of two nodes here, one of which is lost: docs/long-renders.md (installs Slurm; root)
-  mutants      faults that the suite must catch: docs/mutants.md
-  docs         the API reference: build/docs/html/index.html
-  release      whether all reports are of these sources, and claims true; --renew writes anew those that are not
+  figures                         build limn and render the eighteen figures to a relMSE of 2e-3, as EXR and PNG: build/figures
+  test [--full]                   build and run the whole suite; --full: more random cases
+  gallery                         render the pictures of docs/gallery.md, with their seconds and errors
+  docs                            build the API reference: build/docs/html/index.html
 
---full takes the longer form if there is one; bench and queries measure the models too. Reports continue where they were
-interrupted, as long as the sources stay the same.
+  bench [--full] [MODEL ...]      rays a second beside Embree, building, threads, growth; queries beside Open3D, CGAL and others
+  accuracy [--full]               how often intersections are wrong, in limn and in others
+  convergence [--size 400] [--scene NAME ...] [--peer NAME ...]
+                                  seconds to an error beside Mitsuba, Cycles and LuxCore
+  convergence --promise           how good limn's estimate of its error is, and how often --error is kept
+  reliability [films|faults|cluster ...]
+                                  what checkpoints cost; killed renders, full disks, damaged films; a lost node of a Slurm
+
+  check [compilers [--quick|--aarch64] | asan | tsan | memcheck]
+                                  the suite and its digests under g++ 12, clang 14 and clang 19; under a sanitizer
+  fuzz [film|gltf|image|obj|ply|stl|rays ...] [--seconds N]
+                                  the readers on damaged files, half an hour each
+  mutants [ROOM ...] [--sample N] [--seed S]
+                                  random faults in the sources of a room: which of them does the suite miss?
+  against COMMIT [SCENE ...]      samples, rays and instructions of this commit over those of another
+
+What is measured is written to build/results/NAME.json and NAME.html; docs/results.md has the numbers to decide by.
 TEXT
     exit 2
 }
@@ -106,12 +99,12 @@ figures() {
     [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
 }
 
-# fuzz [TARGET ...] [--seconds N]
+# fuzz [READER ...] [--seconds N]
 fuzz() {
-    local targets=() seconds=1800 target failed=0
+    local readers=() seconds=1800 reader failed=0
     while [[ $# -gt 0 ]]; do
         case $1 in
-            load_film | load_gltf | load_image | load_obj | load_ply | load_scene | load_stl | read_rays) targets+=("$1") ;;
+            film | gltf | image | obj | ply | stl | rays) readers+=("$1") ;;
             --seconds)
                 [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || usage
                 seconds=$2
@@ -121,11 +114,11 @@ fuzz() {
         esac
         shift
     done
-    [[ ${#targets[@]} -gt 0 ]] || targets=(load_film load_gltf load_image load_obj load_ply load_scene load_stl read_rays)
+    [[ ${#readers[@]} -gt 0 ]] || readers=(film gltf image obj ply stl rays)
     install_needs
     install_missing clang-14 libclang-rt-14-dev
-    for target in "${targets[@]}"; do
-        tests/fuzz/run.sh "$target" "$seconds" || failed=1
+    for reader in "${readers[@]}"; do
+        tests/fuzz/run.sh "$reader" "$seconds" || failed=1
     done
     return "$failed"
 }
@@ -139,24 +132,18 @@ docs() {
     echo "build/docs/html/index.html"
 }
 
+# python SCRIPT [OPTION ...]: Debian's Python, for which the packages below are.
+python() { /usr/bin/python3 -B "$@"; }
+report_packages=(git python3 python3-markdown python3-matplotlib python3-numpy python3-openimageio)
+
 [[ $# -ge 1 ]] || usage
 command=$1
 shift
-full=()
-models=()
-others=()
-for option in "$@"; do
-    if [[ $option == --full ]]; then
-        full=(--full)
-        export LIMN_FULL=1
-    elif [[ $command =~ ^(bench|queries)$ && $option == *.obj ]]; then
-        models+=("$(cd "$caller" && realpath -m "$option")")
-    elif [[ $command =~ ^(convergence|compilers|sanitize|fuzz|release)$ ]]; then
-        others+=("$option")
-    else
-        usage
-    fi
-done
+case $command in
+    figures | gallery | docs) [[ $# -eq 0 ]] || usage ;;
+    test) [[ $# -eq 0 || $* == --full ]] || usage ;;
+esac
+[[ " $* " != *" --full "* ]] || export LIMN_FULL=1
 
 case $command in
     figures) figures ;;
@@ -164,78 +151,54 @@ case $command in
         build
         ctest --preset release
         ;;
-    convergence)
-        build
-        install_missing python3 python3-venv python3-matplotlib python3-numpy python3-openimageio
-        # Mitsuba is slow without; not every Debian has it.
-        ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
-        /usr/bin/python3 apps/bench/convergence.py "${others[@]}"
-        # A part is for whoever looks at that part.
-        [[ ${#others[@]} -gt 0 ]] || /usr/bin/python3 apps/bench/promise.py
-        ;;
-    promise)
-        build
-        /usr/bin/python3 apps/bench/promise.py
-        ;;
     gallery)
         build
-        install_missing git
-        /usr/bin/python3 apps/bench/gallery.py
+        install_missing "${report_packages[@]}"
+        python apps/bench/gallery.py
         ;;
-    release)
-        install_missing python3 git
-        /usr/bin/python3 -B apps/bench/release.py "${full[@]}" "${others[@]}"
+    docs) docs ;;
+    bench)
+        install_missing libembree-dev libcgal-dev libgmp-dev libmpfr-dev python3-venv "${report_packages[@]}"
+        build
+        LIMN_CALLER=$caller python apps/bench/bench.py "$@"
         ;;
     accuracy)
-        install_missing libembree-dev python3 python3-matplotlib python3-numpy
+        install_missing libembree-dev "${report_packages[@]}"
         build
-        /usr/bin/python3 apps/bench/accuracy.py "${full[@]}"
+        python apps/bench/accuracy.py "$@"
         ;;
-    queries)
-        install_missing python3-numpy libcgal-dev libgmp-dev libmpfr-dev
+    convergence)
         build
-        /usr/bin/python3 -B apps/bench/queries.py "${full[@]}" "${models[@]}"
+        install_missing python3-venv "${report_packages[@]}"
+        # Mitsuba is slow without LLVM; not every Debian has this version.
+        ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
+        python apps/bench/convergence.py "$@"
         ;;
-    compilers)  # builds trees of its own, as the next two do
+    reliability)
+        build
+        install_missing faketime "${report_packages[@]}"
+        [[ $# -gt 0 && " $* " != *" cluster "* ]] || install_missing slurm-wlm
+        python apps/bench/reliability.py "$@"
+        ;;
+    check)  # builds trees of its own
         install_needs
-        install_missing clang-14 clang-19 ccache
-        if [[ " ${others[*]} " == *" --aarch64 "* ]]; then
+        install_missing clang-14 clang-19 ccache valgrind dpkg-dev "${report_packages[@]}"
+        if [[ " $* " == *" --aarch64 "* ]]; then
             as_root dpkg --add-architecture arm64
             install_missing g++-aarch64-linux-gnu qemu-user {libtbb,libhwy,libtinyobjloader,librapidcheck}-dev:arm64
         fi
-        /usr/bin/python3 -B tests/checks/compilers.py "${others[@]}"
+        python tests/checks/check.py "$@"
         ;;
-    sanitize)
-        install_needs
-        install_missing valgrind dpkg-dev ccache
-        /usr/bin/python3 -B tests/checks/sanitize.py "${others[@]}"
-        ;;
+    fuzz) fuzz "$@" ;;
     mutants)
         install_needs
-        install_missing ccache
-        /usr/bin/python3 tests/mutants/run.py "${full[@]}"
+        install_missing ccache binutils "${report_packages[@]}"
+        python tests/checks/mutants.py "$@"
         ;;
-    films | faults | cluster)
-        build
-        install_missing python3 python3-numpy python3-openimageio
-        case $command in
-            films) /usr/bin/python3 -B apps/bench/films.py ;;
-            faults)
-                install_missing faketime
-                /usr/bin/python3 -B tests/faults/run.py
-                ;;
-            cluster)
-                install_missing slurm-wlm
-                as_root env PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 tests/cluster/run.py
-                ;;
-        esac
-        ;;
-    fuzz) fuzz "${others[@]}" ;;
-    docs) docs ;;
-    bench)
-        install_missing libembree-dev valgrind ccache python3 python3-matplotlib python3-numpy
-        build
-        /usr/bin/python3 apps/bench/performance.py "${full[@]}" "${models[@]}"
+    against)
+        install_needs
+        install_missing ccache valgrind "${report_packages[@]}"
+        python apps/bench/against.py "$@"
         ;;
     *) usage ;;
 esac

@@ -1,0 +1,74 @@
+"""What a measuring command leaves: build/results/NAME.json with all numbers, NAME.html with tables and plots beside it."""
+
+import datetime
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BIN = ROOT / "build/release/bin"
+RESULTS = ROOT / "build/results"
+STYLE = ("body{font:16px/1.5 sans-serif;max-width:70em;margin:2em auto;padding:0 1em}table{border-collapse:collapse}"
+         "td,th{border:1px solid #ccc;padding:.2em .6em}img{max-width:100%}div{overflow-x:auto}")
+
+
+def git(*arguments):
+    return subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True).stdout.strip()
+
+
+def origin(command):
+    """States where numbers come from. "-dirty" means that more than documents differs from the commit."""
+    model = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    changed = git("status", "--porcelain", "--", ".", ":!docs", ":!*.md")
+    return {"command": command, "date": str(datetime.date.today()),
+            "commit": git("rev-parse", "--short=8", "HEAD") + ("-dirty" if changed else ""),
+            "machine": f"{model[1] if model else platform.machine()}, {len(os.sched_getaffinity(0))} cores"}
+
+
+class Kept:
+    """The parts that an interrupted command has measured already. A run with the same origin goes on after them; any
+    other run begins again."""
+
+    def __init__(self, name, **key):
+        self.path = RESULTS / f"{name}.part.json"
+        self.key = json.loads(json.dumps(key))
+        kept = json.loads(self.path.read_text()) if self.path.exists() else {}
+        self.parts = kept["parts"] if kept.get("key") == self.key else {}
+
+    def __call__(self, part, measure):
+        """Returns the value of a part, measured now or before."""
+        if part not in self.parts:
+            self.parts[part] = json.loads(json.dumps(measure()))
+            RESULTS.mkdir(parents=True, exist_ok=True)
+            beside = self.path.with_suffix(".new")
+            beside.write_text(json.dumps({"key": self.key, "parts": self.parts}))
+            beside.replace(self.path)
+        return self.parts[part]
+
+    def forget(self):
+        self.path.unlink(missing_ok=True)
+
+
+def table(columns, rows):
+    """A Markdown table: the first column is left-aligned, the others right-aligned."""
+    lines = [columns, ["---", *["---:"] * (len(columns) - 1)], *rows]
+    return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
+
+
+def write(name, title, head, raw, text):
+    """Writes the numbers `raw` and the page. `text` is Markdown; plots are files in RESULTS that it names."""
+    import markdown  # Debian's python3-markdown
+
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    (RESULTS / f"{name}.json").write_text(json.dumps({**head, "results": raw}, indent=1))
+    source = " ".join(f"{key} {value}" if key == "commit" else str(value) for key, value in head.items())
+    body = markdown.markdown(f"# {title}\n\n`{source}`\n\n{text}", extensions=["tables"])
+    body = body.replace("<table>", "<div><table>").replace("</table>", "</table></div>")
+    (RESULTS / f"{name}.html").write_text(
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+        f"<title>{title}</title><style>{STYLE}</style>{body}</html>\n")
+    print(f"build/results/{name}.json, build/results/{name}.html", file=sys.stderr, flush=True)
