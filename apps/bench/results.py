@@ -1,4 +1,4 @@
-"""What a measuring command leaves: build/results/NAME.json with all numbers, NAME.html with tables and plots beside it."""
+"""Writes what a command has measured: numbers to build/results/NAME.json, tables and plots to NAME.html."""
 
 import datetime
 import json

@@ -8,7 +8,7 @@
 #include "bench/random.h"
 #include "figures.h"
 #include "gallery.h"
-#include "limn/core/warp.h"
+#include "limn/limn.h"
 #include "scene_parts.h"
 
 namespace limn::bench {

@@ -1,0 +1,105 @@
+"""Compares this tree with another commit: samples a second, rays a second, and instructions a sample of each scene.
+
+Builds the scenes of this tree against both libraries; names and leaves out what one of them can't build. A ratio over
+1 means that this tree is faster; it is the median of nine interleaved rounds. Run through ./build.sh against.
+"""
+
+import re
+import subprocess
+import sys
+from statistics import geometric_mean, quantiles
+
+from results import ROOT, Kept, git, origin, table, write
+
+FOLDERS = ("apps", "apps/common", "examples/figures", "examples/gallery")
+SOURCES = [ROOT / f"apps/bench/{name}.cpp" for name in
+           ("against", "geometry", "rays", "scenes", "transport_scenes", "material_scenes")]
+SOURCES += [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
+            if path.name not in ("main.cpp", "figure_program.cpp")]
+
+
+def run(*command, check=True):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    if check and done.returncode != 0:
+        sys.exit(f"against: {' '.join(map(str, command))}:\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    return done
+
+
+def build(source, folder):
+    """Returns this tree's program with the library of `source`, and the names of the sources that can't be built."""
+    print(f"against: building {source}", file=sys.stderr, flush=True)
+    run("cmake", "-S", source, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_INSTALL=ON",
+        "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", f"-DCMAKE_INSTALL_PREFIX={folder}/installed",
+        *(f"-DLIMN_{part}=OFF" for part in ("WITH_OPENIMAGEIO", "BUILD_APPS", "BUILD_EXAMPLES", "BUILD_TESTS")))
+    run("cmake", "--build", folder / "build", "--target", "install")
+    package = next((folder / "installed").glob("lib/**/limn.pc"))
+    compiler = ["ccache", "g++", "-O3", "-no-pie", "-ffp-contract=off", *(f"-I{ROOT / f}" for f in FOLDERS),
+                f'-DLIMN_FIGURE_DATA_DIR="{ROOT}/examples/figures/data"',
+                f'-DLIMN_GALLERY_MODELS="{ROOT}/examples/models"']
+    compiler += run("pkg-config", "--cflags", package).stdout.split()
+    failed = [path for path in SOURCES
+              if run(*compiler, "-c", path, "-o", folder / f"{path.stem}.o", check=False).returncode != 0]
+    # A scene whose source is missing ends the program when it is made.
+    run(*compiler, *(folder / f"{path.stem}.o" for path in SOURCES if path not in failed), "-o", folder / "against",
+        *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy")
+    return folder / "against", failed
+
+
+def numbers(program, what, name, spp):
+    """Returns what the program prints, or callgrind's count; None if the program can't make the scene."""
+    callgrind = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
+    done = run(*(callgrind if what == "instructions" else ()), program, what, name, spp, check=False)
+    if done.returncode != 0:
+        return None
+    if what == "instructions":
+        return {what: int(re.search(r"Collected : (\d+)", done.stderr)[1])}
+    return {key: float(value) for key, value in map(str.split, done.stdout.splitlines())}
+
+
+def measure(programs, kind, name):
+    """Returns the ratios of each number, round by round; None if one of the programs can't make the scene."""
+    print(f"against: {name}", file=sys.stderr, flush=True)
+    first, found = numbers(programs[0], kind, name, 4), {}
+    spp = 4 if not first or kind == "rays" else max(4, round(1.6 / first["samples"]))  # renders of about 0.4 s
+    for what, count, rounds in [(kind, spp, 9)] + [("instructions", 4, 1)] * (kind == "samples"):
+        for _ in range(rounds):
+            ours, others = (numbers(program, what, name, count) for program in programs)
+            if not ours or not others:
+                return None
+            for key in ours.keys() & others.keys():
+                found.setdefault(key, []).append(others[key] / ours[key])
+    return found
+
+
+def main():
+    commit = git("rev-parse", "--verify", "-q", "--short=8", f"{''.join(sys.argv[1:2])}^{{commit}}")
+    if not commit:
+        sys.exit("usage: ./build.sh against COMMIT [SCENE ...]; COMMIT must be one of this repository")
+    head, there = origin(" ".join(["./build.sh against", commit, *sys.argv[2:]])), ROOT / "build/against" / commit
+    if not (there / "source").exists():
+        run("git", "-C", ROOT, "worktree", "prune")
+        run("git", "-C", ROOT, "worktree", "add", "--detach", there / "source", commit)
+    built = [build(ROOT, ROOT / "build/against/this"), build(there / "source", there)]
+    programs, failed = [program for program, _ in built], {path.name for _, paths in built for path in paths}
+    known = {name: kind for kind, name in map(str.split, run(programs[0]).stdout.splitlines())}
+    if unknown := [name for name in sys.argv[2:] if name not in known]:
+        sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(known)}")
+    kept, rows, middles = Kept("against", **head), [], {}
+    for name in sys.argv[2:] or known:
+        found = kept(name, lambda: measure(programs, known[name], name))
+        if found is None:
+            failed.add(name)
+        for what, ratios in sorted((found or {}).items()):
+            low, middle, high = quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
+            middles.setdefault(what.rpartition(",")[2], []).append(middle)
+            rows.append([name, what, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}"])
+    rows += [["geometric mean", what, f"{geometric_mean(values):.3f}", "", ""] for what, values in middles.items()]
+    text = table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows)
+    text += f"\nLeft out, as one of the two can't build them: {', '.join(sorted(failed)) or 'nothing'}.\n"
+    print(text)
+    write("against", f"This tree against {commit}", head, rows, text)
+    kept.forget()
+
+
+if __name__ == "__main__":
+    main()
