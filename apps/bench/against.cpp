@@ -1,4 +1,4 @@
-// Prints the seconds that a render or rays take, for against.py, which links it with the libraries of two commits.
+// Prints the seconds that a render or rays take. against.py links it with the libraries of two commits.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -10,26 +10,24 @@
 #include "bench/transport_scenes.h"
 #include "figures.h"
 
-namespace {
-
 using namespace limn;
 
-std::map<std::string, std::function<Figure()>> figures_and_scenes() {
-    std::map<std::string, std::function<Figure()>> made;
-#define LIMN_ADD(figure) made[#figure] = [] { return figures::figure(); };
+static std::map<std::string, std::function<Figure()>> pictures() {
+    std::map<std::string, std::function<Figure()>> found;
+#define LIMN_ADD(figure) found[#figure] = [] { return figures::figure(); };
     LIMN_FIGURES(LIMN_ADD)
     for (const std::string& name : bench::transport_scene_names())
-        made[name] = [name] { return bench::make_transport_scene(name); };
-    return made;
+        found[name] = [name] { return bench::make_transport_scene(name); };
+    return found;
 }
 
-void print_seconds(const std::string& what, const std::function<void()>& work) {
+static void print_seconds(const std::string& what, const std::function<void()>& work) {
     const bench::Stopwatch watch(bench::Clock::thread);
     work();
     std::printf("%s %.9g\n", what.c_str(), watch.seconds());
 }
 
-void trace(const bench::RaySet& set, const CompiledScene& scene) {
+static void trace(const bench::RaySet& set, const CompiledScene& scene) {
     std::vector<RayHit> hits(set.rays.size());
     std::vector<std::uint8_t> occluded(set.rays.size());
     print_seconds(set.name + ",single", [&] {
@@ -38,13 +36,9 @@ void trace(const bench::RaySet& set, const CompiledScene& scene) {
             else hits[i] = scene.closest_hit(set.rays[i]).value_or(RayHit{});
         }
     });
-    print_seconds(set.name + ",batch", [&] {
-        if (set.any) scene.any_hit(set.rays, occluded);
-        else scene.closest_hit(set.rays, hits);
-    });
+    print_seconds(set.name + ",batch",
+                  [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
 }
-
-}  // namespace
 
 // Callgrind counts instructions within this function alone.
 extern "C" [[gnu::noinline]] void measured_render(const CompiledScene& scene, const Figure& figure) {
@@ -52,15 +46,16 @@ extern "C" [[gnu::noinline]] void measured_render(const CompiledScene& scene, co
 }
 
 int main(int argc, char** argv) {
-    if (argc != 4) {
-        for (const auto& [name, make] : figures_and_scenes()) std::printf("samples %s\n", name.c_str());
+    const std::string what = argc == 4 ? argv[1] : "list";
+    if (what == "list") {
+        for (const auto& [name, make] : pictures()) std::printf("samples %s\n", name.c_str());
         for (const std::string& name : bench::scene_names()) std::printf("rays %s\n", name.c_str());
-    } else if (const std::string what = argv[1]; what == "rays") {
+    } else if (what == "rays") {
         const bench::Geometry geometry = bench::make_scene(argv[2], 1);
         const CompiledScene scene = compile(bench::describe(geometry));
         for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) trace(set, scene);
     } else {
-        Figure figure = figures_and_scenes().at(argv[2])();
+        Figure figure = pictures().at(argv[2])();
         figure.settings.width = figure.settings.height = what == "samples" ? 100 : 16;
         figure.settings.samples_per_pixel = std::atoi(argv[3]);
         figure.settings.threads = 1;

@@ -9,13 +9,14 @@ import subprocess
 import sys
 from statistics import geometric_mean, quantiles
 
-from results import ROOT, Kept, git, origin, table, write
+from results import ROOT, git, origin, table, write
 
 FOLDERS = ("apps", "apps/common", "examples/figures", "examples/gallery")
-SOURCES = [ROOT / f"apps/bench/{name}.cpp" for name in
-           ("against", "geometry", "rays", "scenes", "transport_scenes", "material_scenes")]
-SOURCES += [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
-            if path.name not in ("main.cpp", "figure_program.cpp")]
+SOURCES = [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
+           if path.name not in ("main.cpp", "figure_program.cpp")]
+SOURCES += [ROOT / f"apps/bench/{name}.cpp" for name in
+            ("against", "geometry", "rays", "scenes", "transport_scenes", "material_scenes")]
+CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
 
 
 def run(*command, check=True):
@@ -26,19 +27,18 @@ def run(*command, check=True):
 
 
 def build(source, folder):
-    """Returns this tree's program with the library of `source`, and the names of the sources that can't be built."""
-    print(f"against: building {source}", file=sys.stderr, flush=True)
+    """Returns this tree's program with the library of `source`, and the sources that can't be built."""
     run("cmake", "-S", source, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_INSTALL=ON",
         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", f"-DCMAKE_INSTALL_PREFIX={folder}/installed",
         *(f"-DLIMN_{part}=OFF" for part in ("WITH_OPENIMAGEIO", "BUILD_APPS", "BUILD_EXAMPLES", "BUILD_TESTS")))
     run("cmake", "--build", folder / "build", "--target", "install")
     package = next((folder / "installed").glob("lib/**/limn.pc"))
     compiler = ["ccache", "g++", "-O3", "-no-pie", "-ffp-contract=off", *(f"-I{ROOT / f}" for f in FOLDERS),
-                f'-DLIMN_FIGURE_DATA_DIR="{ROOT}/examples/figures/data"',
-                f'-DLIMN_GALLERY_MODELS="{ROOT}/examples/models"']
-    compiler += run("pkg-config", "--cflags", package).stdout.split()
-    failed = [path for path in SOURCES
-              if run(*compiler, "-c", path, "-o", folder / f"{path.stem}.o", check=False).returncode != 0]
+                *(f'-DLIMN_{name}="{ROOT}/examples/{path}"' for name, path in
+                  (("FIGURE_DATA_DIR", "figures/data"), ("GALLERY_MODELS", "models"))),
+                *run("pkg-config", "--cflags", package).stdout.split()]
+    failed = {path for path in SOURCES
+              if run(*compiler, "-c", path, "-o", folder / f"{path.stem}.o", check=False).returncode != 0}
     # A scene whose source is missing ends the program when it is made.
     run(*compiler, *(folder / f"{path.stem}.o" for path in SOURCES if path not in failed), "-o", folder / "against",
         *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy")
@@ -46,29 +46,24 @@ def build(source, folder):
 
 
 def numbers(program, what, name, spp):
-    """Returns what the program prints, or callgrind's count; None if the program can't make the scene."""
-    callgrind = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
-    done = run(*(callgrind if what == "instructions" else ()), program, what, name, spp, check=False)
-    if done.returncode != 0:
-        return None
-    if what == "instructions":
+    """Returns what the program prints, or callgrind's count. Returns nothing if the program can't make the scene."""
+    done = run(*(CALLGRIND if what == "instructions" else ()), program, what, name, spp, check=False)
+    if done.returncode == 0 and what == "instructions":
         return {what: int(re.search(r"Collected : (\d+)", done.stderr)[1])}
-    return {key: float(value) for key, value in map(str.split, done.stdout.splitlines())}
+    return {key: float(value) for key, value in map(str.split, done.stdout.splitlines())} if not done.returncode else {}
 
 
 def measure(programs, kind, name):
-    """Returns the ratios of each number, round by round; None if one of the programs can't make the scene."""
+    """Returns the ratios of each number, round by round."""
     print(f"against: {name}", file=sys.stderr, flush=True)
-    first, found = numbers(programs[0], kind, name, 4), {}
-    spp = 4 if not first or kind == "rays" else max(4, round(1.6 / first["samples"]))  # renders of about 0.4 s
+    seconds, ratios = numbers(programs[0], kind, name, 4).get("samples", 1), {}
+    spp = max(4, round(1.6 / seconds))  # makes renders of about 0.4 s
     for what, count, rounds in [(kind, spp, 9)] + [("instructions", 4, 1)] * (kind == "samples"):
         for _ in range(rounds):
-            ours, others = (numbers(program, what, name, count) for program in programs)
-            if not ours or not others:
-                return None
-            for key in ours.keys() & others.keys():
-                found.setdefault(key, []).append(others[key] / ours[key])
-    return found
+            ours, theirs = (numbers(program, what, name, count) for program in programs)
+            for key in ours.keys() & theirs.keys():
+                ratios.setdefault(key, []).append(theirs[key] / ours[key])
+    return ratios
 
 
 def main():
@@ -79,26 +74,22 @@ def main():
     if not (there / "source").exists():
         run("git", "-C", ROOT, "worktree", "prune")
         run("git", "-C", ROOT, "worktree", "add", "--detach", there / "source", commit)
-    built = [build(ROOT, ROOT / "build/against/this"), build(there / "source", there)]
-    programs, failed = [program for program, _ in built], {path.name for _, paths in built for path in paths}
+    programs, failed = zip(build(ROOT, ROOT / "build/against/this"), build(there / "source", there))
     known = {name: kind for kind, name in map(str.split, run(programs[0]).stdout.splitlines())}
     if unknown := [name for name in sys.argv[2:] if name not in known]:
         sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(known)}")
-    kept, rows, middles = Kept("against", **head), [], {}
-    for name in sys.argv[2:] or known:
-        found = kept(name, lambda: measure(programs, known[name], name))
-        if found is None:
-            failed.add(name)
-        for what, ratios in sorted((found or {}).items()):
-            low, middle, high = quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
-            middles.setdefault(what.rpartition(",")[2], []).append(middle)
-            rows.append([name, what, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}"])
+    found = {name: measure(programs, known[name], name) for name in sys.argv[2:] or known}
+    rows, middles = [], {}
+    for name, what, ratios in [(n, w, ratios) for n, each in found.items() for w, ratios in sorted(each.items())]:
+        low, middle, high = quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
+        middles.setdefault(what.rpartition(",")[2], []).append(middle)
+        rows.append([name, what, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}"])
     rows += [["geometric mean", what, f"{geometric_mean(values):.3f}", "", ""] for what, values in middles.items()]
+    left_out = sorted({path.name for path in failed[0] | failed[1]} | {name for name, each in found.items() if not each})
     text = table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows)
-    text += f"\nLeft out, as one of the two can't build them: {', '.join(sorted(failed)) or 'nothing'}.\n"
+    text += f"\nLeft out, as one of the two can't build them: {', '.join(left_out) or 'nothing'}.\n"
     print(text)
-    write("against", f"This tree against {commit}", head, rows, text)
-    kept.forget()
+    write("against", f"This tree against {commit}", head, found, text)
 
 
 if __name__ == "__main__":
