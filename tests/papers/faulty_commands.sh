@@ -2,9 +2,12 @@
 # faulty_commands.sh ROOT BIN: commands.sh must refuse each of these, with the message behind the #.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+block=$(mktemp)
+trap 'rm -f "$block"' EXIT
 status=0
 while read -r line; do
-    if said=$("$here/commands.sh" "$1" "$2" <(echo "$line") 2>&1) || [[ $said != *"${line#*# }"* ]]; then
+    echo "$line" >"$block"
+    if said=$("$here/commands.sh" "$1" "$2" "$block" 2>&1) || [[ $said != *"${line#*# }"* ]]; then
         echo "not refused as it should be: $line: $said" >&2
         status=1
     fi
