@@ -1,4 +1,4 @@
-// A user-defined material: velvet, whose fibres shine where light or eye graze the surface.
+// Defines a material, velvet: its fibres shine if light or eye graze the surface. Writes custom_material.png.
 #include <limn/limn.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 using namespace limn;
 
 // f = (body + rim (1 - cos_in)(1 - cos_out)) / pi: symmetric in both directions, and it cannot return more light than
-// it gets while body + rim <= 1. Directions are drawn by the cosine alone, which the weight makes up for.
+// it gets while body + rim <= 1. Directions are drawn by the cosine alone; the weight makes up for the rest.
 class Velvet final : public Material {
 public:
     Velvet(const Color& body, const Color& rim) : body_(body), rim_(rim) {}

@@ -1,4 +1,4 @@
-// A user-defined shape: it needs two functions, and is traced like the built-in ones. Writes custom_shape.png.
+// Defines a shape by two functions. limn traces it like the built-in ones. Writes custom_shape.png.
 #include <limn/limn.h>
 
 #include <cmath>

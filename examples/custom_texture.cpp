@@ -1,4 +1,4 @@
-// A user-defined texture: wood, the rings of a trunk that stands along the y axis.
+// Defines a texture, wood: the rings of a trunk along the y axis. Writes custom_texture.png.
 #include <limn/limn.h>
 
 #include <cmath>

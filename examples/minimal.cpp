@@ -1,4 +1,4 @@
-// Three spheres on a plain, written to minimal.png.
+// Renders three spheres on a plain to minimal.png.
 #include <limn/limn.h>
 
 using namespace limn;

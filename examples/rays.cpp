@@ -1,4 +1,4 @@
-// Intersects rays with a scene: what does each hit, how far away, and does the lamp reach that point?
+// Prints the object that each ray hits, the distance, and whether a lamp lights the hit point.
 #include <limn/limn.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-# Intersects rays with a mesh, asks what is inside of it, and renders it.
+# Intersects rays with a mesh, tests which points are inside it, and renders it.
 import numpy as np
 
 import limn

@@ -141,7 +141,7 @@ int render_command(int argc, const char* const* argv) {
     add_view_options(command, a);
     state_presets(command, default_figure());
     command.preset("--look-from", "the front right, from where all of the model is seen");
-    command.preset("--look-at", "the middle of the model");
+    command.preset("--look-at", "the point on the view axis nearest to the middle of the model");
     command.preset("--height", "as high as the model");
     if (!command.parse(argc, argv)) return kDone;
     check_together(a);

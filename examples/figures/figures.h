@@ -27,7 +27,7 @@
 
 namespace limn::figures {
 
-/// What figure 6 reads unless told otherwise: the map of Debian's package xplanet-images. The other figures take no
+/// The default texture of figure 6: the map of Debian's package xplanet-images. The other figures take no
 /// texture.
 inline const FigureInputs kDefaultInputs{.texture = "/usr/share/xplanet/images/earth.jpg",
                                          .texture_encoding = Encoding::srgb};

@@ -1,4 +1,4 @@
-// What several figures share.
+// Parts that several figures use.
 #pragma once
 
 #include <memory>

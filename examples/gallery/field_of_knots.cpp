@@ -15,13 +15,13 @@ Figure field_of_knots() {
         std::make_shared<RoughConductor>(Color{1, .78, .34}, Roughness{.45})};
     std::array<std::shared_ptr<const Mesh>, materials.size()> knots;
     knots[0] = knot(materials[0]);
-    for (std::size_t i = 1; i < knots.size(); ++i)  // of the same triangles
+    for (std::size_t i = 1; i < knots.size(); ++i)  // all knots share the triangles of the first
         knots[i] = std::make_shared<Mesh>(*knots[0], std::vector{materials[i]});
 
     Figure figure;
     figure.name = __func__;
     Scene& scene = figure.scene;
-    std::mt19937 random(5);  // whose numbers, unlike those of distributions, are the same everywhere
+    std::mt19937 random(5);  // its numbers are the same with every compiler; those of distributions are not
     const auto below = [&random](double most) { return most * static_cast<double>(random()) / 0x1p32; };
     for (int i = 0; i < kAcross; ++i)
         for (int k = 0; k < kAlong; ++k) {
@@ -33,7 +33,7 @@ Figure field_of_knots() {
     scene.add(std::make_shared<Disk>(Point3{0, -.6, 0}, Vec3{0, 1, 0}, 1000,
                                      std::make_shared<Lambertian>(Color{.35, .33, .3})));
     Sky sky = make_sky({.to_sun = {.8, .6, .3}});
-    sky.sun.angular_radius = 5;  // behind thin clouds
+    sky.sun.angular_radius = 5;  // thin clouds widen the sun
     scene.environment = sky.environment;
     scene.add(sky.sun);
     figure.camera = {.look_from = {0, 9, 22}, .look_at = {0, 1, -14}, .vertical_fov = 28, .aperture_angle = 2.2};

@@ -1,4 +1,4 @@
-// The program of the picture that LIMN_PICTURE names.
+// Renders the picture that LIMN_PICTURE names.
 #include "gallery.h"
 
 #define LIMN_TEXT_OF(name) #name

@@ -1,4 +1,4 @@
-// What pictures of the gallery share.
+// Parts that several pictures of the gallery use.
 #pragma once
 
 #include <memory>

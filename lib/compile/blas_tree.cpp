@@ -38,7 +38,7 @@ public:
         if (&blas == &scene_.blases.front()) list();
         blas.packed_error = accel::round_up(note_what_is_left());
         scale_boxes(blas.scale);
-        // A leaf takes two to three times as long as a node (docs/performance.md).
+        // A leaf takes two to three times as long as a node (docs/tried.md).
         accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
         blas.cost = bvh.cost;
         blas.root = pack_tree(std::move(bvh), boxes_, references_, scene_);

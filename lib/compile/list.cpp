@@ -20,7 +20,7 @@ constexpr double kInstanceError = 8 * kRoundoff;
 // How thin or small beside the scene a primitive may be for its weights to be worth computing in float.
 constexpr double kSmallest = 0x1p-12;
 // What stands beside a tree: boxes of which so many of the rays meet one that its leaf would be visited by most of them
-// (measured: docs/speed-against-error.md).
+// (measured: docs/tried.md).
 constexpr double kLarge = 0.1;
 constexpr std::size_t kMostLarge = 24;
 // So few beside meshes are all listed: the tree is then one of triangles alone, and smaller.

@@ -125,7 +125,7 @@ std::int64_t grown(std::int64_t samples, double factor) {
 }
 
 // A step is what --error may overshoot by, and each check risks a stop that luck alone brings: see
-// docs/speed-against-error.md.
+// docs/measuring.md.
 std::int64_t next_milestone(std::int64_t milestone) { return grown(milestone, 1.25); }
 
 // The last one at or before so many samples.

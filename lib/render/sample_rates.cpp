@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kReach = 2;  // pixels to each side that tell how noisy the one between is
 // Of what may be unseen. Independent samples would need all of it; even ones cover edges so much better that more than
-// this takes samples from where they are needed (docs/speed-against-error.md).
+// this takes samples from where they are needed (docs/measuring.md).
 constexpr double kUnseen = 0.08;
 
 // By the variance that independent samples would have. That of the film's points is mostly smaller and what counts, but

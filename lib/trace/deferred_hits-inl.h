@@ -67,7 +67,7 @@ public:
 
 private:
     // Whole vectors, and few enough that they leave the first-level cache to what rays read: with 64, second bounces on
-    // 2 M triangles went at 0.93 of the rate (docs/performance.md).
+    // 2 M triangles went at 0.93 of the rate (docs/tried.md).
     static constexpr std::size_t kSize = 16, kRay = 10;
 
     std::size_t size_;

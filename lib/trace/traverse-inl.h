@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    // With four, second bounces on 2 M triangles went at 2.5 instead of 2.9 million a second (docs/performance.md).
+    // With four, second bounces on 2 M triangles went at 2.5 instead of 2.9 million a second (docs/tried.md).
     static constexpr std::size_t kSlots = 8;
     using One = Traversal<kMeshes, Query>;
     struct Slot {

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# commands.sh ROOT BIN BLOCK: checks shell commands of a paper without running them. bash must be able to parse them;
-# programs, commands of ours, options of ours and presets must exist.
+# commands.sh ROOT BIN BLOCK...: checks the shell commands of papers without running them. bash must be able to parse
+# them; programs, commands of ours, options of ours and presets must exist.
 set -euo pipefail
-root=$1 bin=$2 block=$3
+root=$1 bin=$2
+shift 2
 cd "$root"
-bash -n "$block"
 
 fail() {
     echo "$block: $*" >&2
@@ -50,14 +50,21 @@ check_preset() {
     done
 }
 
-sed 's/#.*//; s/&&/\n/g; s/[|;]/\n/g' "$block" | while read -ra words; do
-    while [[ ${words[0]:-} =~ ^[A-Z_]+= ]]; do words=("${words[@]:1}"); done
-    [[ ${#words[@]} -gt 0 ]] || continue
-    case ${words[0]} in
-        ./build.sh) check_build "${words[@]:1}" ;;
-        build/release/bin/* | limn) check_program "${words[0]##*/}" "${words[@]:1}" ;;
-        cmake | ctest) check_preset "${words[@]}" ;;
-        make) ;;  # not every system has it: run_page.sh
-        *) command -v "${words[0]}" >/dev/null || fail "there is no program ${words[0]}" ;;
-    esac
+check_commands() {
+    local words
+    while read -ra words; do
+        while [[ ${words[0]:-} =~ ^[A-Z_]+= ]]; do words=("${words[@]:1}"); done
+        [[ ${#words[@]} -gt 0 ]] || continue
+        case ${words[0]} in
+            ./build.sh) check_build "${words[@]:1}" ;;
+            build/release/bin/* | limn) check_program "${words[0]##*/}" "${words[@]:1}" ;;
+            cmake | ctest) check_preset "${words[@]}" ;;
+            *) command -v "${words[0]}" >/dev/null || fail "there is no program ${words[0]}" ;;
+        esac
+    done
+}
+
+for block in "$@"; do
+    bash -n "$block"
+    sed 's/#.*//; s/&&/\n/g; s/[|;]/\n/g' "$block" | check_commands
 done

@@ -34,9 +34,10 @@ struct Surface {
     /// Whether the ray came from the side of the shape's outward normal. Of rays within 1e-15 of its plane: either.
     bool front_face = true;
     MaterialRef material;  ///< valid as long as the compiled scene
-    /// How the position moves with `uv`; zero of user-defined shapes and at poles of spheres, edges of a mesh's
-    /// triangle where its uv have no area.
-    Vec3 dp_du, dp_dv;
+    /// How the position moves with u; zero of user-defined shapes and at poles of spheres, edges of a mesh's triangle
+    /// where its uv have no area.
+    Vec3 dp_du;
+    Vec3 dp_dv;  ///< the same with v
 
     /// A ray that leaves in `direction` from a point moved off the surface by its error bound, towards the side that
     /// the direction points to, so that it cannot hit the same flat or convex surface again (Pharr, Jakob, Humphreys,

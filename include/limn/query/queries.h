@@ -49,14 +49,15 @@ enum class Feature : std::uint8_t { face, edge, vertex };
 
 /// The point of all surfaces that is nearest to another.
 struct ClosestPoint {
-    double distance = kInfinity;      ///< kInfinity: there is none
-    Point3 position;                  ///< the nearest point
-    Feature feature = Feature::face;  ///< of the primitive, that the point lies on; a disk's rim is its edge
-    std::uint32_t object = 0;         ///< as in RayHit, like all that follow
-    std::uint64_t element = 0;
-    double u = 0, v = 0;
-    bool index_matched = false;
-    std::uint64_t primitive = kNoPrimitive;
+    double distance = kInfinity;             ///< kInfinity: there is none
+    Point3 position;                         ///< the nearest point
+    Feature feature = Feature::face;         ///< of the primitive, that the point lies on; a disk's rim is its edge
+    std::uint32_t object = 0;                ///< as in RayHit
+    std::uint64_t element = 0;               ///< as in RayHit
+    double u = 0;                            ///< as in RayHit
+    double v = 0;                            ///< as in RayHit
+    bool index_matched = false;              ///< as in RayHit
+    std::uint64_t primitive = kNoPrimitive;  ///< as in RayHit
 };
 
 /// Which sides of surfaces count for a ray: front, where it goes against the outward normal, back or both.
@@ -75,9 +76,10 @@ struct RayFilter {
 
 /// All hits of many rays: those of ray i are hits[first[i]] up to hits[first[i + 1]], not included.
 struct RayHits {
-    std::vector<RayHit> hits;
+    std::vector<RayHit> hits;        ///< in the order of the rays
     std::vector<std::size_t> first;  ///< one more than there are rays
 
+    /// Returns the hits of one ray.
     std::span<const RayHit> of(std::size_t ray) const {
         return std::span(hits).subspan(first[ray], first[ray + 1] - first[ray]);
     }

@@ -34,9 +34,9 @@ struct Camera {
     double aperture_angle = 0;
     /// To the plane in focus, along the view axis; by default |look_at - look_from|.
     std::optional<double> focus_distance{};
-    double shutter_open = 0;   ///< a ray's time is uniform between the two
-    double shutter_close = 1;  ///< not before shutter_open
-    Projection projection = Projection::perspective;
+    double shutter_open = 0;                          ///< a ray's time is uniform between the two
+    double shutter_close = 1;                         ///< not before shutter_open
+    Projection projection = Projection::perspective;  ///< how directions map to the picture
     /// Of an orthographic picture, in world units; by default what the vertical_fov takes in at look_at.
     std::optional<double> view_height{};
 };
@@ -60,7 +60,8 @@ public:
     bool has_lens() const { return view_.lens_radius > 0; }                        ///< whether lens_u and lens_v matter
     bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< whether time_u matters
 
-    /// limn's own: what the rays are made of.
+    /// \cond
+    // What the rays are made of.
     struct View {
         Point3 eye;                          ///< as Camera has it
         Projection projection;               ///< the same
@@ -70,6 +71,7 @@ public:
         double half_width, half_height;      ///< of the frame, which a perspective has at distance 1
         double lens_radius, focus_distance;  ///< in world units
     };
+    /// \endcond
     const View& view() const { return view_; }  ///< limn's own
 
 private:

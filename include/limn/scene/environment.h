@@ -26,6 +26,7 @@ public:
     /// \throws ArgumentError if the image is null or empty, has 2^30 pixels or more or one that is negative, infinite
     /// or NaN, which is named; the matrix does more than turn and mirror; the scale is impossible
     explicit EnvironmentMap(std::shared_ptr<const Image> image, const Transform& world_from_map = {}, double scale = 1);
+    /// Takes an image that nothing else shares.
     explicit EnvironmentMap(Image image, const Transform& world_from_map = {}, double scale = 1)
         : EnvironmentMap(std::make_shared<const Image>(std::move(image)), world_from_map, scale) {}
 

@@ -30,6 +30,7 @@ struct ModelCamera {
 /// DirectionalLight of it, whose watts are lumens / 683: so do Blender's importer and exporter, which leave the
 /// radiance of emissive materials as it is, so that lamps and emissive surfaces of a file keep their proportion.
 struct ModelLight {
+    /// The types of KHR_lights_punctual.
     enum class Kind { point, spot, directional };
     std::string name;              ///< may be empty
     Kind kind = Kind::point;       ///< which of the fields below have a meaning
