@@ -54,7 +54,7 @@ def rules():
         subprocess.run([environment / "bin/pip", "install", "-q", "universalmutator"], check=True)
     sys.path.append(str(next(environment.glob("lib/*/site-packages"))))
     from universalmutator import mutator
-    return lambda lines: mutator.mutants_regexp(lines, ["universal", "c_like", "cpp"], ignoreStringOnly=True)
+    return lambda lines: mutator.mutants_regexp(lines, ["universal", "c_like", "cpp"], ignorePatterns=[], ignoreStringOnly=True)
 
 
 def copy_tree():
