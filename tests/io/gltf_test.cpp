@@ -206,6 +206,20 @@ TEST_CASE("glTF: pictures of each format lie as they should in all three kinds o
     }
 }
 
+TEST_CASE("glTF: colours are linear in a picture of floats, and sRGB in others", "[io][gltf]") {
+    const Color color{0.5, 0.25, 0.75};
+    for (const std::string& suffix : written_suffixes()) {
+        CAPTURE(suffix);
+        const Folder folder;
+        save_image(Image(1, 1, color), folder.path("a" + suffix));
+        const std::string inside = data_uri(folder.read("a" + suffix));
+        for (const std::string& uri : {"a" + suffix, inside}) {
+            const Model model = load_model(folder.write("a.gltf", with_texture("\"uri\": \"" + uri + "\"")));
+            CHECK(distance(albedo_at(model, 0.5, 0.5), color) < 0.01);
+        }
+    }
+}
+
 TEST_CASE("glTF: a base colour multiplies its picture, and a transform moves it", "[io][gltf]") {
     const Folder folder;
     four_pixels(folder);
