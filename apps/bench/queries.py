@@ -23,7 +23,6 @@ FEW, MANY = 200, 2000  # rays of each kind; --full: many
 MOST = {"trimesh": 200}  # that are asked of one
 TIMED, TIMED_TRIMESH, TIMED_CPP = 1000000, 200, 200000  # rays: from Python, of trimesh's own, in C++
 TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther
-SAVED = (1200, 468)  # of the knot that is written to a file: 1.1 million triangles
 
 
 def wrong(answer, nearest, inside):
@@ -112,17 +111,6 @@ class Measured:
         measure = lambda: peers.limn_rates("move", vertices, faces, np.zeros((0, 6)))
         return self.kept(f"moved {name}", measure)["recompile"]
 
-    def file(self):
-        """What limn_query_rates says of a file."""
-        peers.say("scene in a file")
-
-        def measure():
-            vertices, faces = queries_rays.knot(*SAVED)
-            return peers.limn_rates("file", queries_rays.on_grid(vertices), faces, np.zeros((0, 6)),
-                                    peers.RAW / "saved.scene")
-
-        return self.kept("file", measure)
-
 
 def wrong_answers(measured):
     rows = [(f"{name}, {words}", measured.wrong(name, vertices, faces, kind))
@@ -136,7 +124,7 @@ def speeds(measured):
         limn, cgal = measured.in_cpp(mesh)
         rates += tables.python_rows(mesh[0], measured.rates(mesh)) + tables.cpp_rows(mesh[0], limn, cgal)
         times += tables.one_hit_rows(mesh[0], limn) + [tables.move_row(mesh[0], measured.moved(mesh))]
-    return tables.speeds(rates, [*times, tables.file_row(measured.file())])
+    return tables.speeds(rates, times)
 
 
 def main(arguments):

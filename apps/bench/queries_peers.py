@@ -90,8 +90,8 @@ def ask(library, threads, vertices, faces, rays, timed=None):
     return dict(np.load(target))
 
 
-def limn_rates(mode, vertices, faces, rays, *more):
+def limn_rates(mode, vertices, faces, rays):
     """What limn_query_rates prints. limn itself must not fail."""
     write_input(vertices, faces, rays)
-    done = subprocess.run([RATES, mode, RAW / "input.bin", *more], stdout=subprocess.PIPE, check=True, text=True)
+    done = subprocess.run([RATES, mode, RAW / "input.bin"], stdout=subprocess.PIPE, check=True, text=True)
     return json.loads(done.stdout)

@@ -30,7 +30,7 @@ PAIRS = (
     Pair("contains", "`contains_points`", "limn.trimesh", "trimesh", 10),
 )
 THREADED = ("limn", "limn.open3d", "limn.trimesh", "open3d")  # trimesh's own and embreex have no threads
-GOAL_CGAL, GOAL_ALL_HITS, GOAL_MOVE, GOAL_OPEN = 20, 1.3, 5, 1  # GOAL_MOVE: milliseconds
+GOAL_CGAL, GOAL_ALL_HITS, GOAL_MOVE = 20, 1.3, 5  # GOAL_MOVE: milliseconds
 IN_CPP = {"nearest": "single rays", "nearest_batch": "a batch, one thread", "nearest_threads": "a batch, all threads"}
 ONE_HIT = {"": "single rays", "_batch": "batches"}
 
@@ -94,13 +94,6 @@ def move_row(mesh, seconds):
     text = f"{1e3 * seconds:.2f}"
     text = text if float(text) < GOAL_MOVE else f"**{text}**"
     return f"| {mesh}, milliseconds of `recompile`, 10,000 moved instances | {text} | – | – | under {GOAL_MOVE} |"
-
-
-def file_row(limn):
-    opened, read, compiled = (1e3 * limn[key] for key in ("open", "read", "compile"))
-    what = (f"a file of {limn['bytes'] / 1e6:.0f} MB, {limn['triangles']:,} triangles that compile in "
-            f"{number(compiled)} milliseconds: milliseconds of `load`, of reading its bytes")
-    return row(what, opened, read, opened / read, GOAL_OPEN, False)
 
 
 def speeds(rates, times):

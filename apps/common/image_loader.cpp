@@ -23,7 +23,7 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return codec().decode(format, bytes, path, most);
 }
 
-ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
     return codec().decode_header(format, bytes, path);
 }
 

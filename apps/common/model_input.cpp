@@ -5,9 +5,11 @@
 
 namespace limn::app {
 
+std::string read_standard_input() { return {std::istreambuf_iterator<char>(std::cin), {}}; }
+
 Model read_model(const std::string& path, const ModelOptions& options) {
     if (path != kStandardInput) return load_model(path, options);
-    const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
+    const std::string bytes = read_standard_input();
     return load_model_from_memory(std::as_bytes(std::span(bytes)), "standard input", options);
 }
 

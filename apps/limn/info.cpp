@@ -71,8 +71,7 @@ std::vector<std::string> part_names(const Model& model) {
     return names;
 }
 
-Description describe_model(const std::string& path) {
-    const Model model = from_files([&] { return read_model(path); });
+Description describe_model(const std::string& path, const Model& model) {
     const auto& [triangles, edges, has_normals, has_uvs] = sums_of(model);
     const Box box = model.bounds();
 
@@ -136,10 +135,8 @@ std::string pixel_type(const std::vector<ImageChannel>& channels) {
     return fmt::format("{}", fmt::join(types, ", "));
 }
 
-Description describe_image(const std::string& path) {
-    const ImageInfo image = load_image_info(path);
-    auto facts = load_image_facts(path);
-    std::sort(facts.begin(), facts.end());
+Description describe_image(const std::string& path, ImageInfo image) {
+    std::ranges::sort(image.facts);
     std::vector<std::string> names;
     Json channels = Json::array(), json_facts = Json::object();
     for (const ImageChannel& channel : image.channels) {
@@ -154,7 +151,7 @@ Description describe_image(const std::string& path) {
             "part of", fmt::format("{} x {}, from ({}, {}) on", whole->width, whole->height, whole->left, whole->top));
     d.table += table_row("channels", fmt::format("{}", fmt::join(names, ", ")));
     d.table += table_row("pixel type", pixel_type(image.channels));
-    for (const auto& [name, value] : facts) {
+    for (const auto& [name, value] : image.facts) {
         json_facts[name] = value;
         d.table += table_row(name, value);
     }
@@ -205,21 +202,33 @@ Description describe_film(const std::string& path) {
     return d;
 }
 
-// A model first, for which no library of images is loaded.
-Description describe(const std::string& path) {
-    if (path == kStandardInput) return describe_model(path);
-    if (is_film_file(path)) return describe_film(path);
+// Loads a model first, for which no library of images is loaded, and an image if the file holds no model.
+template <class GetModel, class GetImage>
+Description describe_either(const std::string& path, GetModel get_model, GetImage get_image) {
     try {
-        return describe_model(path);
+        return describe_model(path, from_files(get_model));
     } catch (const FileError& no_model) {
         try {
-            return describe_image(path);
+            return describe_image(path, get_image());
         } catch (const Error& no_image) {
             const std::string image_fault = no_image.what(), model_fault = no_model.what();
             if (image_fault == model_fault) throw;  // the file cannot be opened
             throw Error(image_fault + "; as a model: " + model_fault);
         }
     }
+}
+
+Description describe(const std::string& path) {
+    if (path == kStandardInput) {
+        const std::string input = read_standard_input(), name = "standard input";
+        const auto bytes = std::as_bytes(std::span(input));
+        return describe_either(
+            path, [&] { return load_model_from_memory(bytes, name); },
+            [&] { return load_image_info_from_memory(bytes, name); });
+    }
+    if (is_film_file(path)) return describe_film(path);
+    return describe_either(
+        path, [&] { return load_model(path); }, [&] { return load_image_info(path); });
 }
 
 }  // namespace
@@ -235,7 +244,7 @@ int info_command(int argc, const char* const* argv) {
     std::string file;
     options.add({.name = "FILE",
                  .value = "",
-                 .help = "The model, film or image; - for a model from standard input",
+                 .help = "The model, film or image; - for a model or image from standard input",
                  .required = true},
                 file_name("FILE", file));
     JsonOption json_option(options);

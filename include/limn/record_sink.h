@@ -65,15 +65,6 @@ public:
     /// \throws ArgumentError if an object contains itself
     BlasId blas(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
 
-    /// Earlier names, which leave with the next version.
-    ///@{
-    [[deprecated("blas")]] BlasId group(const std::shared_ptr<const void>& object,
-                                        const std::function<void(RecordSink&)>& fill) {
-        return blas(object, fill);
-    }
-    [[deprecated("user_defined")]] void foreign(const UserDefinedRecord& record) { user_defined(record); }
-    ///@}
-
     /// The tag of a user-defined object, if it has one; null: it has none.
     void identify(const Tagged* object);
 

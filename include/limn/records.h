@@ -43,23 +43,13 @@ enum class BlasId : std::uint32_t { root = 0 };
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 /// The built-in textures, and user-defined ones.
-enum class TextureKind : std::uint8_t {
-    solid,
-    checker,
-    image,
-    noise,
-    turbulence,
-    marble,
-    user_defined,
-    foreign [[deprecated]] = user_defined
-};
+enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence, marble, user_defined };
 
 /// One texture; each field is of the kinds named beside it.
 struct TextureRecord {
     TextureKind kind = TextureKind::solid;                     ///< decides which fields count
     Filter filter = Filter::bilinear;                          ///< image
     Wrap wrap = Wrap::repeat;                                  ///< image
-    std::uint8_t padding = 0;                                  ///< named, because scene files have the bytes of rows
     std::uint32_t data = 0;                                    ///< image, noises: row of the images or lattices
     TextureId even = TextureId::none;                          ///< checker
     TextureId odd = TextureId::none;                           ///< checker
@@ -138,8 +128,7 @@ enum class PrimitiveKind : std::uint8_t {
     instance,
     medium,
     user_defined,
-    disk,
-    foreign [[deprecated]] = user_defined
+    disk
 };
 
 /// Centre moves on a straight line from center0 at time 0 to center1 at time 1.
@@ -240,7 +229,6 @@ enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
 /// A light without a shape: see limn/scene/lights.h.
 struct LightRecord {
     LightSourceKind kind = LightSourceKind::point;  ///< decides which fields count
-    std::uint8_t padding[7] = {};                   ///< named, because scene files have the bytes of rows
     Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
     Point3 position;                                ///< point, spot
     Vec3 direction;                                 ///< unit, into which it shines; of all but a point
@@ -265,7 +253,6 @@ struct PrimitiveRange {
     /// As said above.
     ///@{
     PrimitiveKind kind = PrimitiveKind::sphere;
-    std::uint8_t padding[3] = {};  // named, because scene files have the bytes of rows
     std::uint32_t first_row = 0;
     std::uint64_t first_number = 0;
     std::uint64_t count = 0;
@@ -303,13 +290,5 @@ struct SceneRecords {
     std::vector<std::string> tags;  ///< of user-defined objects, in the order of description
     bool untagged = false;          ///< whether there are such objects without one
 };
-
-/// Earlier names, which leave with the next version.
-///@{
-using GroupId [[deprecated("BlasId")]] = BlasId;
-using GroupRecord [[deprecated("BlasRecord")]] = BlasRecord;
-using ForeignHit [[deprecated("UserDefinedHit")]] = UserDefinedHit;
-using ForeignRecord [[deprecated("UserDefinedRecord")]] = UserDefinedRecord;
-///@}
 
 }  // namespace limn

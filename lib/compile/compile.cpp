@@ -6,7 +6,6 @@
 
 #include "compile/steps.h"
 #include "core/require.h"
-#include "flat/tables.h"
 #include "scene/lights.h"
 
 namespace limn::compiler {
@@ -158,8 +157,15 @@ std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto&... tables) {
         return (std::size_t{0} + ... + (tables.size() * sizeof(tables[0])));
     };
-    std::size_t sum = sizeof(s) + bytes(s.meshes, s.user_defined, s.materials, s.kept);
-    flat::each_table(s, [&](const auto& table) { sum += bytes(table); });
+    std::size_t sum = sizeof(s) + bytes(s.meshes, s.instances, s.user_defined, s.materials, s.textures, s.kept);
+    sum += std::apply(bytes, s.rows);
+    sum += bytes(s.blases, s.ranges, s.references, s.nodes, s.blocks, s.first_of_object, s.object_of);
+    sum += bytes(s.list.entries, s.list.planar, s.list.round);
+    sum += bytes(s.medium_shapes, s.media, s.medium_instances);
+    const flat::LightTable& l = s.lights;
+    sum += bytes(l.own, l.places, l.instances, l.refs, l.strength_before, l.guide, l.nodes, l.by_number, l.distant);
+    sum += bytes(s.light_sources, s.environment.row_luminance, s.environment.band_cosine, s.environment.band_before,
+                 s.environment.column_before);
     for (const flat::Mesh& mesh : s.meshes) {
         const MeshView& a = mesh.arrays;
         sum += bytes(a.vertices, a.triangles, a.normals, a.uvs, a.material_slots, mesh.materials, mesh.places);

@@ -63,8 +63,7 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
     });
     sum.table(r.materials, [&](const MaterialRecord& m) {
         sum.text(std::string(m.kind));
-        sum.add(m.fresnel, m.texture, m.emission, m.parameter);
-        if (m.sides != Sides::both) sum.add(m.sides);  // as below
+        sum.add(m.fresnel, m.texture, m.emission, m.sides, m.parameter, m.details != nullptr);
         if (!m.details) return;
         for (const double number : m.details->numbers) sum.add(number);
         sum.add(m.details->texture, m.details->normal_map, m.details->opacity, m.details->opacity_cutoff);
@@ -89,12 +88,10 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
     add_meshes(r, sum);
     primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
         const auto& records = r.*Kind::kRecords;
-        // What came later says nothing where there is none, so that older scenes keep their digest.
         if constexpr (requires { Kind::fields(records[0]); })
-            if (Kind::kKind <= PrimitiveKind::quad || !records.empty())
-                sum.table(records, [&](const auto& record) {
-                    std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
-                });
+            sum.table(records, [&](const auto& record) {
+                std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
+            });
     });
     sum.table(r.instances, [&](const InstanceRecord& i) { sum.add(i.blas); });
     sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });
@@ -105,11 +102,9 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
         });
     });
     sum.table(r.tags, [&](const std::string& tag) { sum.text(tag); });
-    // As above: nothing where there is none.
-    if (!r.lights.empty())
-        sum.table(r.lights, [&](const LightRecord& l) {
-            sum.add(l.kind, l.color, l.position, l.direction, l.cos_inner, l.cos_outer, l.one_minus_cos);
-        });
+    sum.table(r.lights, [&](const LightRecord& l) {
+        sum.add(l.kind, l.color, l.position, l.direction, l.cos_inner, l.cos_outer, l.one_minus_cos);
+    });
     if (const EnvironmentRecord& map = r.environment; map.image) {
         sum.add(map.image->width(), map.image->height(), map.world_from_map, map.scale);
         sum.array(map.image->values());

@@ -68,29 +68,19 @@ ChunkReader::ChunkReader(const std::string& path, const ChunkFormat& format, std
 }
 
 std::vector<std::byte> ChunkReader::chunk(const char* what, std::uint64_t least, std::uint64_t most) {
-    const std::uint64_t length = chunk_length();
+    std::uint64_t length = 0, sum = 0;
+    read(std::as_writable_bytes(std::span(&length, 1)));
     if (length < least || length > most) fail_damaged(what);
     require(length);
     std::vector<std::byte> bytes(static_cast<std::size_t>(length));
-    read_chunk(what, bytes);
+    read(bytes);
+    read(std::as_writable_bytes(std::span(&sum, 1)));
+    if (sum != checksum(bytes)) fail_damaged(what);
     return bytes;
-}
-
-std::uint64_t ChunkReader::chunk_length() {
-    std::uint64_t length = 0;
-    read(std::as_writable_bytes(std::span(&length, 1)));
-    return length;
 }
 
 void ChunkReader::require(std::uint64_t length) const {
     if (length > left()) fail("is cut short");
-}
-
-void ChunkReader::read_chunk(const char* what, std::span<std::byte> to) {
-    std::uint64_t sum = 0;
-    read(to);
-    read(std::as_writable_bytes(std::span(&sum, 1)));
-    if (sum != checksum(to)) fail_damaged(what);
 }
 
 void ChunkReader::finish() {

@@ -1,11 +1,9 @@
-// Files of chunks, for films and compiled scenes.
+// Files of chunks, for films.
 //
 // Numbers are little endian. A file is eight letters that say what it is, and versions; then chunks, each with its
 // length before and its checksum behind; then the length of all this and the eight letters of the end.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -53,30 +51,16 @@ public:
     // `what`: for the message, "its header". Of as many bytes as there are, from `least` to `most`.
     std::vector<std::byte> chunk(const char* what, std::uint64_t least = 0,
                                  std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-    // The same into a vector of values that are nothing but their bytes.
-    template <class Table>
-    void table(const char* what, Table& values) {
-        using Value = typename Table::value_type;
-        constexpr std::size_t kSize = sizeof(Value);
-        const std::uint64_t length = chunk_length();
-        if (length % kSize != 0) fail_damaged(what);
-        require(length);
-        values.resize(static_cast<std::size_t>(length / kSize), std::bit_cast<Value>(std::array<std::byte, kSize>{}));
-        read_chunk(what, std::as_writable_bytes(std::span(values)));
-    }
     // After the last chunk.
     void finish();
 
-    static constexpr std::uint64_t kLeastChunk = 16;          // bytes: its length and its checksum
     std::uint64_t left() const { return size_ - position_; }  // in bytes
 
     [[noreturn]] void fail(const std::string& problem) const;
     [[noreturn]] void fail_damaged(const std::string& what) const { fail("is damaged: " + what); }
 
 private:
-    std::uint64_t chunk_length();
     void require(std::uint64_t length) const;  // so many bytes are left
-    void read_chunk(const char* what, std::span<std::byte> to);
     void read(std::span<std::byte> to);
 
     std::string path_;

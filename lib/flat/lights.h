@@ -62,7 +62,6 @@ struct LightPlace {
     std::uint32_t first_instance = 0;  // in LightTable::instances; outermost first
     std::uint32_t instance_count = 0;  // 0 where nothing moves: then the matrices count
     bool transformed = false;          // the matrices are not the identity
-    std::uint8_t padding[3] = {};
     std::uint64_t first_number = 0;
     Transform world_from_object, object_from_world;
 };
@@ -91,7 +90,6 @@ static_assert(sizeof(LightNode) == 52);
 struct LightNumber {
     std::uint64_t number;  // of the primitive
     std::uint32_t rank;
-    std::uint32_t padding = 0;
 };
 
 // A light that is infinitely far away, and how much of it is expected at a receiver.

@@ -34,7 +34,6 @@ struct PrimitiveList {
     struct Entry {
         PrimitiveKind kind = PrimitiveKind::quad;
         bool is_instanced = false;
-        std::uint16_t padding = 0;   // named, because scene files have the bytes of entries
         std::uint32_t instance = 0;  // if it is
         std::uint32_t row = 0;       // of its table, the mesh's for triangles of meshes
         std::uint32_t element = 0;   // of the mesh

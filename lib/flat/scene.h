@@ -51,7 +51,6 @@ struct Instance {
     Transform object_from_world;  // of a still one
     BlasId blas = BlasId::root;
     bool moving = false;
-    std::uint8_t padding[3] = {};
     InverseError object_from_world_error{};
 };
 
@@ -65,13 +64,11 @@ struct Blas {
     Child root = kNothing;
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
-    std::uint32_t padding = 0;
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
     float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
-    std::uint32_t more_padding = 0;
-    double cost = 0;   // expected, of a ray that meets the bounds: see accel::BuildSettings
-    double scale = 1;  // of the nodes' boxes: a power of two, which keeps them in the range of float
+    double cost = 0;         // expected, of a ray that meets the bounds: see accel::BuildSettings
+    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
 };
 
 // A medium where it stands in the scene: seen through instances, outermost first.
@@ -79,7 +76,6 @@ struct Medium {
     std::uint32_t shape = 0;           // row of Scene::medium_shapes
     std::uint32_t first_instance = 0;  // in Scene::medium_instances
     std::uint32_t instance_count = 0;
-    std::uint32_t padding = 0;
     std::uint64_t first_number = 0;  // of its boundary's primitives, in the scene
     Box bounds;                      // in world space
     double scattered = 1;            // share of the extinction that may scatter: the largest albedo, 1 where unknown

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/read_file.h"
 #include "io/model_textures.h"
 #include "io/text_lines.h"
 
@@ -77,19 +78,22 @@ std::shared_ptr<const Texture> GltfPictures::texture(const GltfValue& info, std:
     return std::make_shared<ImageTexture>(std::move(image), options);
 }
 
-// Empty where alpha is asked for and there is none.
+// Empty where alpha is asked for and there is none. Colours are sRGB whatever a file says of them (glTF 2.0, 3.9.2),
+// but those of EXR and HDR, which the specification doesn't know, are linear.
 Image GltfPictures::load(const GltfValue& image, Values values) {
-    const Encoding encoding = values == Values::raw ? Encoding::raw : Encoding::srgb;
-    const std::string uri = image["uri"].text_or(""), name = path_ + ": " + image.place();
-    if (uri.empty() || uri.starts_with("data:")) {
-        const std::string decoded = uri.empty() ? "" : GltfBuffers::decode_data(image["uri"]);
-        const auto bytes = uri.empty() ? buffers_.view(image["bufferView"]) : std::as_bytes(std::span(decoded));
-        return values == Values::alpha ? load_alpha_from_memory(bytes, name).value_or(Image{})
-                                       : load_image_from_memory(bytes, encoding, name);
+    const std::string uri = image["uri"].text_or("");
+    const bool is_file = !uri.empty() && !uri.starts_with("data:");
+    const std::string name = is_file ? gltf_path_beside(path_, uri) : path_ + ": " + image.place();
+    if (is_file && std::ranges::find(model_.files, name) == model_.files.end()) model_.files.push_back(name);
+    const std::string text = is_file ? read_file(name) : uri.empty() ? "" : GltfBuffers::decode_data(image["uri"]);
+    const auto bytes = uri.empty() ? buffers_.view(image["bufferView"]) : std::as_bytes(std::span(text));
+    if (values == Values::alpha) return load_alpha_from_memory(bytes, name).value_or(Image{});
+    Encoding encoding = Encoding::raw;
+    if (values == Values::colors) {
+        const std::string type = load_image_info_from_memory(bytes, name).channels.at(0).type;
+        if (type != "half" && type != "float") encoding = Encoding::srgb;
     }
-    const std::string file = gltf_path_beside(path_, uri);
-    if (std::ranges::find(model_.files, file) == model_.files.end()) model_.files.push_back(file);
-    return values == Values::alpha ? load_alpha(file).value_or(Image{}) : load_image(file, encoding);
+    return load_image_from_memory(bytes, encoding, name);
 }
 
 }  // namespace limn

@@ -31,11 +31,6 @@ struct StoredImage {
     double exponent = 1;  // of Transfer::power: linear = stored ^ exponent
 };
 
-struct ImageHeader {
-    ImageInfo info;
-    Facts facts;  // without their prefix
-};
-
 // A picture to be written: 8-bit sRGB values for PNG, else linear ones; three channels, alpha, and those of `layers`.
 struct EncodeJob {
     FileFormat format = FileFormat::exr;
@@ -59,7 +54,7 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path);
 // From bytes that encode() made, or that were found sound (io/image_checks.h). Of the pixels the first channels, at
 // most `most`. \throws FileError naming `path`
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most = 3);
-ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
+ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path);
 
 // These functions as a module gives them (apps/common/image_module.cpp).
 struct ImageCodec {

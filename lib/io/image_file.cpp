@@ -7,7 +7,6 @@
 
 #include "core/elementary.h"
 #include "core/read_file.h"
-#include "io/decode_stb.h"
 #include "io/image_checks.h"
 #include "io/image_codec.h"
 #include "limn/core/error.h"
@@ -75,25 +74,6 @@ Image to_image(const StoredImage& stored, Encoding encoding) {
     return std::visit(convert, stored.values);
 }
 
-// The alpha that is among the channels of a picture. `decode` gives the first so many of them.
-template <class Decode>
-std::optional<Image> to_alpha(const ImageInfo& info, const Decode& decode) {
-    const auto alpha = std::ranges::find(info.channels, "A", &ImageChannel::name);
-    if (alpha == info.channels.end()) return std::nullopt;
-    const std::ptrdiff_t channel = alpha - info.channels.begin();
-    const StoredImage stored = decode(static_cast<int>(channel) + 1);
-    return std::visit([&](const auto& values) { return grey_image(stored, values, static_cast<std::size_t>(channel)); },
-                      stored.values);
-}
-
-// Hands a file's format and bytes to one of the codec's functions.
-template <class Decode>
-auto from_file(const std::string& path, Decode decode) {
-    const std::string file = read_file(path);
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
-    return decode(require_sound(bytes, path), bytes, path);
-}
-
 // Running out of memory is a fault that concerns the file; of an Image, which has a size, so is an ArgumentError.
 template <class Call>
 auto with_memory(const std::string& path, Call call) {
@@ -107,42 +87,46 @@ auto with_memory(const std::string& path, Call call) {
     }
 }
 
-FileFormat require_readable_in_memory(std::span<const std::byte> bytes, const std::string& name) {
-    const FileFormat format = require_sound(bytes, name);
-    if (format == FileFormat::exr)
-        throw FileError(name, "is not a readable image: it is an EXR, which is read from a file alone, by OpenImageIO");
-    return format;
+// Calls `load` with the bytes of a file and its path.
+template <class Load>
+auto from_file(const std::string& path, Load load) {
+    const std::string file = read_file(path);
+    return load(std::as_bytes(std::span(file)), path);
 }
 
 }  // namespace
 
-Image load_image(const std::string& path, Encoding encoding) {
-    const auto decode_pixels = [](const auto&... file) { return decode(file...); };
-    return with_memory(path, [&] { return to_image(from_file(path, decode_pixels), encoding); });
-}
-
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding, const std::string& name) {
-    const FileFormat format = require_readable_in_memory(bytes, name);
-    return with_memory(name, [&] { return to_image(decode_stb(format, bytes, name), encoding); });
-}
-
-std::optional<Image> load_alpha(const std::string& path) {
-    const auto decode_alpha = [](const auto&... file) {
-        return to_alpha(decode_header(file...).info, [&](int most) { return decode(file..., most); });
-    };
-    return with_memory(path, [&] { return from_file(path, decode_alpha); });
+    const FileFormat format = require_sound(bytes, name);
+    return with_memory(name, [&] { return to_image(decode(format, bytes, name), encoding); });
 }
 
 std::optional<Image> load_alpha_from_memory(std::span<const std::byte> bytes, const std::string& name) {
-    const FileFormat format = require_readable_in_memory(bytes, name);
+    const FileFormat format = require_sound(bytes, name);
+    const std::vector<ImageChannel> channels = decode_header(format, bytes, name).channels;
+    const auto alpha = std::ranges::find(channels, "A", &ImageChannel::name);
+    if (alpha == channels.end()) return std::nullopt;
+    const std::ptrdiff_t channel = alpha - channels.begin();
     return with_memory(name, [&] {
-        return to_alpha(decode_info_stb(format, bytes, name),
-                        [&](int most) { return decode_stb(format, bytes, name, most); });
+        const StoredImage stored = decode(format, bytes, name, static_cast<int>(channel) + 1);
+        const auto to_grey = [&](const auto& v) { return grey_image(stored, v, static_cast<std::size_t>(channel)); };
+        return std::visit(to_grey, stored.values);
     });
 }
 
-ImageInfo load_image_info(const std::string& path) { return from_file(path, decode_header).info; }
+ImageInfo load_image_info_from_memory(std::span<const std::byte> bytes, const std::string& name) {
+    return decode_header(require_sound(bytes, name), bytes, name);
+}
 
-Facts load_image_facts(const std::string& path) { return from_file(path, decode_header).facts; }
+Image load_image(const std::string& path, Encoding encoding) {
+    return from_file(
+        path, [&](const auto& bytes, const auto& name) { return load_image_from_memory(bytes, encoding, name); });
+}
+
+std::optional<Image> load_alpha(const std::string& path) { return from_file(path, load_alpha_from_memory); }
+
+ImageInfo load_image_info(const std::string& path) { return from_file(path, load_image_info_from_memory); }
+
+Facts load_image_facts(const std::string& path) { return load_image_info(path).facts; }
 
 }  // namespace limn

@@ -138,7 +138,8 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     return image;
 }
 
-// OpenImageIO reads the numbers in an HDR in the locale of the C library.
+// stb decodes these formats in every build. OpenImageIO 2.4 reads outside of the palette of a damaged TGA, takes the
+// unused bytes of a BMP for alpha, and reads the numbers of an HDR in the locale of the C library.
 bool is_for_stb(FileFormat format) {
     return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
 }
@@ -170,16 +171,16 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
-ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    if (is_for_stb(format)) return {decode_info_stb(format, bytes, path), {}};  // encode() writes no facts of them
+ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+    if (is_for_stb(format)) return decode_info_stb(format, bytes, path);  // encode() writes no facts of them
     BoundedReader memory(bytes);
     const ImageSpec spec = open(format, memory, path)->spec();
-    ImageHeader header{{.width = spec.width, .height = spec.height, .channels = {}}, read_facts(spec)};
+    ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}, .facts = read_facts(spec)};
     const PartOf part{spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height};
-    if (format == FileFormat::exr && part != PartOf{0, 0, spec.width, spec.height}) header.info.part_of = part;
+    if (format == FileFormat::exr && part != PartOf{0, 0, spec.width, spec.height}) info.part_of = part;
     for (int i = 0; i < spec.nchannels; ++i)
-        header.info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
-    return header;
+        info.channels.push_back({std::string(spec.channel_name(i)), spec.channelformat(i).c_str()});
+    return info;
 }
 
 }  // namespace limn

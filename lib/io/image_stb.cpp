@@ -100,12 +100,12 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
     return decode_stb(format, bytes, path, most);
 }
 
-ImageHeader decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
+ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
     require_readable(format, path);
-    const Facts facts = format == FileFormat::hdr   ? read_hdr_facts(text_of(bytes))
-                        : format == FileFormat::png ? read_png_facts(bytes)
-                                                    : Facts{};
-    return {decode_info_stb(format, bytes, path), facts};
+    ImageInfo info = decode_info_stb(format, bytes, path);
+    if (format == FileFormat::hdr) info.facts = read_hdr_facts(text_of(bytes));
+    if (format == FileFormat::png) info.facts = read_png_facts(bytes);
+    return info;
 }
 
 }  // namespace limn

@@ -150,7 +150,7 @@ bool holds(const std::vector<std::byte>& bytes, const EncodeJob& job, const std:
     if (stored.width != job.width || stored.height != job.height || stored.channels != job.channels()) return false;
     std::vector<std::size_t> order(static_cast<std::size_t>(job.channels()));
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (!job.layers.empty()) order = order_of(decode_header(job.format, bytes, path).info.channels, job);
+    if (!job.layers.empty()) order = order_of(decode_header(job.format, bytes, path).channels, job);
     const auto equal = [&](const auto& values) {
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
         const auto* back = std::get_if<std::vector<Value>>(&stored.values);

@@ -21,8 +21,6 @@ struct Disk : DiskRecord, Primitive {
     }
     static auto fields(const DiskRecord& d) { return std::tie(d.center, d.normal, d.radius, d.material); }
 
-    std::uint32_t padding = 0;
-
     explicit Disk(const DiskRecord& d) : DiskRecord(d) {}
 
     Box bounds() const { return disk_bounds(center, normal, radius); }

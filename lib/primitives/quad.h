@@ -14,7 +14,6 @@ struct Quad : QuadRecord, Primitive {
     static constexpr auto kRecords = &SceneRecords::quads;
     static auto fields(const QuadRecord& q) { return std::tie(q.corner, q.edge_u, q.edge_v, q.material); }
 
-    std::uint32_t padding = 0;
     Normal3 normal;  // unit
     Vec3 error;      // of points on it
 

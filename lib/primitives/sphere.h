@@ -18,7 +18,6 @@ struct Sphere : Primitive {
     Point3 center;
     double radius;  // negative: the normal points inward
     MaterialId material;
-    std::uint32_t padding = 0;
 
     explicit Sphere(const SphereRecord& s) : center(s.center0), radius(s.radius), material(s.material) {}
 
@@ -39,8 +38,6 @@ struct MovingSphere : SphereRecord, Primitive {
     static constexpr PrimitiveKind kKind = PrimitiveKind::moving_sphere;
     static constexpr const char* kName = "moving-sphere";
     static constexpr auto kRecords = &SceneRecords::spheres;
-
-    std::uint32_t padding = 0;
 
     explicit MovingSphere(const SphereRecord& s) : SphereRecord(s) {}
 

@@ -17,8 +17,6 @@ struct Triangle : TriangleRecord, Primitive {
     static Uv weights(double u, double v) { return sample_uniform_triangle(u, v); }
     static auto fields(const TriangleRecord& t) { return std::tie(t.a, t.b, t.c, t.material); }
 
-    std::uint32_t padding = 0;
-
     explicit Triangle(const TriangleRecord& t) : TriangleRecord(t) {}
     explicit Triangle(const TriangleVertices& v) : TriangleRecord{v.a, v.b, v.c, MaterialId::none} {}
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 
 #include "compile/compile.h"
 #include "core/float_environment.h"
 #include "query/filters.h"
 #include "query/results.h"
-#include "query/scene_file.h"
 #include "query/surface_at.h"
 #include "query/threads.h"
 #include "shade/albedo.h"
@@ -189,16 +187,7 @@ const std::string& CompiledScene::name() const { return scene_->name; }
 const Hash128& CompiledScene::digest() const { return scene_->digest; }
 bool CompiledScene::has_untagged() const { return scene_->untagged; }
 
-void CompiledScene::save(const std::string& path) const { query::write_scene(*scene_, path); }
-
-CompiledScene CompiledScene::load(const std::string& path) {
-    const auto start = std::chrono::steady_clock::now();
-    auto scene = std::make_unique<flat::Scene>(query::read_scene(path));
-    scene->compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return CompiledScene(std::move(scene));
-}
-
-CompiledScene compile(const Scene& scene, const CompileSettings& /*settings*/) {
+CompiledScene compile(const Scene& scene) {
     const FloatEnvironment environment;
     return CompiledScene(std::make_unique<flat::Scene>(compiler::flatten(scene)));
 }

@@ -114,7 +114,7 @@ void RecordSink::append(PrimitiveKind kind, std::size_t row, std::uint64_t count
             return;
         }
     }
-    blas.ranges.push_back({kind, {}, next_row(row), first_number, count});
+    blas.ranges.push_back({kind, next_row(row), first_number, count});
 }
 
 }  // namespace limn

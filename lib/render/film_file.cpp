@@ -20,7 +20,7 @@ namespace limn::transport {
 namespace {
 
 constexpr ChunkFormat kFilms{"film", "limnfilm", "filmlimn"};
-constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFormat = 3;
 constexpr std::array kVersions = {kFormat, kSampleVersion};
 
 // The last value of an enumeration, and of a flag.

@@ -69,23 +69,18 @@ TEST_CASE("The floors stand in the architecture paper word for word", "[architec
     CHECK(paper.find(floors) != std::string::npos);
 }
 
-TEST_CASE("Every fuzz target is built, and known to its scripts", "[architecture]") {
-    const auto uses = [](const std::string& text, const std::string& word) {
-        int count = 0;
-        for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-        return count;
-    };
-    const std::string built = read_file("tests/fuzz/CMakeLists.txt"), run = read_file("tests/fuzz/run.sh"),
-                      script = read_file("build.sh");
+TEST_CASE("build.sh runs every fuzz target", "[architecture]") {
+    const std::string script = read_file("build.sh"), beginning = "readers=(film";
+    const std::size_t list = script.find(beginning);
+    REQUIRE(list != std::string::npos);
+    const std::string run = script.substr(list, script.find(')', list) - list);
     int targets = 0;
     for (const SourceFile& file : the_house()) {
         if (!file.path.starts_with("tests/fuzz/") || !file.path.ends_with(".cpp")) continue;
         const std::string name = file.path.substr(11, file.path.size() - 15);
         CAPTURE(name);
         ++targets;
-        CHECK(uses(built, " " + name) == 1);
-        CHECK(uses(run, name) >= 3);
-        CHECK(uses(script, name) == 3);  // the usage, the option, the default
+        CHECK(run.find(name) != std::string::npos);
     }
     CHECK(targets > 5);
 }

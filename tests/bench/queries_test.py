@@ -25,8 +25,6 @@ class Rows(unittest.TestCase):
         self.assertEqual([row[1:4] for row in rows], [["1,300", "1,000", "1.30"], ["1,310", "1,000", "**1.31**"]])
         self.assertEqual(cells(tables.move_row("x", 4.99e-3))[1], "4.99")
         self.assertEqual(cells(tables.move_row("x", 5e-3))[1], "**5.00**")
-        found = {"triangles": 9, "bytes": 2e6, "open": 3e-3, "read": 2e-3, "compile": 0.3}
-        self.assertEqual(cells(tables.file_row(found))[1:4], ["3", "2", "**1.50**"])
 
     def test_what_has_no_threads_is_compared_on_its_one(self):
         rates = {("cast", "limn", 1): 3, ("cast", "open3d", 1): 2, ("cast", "limn", 0): 5, ("cast", "open3d", 0): 4,

@@ -152,6 +152,11 @@ TEST_CASE("limn render: a model from standard input is that of the file, and is 
     CHECK(limn_reads(house_obj(), {"trace", "-", "--rays", rays}).out ==
           limn({"trace", house.model(), "--rays", rays}).out);
     CHECK(limn_reads(house_obj(), {"info", "-"}).out == limn({"info", house.model()}).out);
+    CHECK(limn_reads(house.folder().read("b.exr"), {"info", "-"}).out == limn({"info", house.path("b.exr")}).out);
+    const Outcome neither = limn_reads("GIF89a", {"info", "-"});
+    CHECK(neither.status == 1);
+    CHECK(neither.err.starts_with("limn: standard input: is not a readable image: it appears to be a GIF picture"));
+    CHECK(neither.err.find("; as a model: standard input: ") != std::string::npos);
 }
 
 TEST_CASE("limn render: --smooth gives a mesh without normals smooth ones", "[cli]") {

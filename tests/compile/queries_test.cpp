@@ -103,25 +103,6 @@ TEST_CASE("CompiledScene: rays that go much the same way are answered together a
     }
 }
 
-TEST_CASE("compile: the deprecated quality changes nothing", "[compile]") {
-    Random random(322);
-    Scene scene;
-    scene.add(std::make_shared<Mesh>(scattered(random, 2000, 1, 0.02), nullptr));
-    scene.add(std::make_shared<Sphere>(Point3{0, 0, 0}, 0.3, nullptr));
-    const CompiledScene medium = compile(scene), high = compile(scene, {.quality = BuildQuality::high});
-    CHECK(high.digest() == medium.digest());
-    CHECK(high.stats().memory_bytes == medium.stats().memory_bytes);
-    int differing = 0, found = 0;
-    for (int i = 0; i < 20000; ++i) {
-        const Ray ray{.origin = Point3{} + random.in_cube(2), .direction = random.in_cube(1)};
-        const auto expected = medium.closest_hit(ray), hit = high.closest_hit(ray);
-        found += expected.has_value();
-        differing += expected.has_value() != hit.has_value() || (hit && !same(*expected, *hit));
-    }
-    CHECK(differing == 0);
-    CHECK(found > 2000);
-}
-
 TEST_CASE("CompiledScene: of exact duplicates the lowest number is reported", "[compile]") {
     const Object quad = std::make_shared<Quad>(Point3{-1, -1, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, nullptr);
     const Object mesh = std::make_shared<Mesh>(cube_mesh(1, {-0.5, -0.5, -1}), nullptr);  // its top lies in the quad

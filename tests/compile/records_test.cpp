@@ -35,10 +35,10 @@ TEST_CASE("RecordSink: shapes of one kind in a row share a range, another kind o
     CHECK(sink.primitives() == 8);
     const SceneRecords& records = sink.records();
     CHECK((records.triangles.size() == 4 && records.quads.size() == 2 && records.user_defined.size() == 2));
-    const PrimitiveRange expected[] = {{PrimitiveKind::triangle, {}, 0, 0, 3},
-                                       {PrimitiveKind::quad, {}, 0, 3, 2},
-                                       {PrimitiveKind::triangle, {}, 3, 5, 1},
-                                       {PrimitiveKind::user_defined, {}, 0, 6, 2}};
+    const PrimitiveRange expected[] = {{PrimitiveKind::triangle, 0, 0, 3},
+                                       {PrimitiveKind::quad, 0, 3, 2},
+                                       {PrimitiveKind::triangle, 3, 5, 1},
+                                       {PrimitiveKind::user_defined, 0, 6, 2}};
     const auto& ranges = records.blases.at(0).ranges;
     REQUIRE(ranges.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) CHECK(same(ranges[i], expected[i]));
@@ -50,9 +50,9 @@ TEST_CASE("RecordSink: still and moving spheres stand in one table, in ranges of
     const auto& ranges = sink.records().blases.at(0).ranges;
     CHECK(sink.records().spheres.size() == 4);
     REQUIRE(ranges.size() == 3);
-    CHECK(same(ranges[0], {PrimitiveKind::sphere, {}, 0, 0, 1}));
-    CHECK(same(ranges[1], {PrimitiveKind::moving_sphere, {}, 1, 1, 2}));
-    CHECK(same(ranges[2], {PrimitiveKind::sphere, {}, 3, 3, 1}));
+    CHECK(same(ranges[0], {PrimitiveKind::sphere, 0, 0, 1}));
+    CHECK(same(ranges[1], {PrimitiveKind::moving_sphere, 1, 1, 2}));
+    CHECK(same(ranges[2], {PrimitiveKind::sphere, 3, 3, 1}));
 }
 
 TEST_CASE("RecordSink: a mesh, an instance or a medium is a row of its own, with all of its primitives",
@@ -72,9 +72,9 @@ TEST_CASE("RecordSink: a mesh, an instance or a medium is a row of its own, with
     sink.medium({blas, MaterialId::none, 1});
     sink.medium({blas, MaterialId::none, 1});
     const auto& ranges = sink.records().blases.at(0).ranges;
-    const PrimitiveRange expected[] = {{PrimitiveKind::mesh, {}, 0, 0, 12},     {PrimitiveKind::mesh, {}, 1, 12, 12},
-                                       {PrimitiveKind::instance, {}, 0, 24, 2}, {PrimitiveKind::instance, {}, 1, 26, 2},
-                                       {PrimitiveKind::medium, {}, 0, 28, 2},   {PrimitiveKind::medium, {}, 1, 30, 2}};
+    const PrimitiveRange expected[] = {{PrimitiveKind::mesh, 0, 0, 12},     {PrimitiveKind::mesh, 1, 12, 12},
+                                       {PrimitiveKind::instance, 0, 24, 2}, {PrimitiveKind::instance, 1, 26, 2},
+                                       {PrimitiveKind::medium, 0, 28, 2},   {PrimitiveKind::medium, 1, 30, 2}};
     REQUIRE(ranges.size() == 6);
     for (std::size_t i = 0; i < 6; ++i) CHECK(same(ranges[i], expected[i]));
     CHECK(sink.primitives() == 32);

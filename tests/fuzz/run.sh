@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# run.sh TARGET [SECONDS]: fuzzes load_film, load_gltf, load_image, load_obj, load_ply, load_scene, load_stl or
-# read_rays, half an hour if not told otherwise. What leads to new code stays in build/fuzz/corpus, what fails in
-# build/fuzz/found; both are tried first next time. Exit status 0: none failed.
+# run.sh READER [SECONDS]: fuzzes the reader of film, gltf, image, obj, ply, stl or rays, by default for half an hour.
+# Inputs that lead to new code are kept in build/fuzz/corpus, inputs that fail in build/fuzz/found. The next run tries
+# both first. The exit status is 0 if no input failed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 data=$here/../io/data
-target=${1:?TARGET: load_film, load_gltf, load_image, load_obj, load_ply, load_scene, load_stl or read_rays}
+target=${1:?READER: film, gltf, image, obj, ply, stl or rays}
 seconds=${2:-1800}
 
 launcher=()
@@ -19,32 +19,32 @@ rm -rf "$seeds"
 mkdir -p "$seeds" "$corpus" "$found" "$build/scratch"
 export TMPDIR=$build/scratch  # for scratch_file.h
 case $target in
-    load_image)
+    image)
         cp "$data"/images/* "$data/orange.jpg" "$here"/seeds/*.{png,hdr,bmp,tga} "$seeds"
         largest=4096
         ;;
-    load_obj)  # an OBJ, a zero byte, an MTL
+    obj)  # an OBJ, a zero byte, an MTL
         for obj in "$data"/obj/*.obj "$here"/seeds/*.obj; do
             mtl=${obj%.obj}.mtl
             { cat "$obj" && printf '\0' && if [[ -e $mtl ]]; then cat "$mtl"; fi; } >"$seeds/$(basename "$obj")"
         done
         largest=2048
         ;;
-    load_ply | load_stl)
-        cp "$here"/seeds/*."${target#load_}" "$seeds"
+    ply | stl)
+        cp "$here"/seeds/*."$target" "$seeds"
         largest=2048
         ;;
-    load_gltf)
+    gltf)
         cp "$here"/seeds/*.gltf "$here"/seeds/*.glb "$seeds"
         largest=4096
         ;;
-    load_film | load_scene)
-        # What the bytes of a small film or scene are changed by: none of them, and all.
+    film)
+        # What the bytes of a small film are changed by: none of them, and all.
         head -c 4096 /dev/zero >"$seeds/nothing"
         head -c 4096 /dev/zero | tr '\0' '\377' >"$seeds/everything"
-        [[ $target == load_scene ]] && largest=8192 || largest=65536  # two tiles have 41008
+        largest=65536  # two tiles have 41008
         ;;
-    read_rays)
+    rays)
         printf '0 0 5 0 0 -1\n# a comment\n\n1e-3 +2. .5 0 1 0 0 inf\n' >"$seeds/rays.txt"
         head -c 640 /dev/zero >"$seeds/zeros"
         largest=1024

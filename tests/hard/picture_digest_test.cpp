@@ -13,7 +13,7 @@ namespace {
 
 using MaterialPtr = std::shared_ptr<const Material>;
 
-const std::string kRoom = "732d66ce5c00a6f2", kOutdoors = "c738be11b57454e5";
+const std::string kRoom = "067917ffad813212", kOutdoors = "36e24057c4330274";
 
 MaterialPtr matte(double r, double g, double b) { return std::make_shared<Lambertian>(Color{r, g, b}); }
 

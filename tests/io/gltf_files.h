@@ -86,15 +86,15 @@ inline double distance(const Color& a, const Color& b) {
     return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
 }
 
-// Red, green; blue, white: from the top left, in bytes of a PNG.
-inline std::string four_pixels(const Folder& folder) {
+// Red, green; blue, white: from the top left, in bytes of a picture.
+inline std::string four_pixels(const Folder& folder, const std::string& suffix = ".png") {
     Image image(2, 2);
     image.set(0, 0, {1, 0, 0});
     image.set(1, 0, {0, 1, 0});
     image.set(0, 1, {0, 0, 1});
     image.set(1, 1, {1, 1, 1});
-    save_image(image, folder.path("four.png"));
-    return folder.read("four.png");
+    save_image(image, folder.path("four" + suffix));
+    return folder.read("four" + suffix);
 }
 
 inline const std::string kTextured =

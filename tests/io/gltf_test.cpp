@@ -1,6 +1,7 @@
 // glTF 2.0, as JSON and binary.
 #include <cmath>
 
+#include "formats.h"
 #include "gltf_files.h"
 #include "limn/core/math.h"
 #include "limn/core/surface.h"
@@ -182,24 +183,40 @@ TEST_CASE("glTF: materials become what there is", "[io][gltf]") {
     CHECK(is_of<Dielectric>(model));
 }
 
-TEST_CASE("glTF: pictures of all three kinds of places lie as they should", "[io][gltf]") {
-    const Folder folder;
-    const std::string png = four_pixels(folder);
-    const std::string in_view = replaced(
-        replaced(with_texture(R"("bufferView": 3, "mimeType": "image/png")"), "\"bufferViews\": [",
-                 R"("bufferViews": [)"),
-        R"("byteOffset": 80, "byteLength": 12}])",
-        R"("byteOffset": 80, "byteLength": 12}, {"buffer": 1, "byteLength": )" + std::to_string(png.size()) + "}]");
-    const std::string second_buffer = in_view.substr(0, in_view.rfind("]}")) + ", {\"uri\": \"" + data_uri(png) +
-                                      "\", \"byteLength\": " + std::to_string(png.size()) + "}]}";
-    for (const std::string& text : {with_texture("\"uri\": \"four.png\""),
-                                    with_texture("\"uri\": \"" + data_uri(png, "image/png") + "\""), second_buffer}) {
-        const Model model = load_model(folder.write("a.gltf", text));
-        CHECK(model.warnings.empty());
-        CHECK(distance(albedo_at(model, 0.25, 0.75), {1, 0, 0}) < 1e-6);
-        CHECK(distance(albedo_at(model, 0.75, 0.75), {0, 1, 0}) < 1e-6);
-        CHECK(distance(albedo_at(model, 0.25, 0.25), {0, 0, 1}) < 1e-6);
-        CHECK(distance(albedo_at(model, 0.75, 0.25), {1, 1, 1}) < 1e-6);
+TEST_CASE("glTF: pictures of each format lie as they should in all three kinds of places", "[io][gltf]") {
+    for (const std::string& suffix : written_suffixes()) {
+        const Folder folder;
+        const std::string picture = four_pixels(folder, suffix), size = std::to_string(picture.size());
+        const std::string in_view = replaced(
+            with_texture(R"("bufferView": 3, "mimeType": "image/png")"), R"("byteOffset": 80, "byteLength": 12}])",
+            R"("byteOffset": 80, "byteLength": 12}, {"buffer": 1, "byteLength": )" + size + "}]");
+        const std::string second_buffer = in_view.substr(0, in_view.rfind("]}")) + ", {\"uri\": \"" +
+                                          data_uri(picture) + "\", \"byteLength\": " + size + "}]}";
+        for (const std::string& text :
+             {with_texture("\"uri\": \"four" + suffix + "\""),
+              with_texture("\"uri\": \"" + data_uri(picture, "image/png") + "\""), second_buffer}) {
+            CAPTURE(suffix, text);
+            const Model model = load_model(folder.write("a.gltf", text));
+            CHECK(model.warnings.empty());
+            CHECK(distance(albedo_at(model, 0.25, 0.75), {1, 0, 0}) < 1e-6);
+            CHECK(distance(albedo_at(model, 0.75, 0.75), {0, 1, 0}) < 1e-6);
+            CHECK(distance(albedo_at(model, 0.25, 0.25), {0, 0, 1}) < 1e-6);
+            CHECK(distance(albedo_at(model, 0.75, 0.25), {1, 1, 1}) < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("glTF: colours are linear in a picture of floats, and sRGB in others", "[io][gltf]") {
+    const Color color{0.5, 0.25, 0.75};
+    for (const std::string& suffix : written_suffixes()) {
+        CAPTURE(suffix);
+        const Folder folder;
+        save_image(Image(1, 1, color), folder.path("a" + suffix));
+        const std::string inside = data_uri(folder.read("a" + suffix));
+        for (const std::string& uri : {"a" + suffix, inside}) {
+            const Model model = load_model(folder.write("a.gltf", with_texture("\"uri\": \"" + uri + "\"")));
+            CHECK(distance(albedo_at(model, 0.5, 0.5), color) < 0.01);
+        }
     }
 }
 

@@ -167,10 +167,12 @@ TEST_CASE("load_alpha: of an EXR, also behind other channels, as stored", "[io][
     const Folder folder;
     const std::string path = folder.path("a.exr");
     save_image(premultiplied(), path, {.layers = {{"B.depth", {1, 2, 3, 4}}}, .alpha = {-1, 0.25F, 2, 1}});
-    const auto alpha = load_alpha(path);
-    REQUIRE(alpha);
-    CHECK(alpha->at(0, 0) == Color{-1, -1, -1});
-    CHECK(alpha->at(0, 1) == Color{2, 2, 2});
+    const std::string bytes = folder.read("a.exr");
+    for (const auto& alpha : {load_alpha(path), load_alpha_from_memory(std::as_bytes(std::span(bytes)))}) {
+        REQUIRE(alpha);
+        CHECK(alpha->at(0, 0) == Color{-1, -1, -1});
+        CHECK(alpha->at(0, 1) == Color{2, 2, 2});
+    }
     save_image(premultiplied(), path);
     CHECK_FALSE(load_alpha(path));
 }

@@ -1,14 +1,10 @@
 // How long limn's queries take in C++, on the mesh and the rays of a file. Run by queries.py.
 //
-// limn_query_rates rays INPUT         nearest hits of all rays, and all hits of rays that have one
-// limn_query_rates move INPUT         10,000 instances of the mesh put elsewhere
-// limn_query_rates file INPUT SCENE   the mesh compiled, saved as SCENE, opened, and the file's bytes read
+// limn_query_rates rays INPUT   nearest hits of all rays, and all hits of rays that have one
+// limn_query_rates move INPUT   10,000 instances of the mesh put elsewhere
 //
 // INPUT: counts of vertices, faces and rays as uint64, then float32 vertices, uint32 faces, float32 rays.
 // Prints JSON: seconds that passed, each the least of several rounds.
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -145,36 +141,6 @@ void measure_moves(const Input& input) {
     std::printf("{\"recompile\": %.9g}\n", move.seconds);
 }
 
-// Into memory that is new, as that of a scene is.
-std::size_t read_bytes(const std::string& path) {
-    const int file = open(path.c_str(), O_RDONLY);
-    const off_t end = file < 0 ? -1 : lseek(file, 0, SEEK_END);
-    if (end <= 0 || lseek(file, 0, SEEK_SET) != 0) throw std::runtime_error(path + ": cannot be read");
-    const auto size = static_cast<std::size_t>(end);
-    const auto bytes = std::make_unique_for_overwrite<char[]>(size);
-    std::size_t done = 0;
-    for (ssize_t got = 1; done < size && got > 0; done += static_cast<std::size_t>(std::max<ssize_t>(got, 0)))
-        got = ::read(file, bytes.get() + done, size - done);
-    close(file);
-    if (done != size) throw std::runtime_error(path + ": is cut short");
-    return size;
-}
-
-void measure_file(const Input& input, const std::string& path) {
-    const auto mesh = std::make_shared<Mesh>(input.mesh, nullptr);
-    compile_mesh(mesh).save(path);
-    Least making, opening, reading;
-    std::size_t bytes = 0;
-    for (int round = 0; round < kRounds; ++round) {
-        making.of([&] { compile_mesh(mesh); });
-        reading.of([&] { bytes = read_bytes(path); });
-        opening.of([&] { CompiledScene::load(path); });
-    }
-    std::printf(R"({"triangles": %zu, "bytes": %zu, "compile": %.9g, "open": %.9g, "read": %.9g})"
-                "\n",
-                input.mesh.triangles.size(), bytes, making.seconds, opening.seconds, reading.seconds);
-}
-
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -183,10 +149,8 @@ int main(int count, char** arguments) try {
         measure_rays(read_input(words[1]));
     } else if (words.size() == 2 && words[0] == "move") {
         measure_moves(read_input(words[1]));
-    } else if (words.size() == 3 && words[0] == "file") {
-        measure_file(read_input(words[1]), words[2]);
     } else {
-        std::fputs("usage: limn_query_rates rays|move INPUT | file INPUT SCENE\n", stderr);
+        std::fputs("usage: limn_query_rates rays|move INPUT\n", stderr);
         return 2;
     }
     return 0;

@@ -76,7 +76,7 @@ void check_writable(const std::string& path);
 /// \throws FileError naming the file: missing, no picture (and what it appears to be), broken off, a wrong checksum
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
-/// The same from the bytes of a PNG, JPEG, HDR, BMP or TGA file, which messages call `name`.
+/// The same from the bytes of a file, which messages call `name`.
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
@@ -84,7 +84,7 @@ Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding
 /// if it has no channel A; no JPEG, HDR and few BMP have one. Checked and refused as by load_image.
 std::optional<Image> load_alpha(const std::string& path);
 
-/// The same from the bytes of a file that load_image_from_memory reads.
+/// The same from the bytes of a file, which messages call `name`.
 std::optional<Image> load_alpha_from_memory(std::span<const std::byte> bytes,
                                             const std::string& name = "image in memory");
 
@@ -100,14 +100,18 @@ struct ImageInfo {
     int height = 0;                      ///< in pixels
     std::vector<ImageChannel> channels;  ///< in the order of the file
     std::optional<PartOf> part_of{};     ///< of an EXR whose data window is not its display window
+    /// The text facts of a picture that save_image wrote, in no particular order.
+    std::vector<std::pair<std::string, std::string>> facts{};
 };
 
 /// Reads size and channels, all of them, and decodes no pixels.
 /// \throws FileError as load_image, but for what only pixels tell
 ImageInfo load_image_info(const std::string& path);
 
-/// The text facts in the header of a picture that save_image wrote, in no particular order.
-/// \throws FileError as load_image_info
+/// The same from the bytes of a file, which messages call `name`.
+ImageInfo load_image_info_from_memory(std::span<const std::byte> bytes, const std::string& name = "image in memory");
+
+/// ImageInfo::facts of a picture. \throws FileError as load_image_info
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn

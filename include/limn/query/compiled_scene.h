@@ -30,7 +30,7 @@ struct SceneStats {
     std::uint64_t stored_primitives = 0;  ///< instanced ones counted once
     std::uint64_t degenerate = 0;         ///< stored triangles of exactly zero area, which nothing can hit
     std::uint64_t lights = 0;             ///< emitters that can be sampled
-    double seconds = 0;                   ///< that compiling, or loading, took
+    double seconds = 0;                   ///< that compiling took
 };
 
 /// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
@@ -144,13 +144,6 @@ public:
     /// it; empty for what is of no model or no material of it. Valid as long as the scene. \pre as for surface_at
     std::string_view material_name(const RayHit& hit) const;
 
-    /// Writes the scene to a file, whole or not at all. \throws ArgumentError, which names the kind, if it has
-    /// user-defined objects; FileError
-    void save(const std::string& path) const;
-    /// The scene in a file that `save` wrote, in about the time that reading takes.
-    /// \throws FileError if there is none, it is damaged or cut short, or of another format or layout of tables
-    static CompiledScene load(const std::string& path);
-
     const SceneStats& stats() const { return stats_; }  ///< counts and sizes
     /// What is compiled in, separated by spaces: "sphere quad mesh instance moving-instance foreign-shape texture ..."
     const std::string& features() const;
@@ -169,19 +162,11 @@ private:
     SceneStats stats_;
 };
 
-/// Deprecated, and without effect: all trees are built alike. It leaves with the next version.
-enum class BuildQuality : std::uint8_t { medium, high };
-
-/// What `compile` may be told.
-struct CompileSettings {
-    BuildQuality quality = BuildQuality::medium;  ///< deprecated, without effect
-};
-
-/// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene and settings give the same
-/// tables. \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
+/// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene gives the same tables.
+/// \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
 /// contains a medium, a NormalMap or an AlphaMask stands around another of its kind, there are too many primitives, or
 /// the background is negative or not finite
-CompiledScene compile(const Scene& scene, const CompileSettings& settings = {});
+CompiledScene compile(const Scene& scene);
 
 /// Makes of a compiled scene what `compile` makes of its description with some Instances elsewhere. The trees of what
 /// is instanced stay; that over the objects, the lights and the media are made anew. So what a program moves often
