@@ -60,7 +60,8 @@ def cell_text(measure, column, cell):
     """Returns what is not 0 of a cell."""
     if not cell["asked"]:
         return "–"
-    parts = [f"{cell[key]:,} {'wrong' if measure == 'queries' else key.replace('_', ' ')}" for key in WRONG if cell[key]]
+    name = lambda key: "wrong" if measure == "queries" else key.replace("_", " ")
+    parts = [f"{cell[key]:,} {name(key)}" for key in WRONG if cell[key]]
     parts += [f"{cell[key]:.2g} {unit}" for key, unit in (("t_ulps", "ulps of t"), ("uv_ulps", "ulps of u, v"))
               if cell[key]]
     if measure == "furnace":
@@ -117,10 +118,12 @@ def main():
     found = faults(groups)
     rays = sum(row["rays"] for group in groups for row in group["rows"])
     parts = [f"{rays:,} rays, each judged by exact arithmetic. Embree: {measured[0]['embree'] or 'not installed'}. "
-             "Cells say how many of the rays were answered wrong, and the largest errors of the other answers in float32 "
-             "ulps; furnaces the relative deviation of the mean ± its standard error.",
+             "A cell says how many rays were answered wrong, and the largest errors of the other answers in float32 "
+             "ulps. That of a furnace says the relative deviation of the mean ± its standard error.",
              f"**limn is wrong in {len(found)} cells.**" if found else "**limn is wrong nowhere.**", *found]
-    write("accuracy", "Accuracy", head, groups, "\n\n".join(parts + [part for one in groups for part in section(one)]))
+    for group in groups:
+        parts += section(group)
+    write("accuracy", "Accuracy", head, groups, "\n\n".join(parts))
     kept.forget()
     for fault in found:
         print(f"accuracy: {fault}", file=sys.stderr)

@@ -23,9 +23,10 @@ SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
 GROWTH = {"sphere": 2e6, "soup": 1e6}  # triangles with --scale 1
 BATCHES = {"limn batch 1": 1, "limn batch 8": 8, "limn batch 64": 64, "limn batch": 4096, "limn batch 65536": 65536}
 RATIOS = (("limn", "Embree"), ("limn", "Embree robust"), ("batch", "best mode"))
-HEAD = """Ratios over 1 say that limn is faster or smaller. They are medians of interleaved rounds with their quartiles;
-in the first table they are geometric means over the kinds of rays. `batch` is the fastest of limn's batches. `best mode`
-is the fastest of Embree's single rays, packets of 4, 8 and 16, and streams (1M, 16M)."""
+PACKAGES = ("numpy", "scipy", "rtree", "pillow", "trimesh", "embreex", "open3d")
+HEAD = """A ratio over 1 says that limn is faster or smaller. Ratios are medians of interleaved rounds, with quartiles.
+In the first table they are geometric means over the kinds of rays. `batch` is the fastest of limn's batches. `best
+mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, streams (1M, 16M)."""
 
 
 def say(*words):
@@ -56,7 +57,7 @@ def ask_peers(*arguments):
                      "--config-settings=cmake.define.LIMN_INSTALLED=ON",
                      f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={raw}/limn", ROOT]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    for command in (*([*pip, package] for package in ("numpy", "scipy", "rtree", "trimesh", "embreex", "open3d")),
+    for command in (*([*pip, package] for package in PACKAGES),
                     ["g++", "-O3", "-DNDEBUG", "-std=c++17", ROOT / "apps/bench/peers/cgal_queries.cpp", "-o",
                      raw / "cgal_queries", "-lgmp", "-lmpfr"]):
         subprocess.run(command)  # what can't be had has no answers
@@ -121,7 +122,7 @@ def ray_tables(scenes):
     """Returns rates; batches over single rays, and limn over limn held to AVX2 if this processor has more; and what all
     threads gain."""
     columns = ["limn", "batch", "Embree", "Embree robust", "best mode"]
-    gains = [pair for pair in (("limn", "AVX2"), ("limn batch", "AVX2 batch")) if subject(scenes[0]["rows"][0], pair[1])]
+    gains = [r for r in (("limn", "AVX2"), ("limn batch", "AVX2 batch")) if subject(scenes[0]["rows"][0], r[1])]
     rates, batches, threads = [], [], []
     most = max(row["threads"] for scene in scenes for row in scene["rows"])
     for (name, row), (_, many) in zip(rows_of(scenes), rows_of(scenes, most)):
@@ -130,7 +131,7 @@ def ray_tables(scenes):
                       *(spread(ray_ratio(row, *r)) for r in RATIOS),
                       number(plain and 1e6 * plain["mismatches"] / row["count"], 0)])
         batches.append([name, *(spread(ray_ratio(row, batch, "limn")) for batch in BATCHES),
-                        *(spread(ray_ratio(row, *pair)) for pair in gains)])
+                        *(spread(ray_ratio(row, *r)) for r in gains)])
         threads.append([name, *(number(rate(row, c) and rate(many, c) / rate(row, c)) for c in columns[:3])])
     return ("## Million rays a second\n\n" + table(["one thread", *columns, "mode", *map(" / ".join, RATIOS),
                                                     "Embree differs, a million"], rates),
@@ -152,38 +153,34 @@ def building(scenes):
          "Embree, bytes each"], rows)
 
 
-def draw_growth(scenes):
+def growth(scenes):
     figure, axis = plt.subplots(figsize=(7, 4.5))
     for kind, style in (("displaced sphere", "o-"), ("soup", "s:")):
         found = [scene for scene in scenes if scene["name"] == kind]
         for color, renderer in (("C0", "limn"), ("C1", "Embree")):
-            rates = [rate(scene["rows"][0], renderer) or 0 for scene in found]
-            axis.loglog([scene["primitives"] for scene in found], rates, style, color=color, label=f"{kind}, {renderer}")
+            axis.loglog([scene["primitives"] for scene in found], [rate(s["rows"][0], renderer) or 0 for s in found],
+                        style, color=color, label=f"{kind}, {renderer}")
     axis.set(xlabel="triangles", ylabel="million primary rays a second")
     axis.legend()
     figure.savefig(RESULTS / "bench-growth.svg")
-
-
-def growth(scenes):
-    draw_growth(scenes)
     named = [{**scene, "name": f"{scene['name']}, {scene['primitives']:,}"} for scene in scenes]
     return "# Growth with the scene", "![growth](bench-growth.svg)", building(named), ray_tables(named)[0]
 
 
 def query_tables(results):
-    """Returns wrong answers and rates. limn answers each question by the interface of the others."""
+    """Returns wrong answers and rates. limn answers each question by the interface of another library."""
     text = lambda x: "–" if x is None else f"{x:,.0f}" if x >= 100 else f"{x:.3g}"
-    wrong, rates = [], []
-    for mesh, found in results.items():
-        found = {library: found[library] or {"wrong": {}, "rates": {}} for library in found}
-        wrong += [[f"{mesh}, {kind}", *(" / ".join(map(text, one["wrong"].get(kind, [None]))) for one in found.values())]
-                  for kind in found["limn.open3d"]["wrong"]]
-        for question in found["limn.open3d"]["rates"] | found["limn.trimesh"]["rates"]:
-            rates.append([f"{mesh}, {question}", *(text(one["rates"].get(question)) for one in found.values())])
-    libraries = list(next(iter(results.values())))
-    return ("## Queries: wrong answers in a million\n\nNearest hits / counts of hits whose parity contradicts whether the "
-            "origin is inside. By trimesh's interface each triangle at an edge counts.\n\n" + table(["rays", *libraries], wrong),
-            "## Queries: million rays or points a second\n\n" + table(["question, threads", *libraries], rates))
+    tables, libraries = {"wrong": [], "rates": []}, list(next(iter(results.values())))
+    for mesh, answers in results.items():
+        for what, rows in tables.items():
+            found = [one[what] if one else {} for one in answers.values()]
+            for question in dict.fromkeys(question for one in found for question in one):
+                cells = ([one.get(question)] if what == "rates" else one.get(question, [None]) for one in found)
+                rows.append([f"{mesh}, {question}", *(" / ".join(map(text, cell)) for cell in cells)])
+    return ("## Queries: wrong answers in a million", "Nearest hits / counts of hits whose parity contradicts whether "
+            "the origin is inside. trimesh's interface counts each triangle at an edge.",
+            table(["rays", *libraries], tables["wrong"]), "## Queries: million rays or points a second",
+            table(["question, threads", *libraries], tables["rates"]))
 
 
 def faults(results):
@@ -192,8 +189,8 @@ def faults(results):
     found += [f"{scene['name']}, {row['rays']}: {row['differences']} rays have other results in batches"
               for scene in results.get("rays", []) for row in scene["rows"] if row["differences"]]
     for mesh, answers in results.get("queries", {}).items():
-        for library, judged in (("limn.open3d", slice(2)), ("limn.trimesh", slice(1))):  # nearest hits and counts
-            if not answers[library] or any(any(wrong[judged]) for wrong in answers[library]["wrong"].values()):
+        for library, judged in (("limn.open3d", 2), ("limn.trimesh", 1)):  # nearest hits and counts; nearest hits
+            if not answers[library] or any(any(wrong[:judged]) for wrong in answers[library]["wrong"].values()):
                 found.append(f"{mesh}: {library} is wrong")
     return found
 

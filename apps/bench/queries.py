@@ -23,7 +23,8 @@ from results import ROOT  # noqa: E402
 
 ROUNDS, LONG = 3, 10  # the least of some rounds, of which none begins after so many seconds
 TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther away
-MOST = {"trimesh": 200, "cgal": 200000}  # rays of slow libraries
+# The most rays or points of slow libraries and questions.
+MOST = {"trimesh": 200, "cgal": 200000, "compute_closest_points": 20000, "compute_signed_distance": 20000}
 ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")
 OPEN3D = ("cast_rays", "test_occlusions", "list_intersections", "count_intersections", *ON_POINTS[:3])
 TRIMESH = ("intersects_first", "intersects_location", "contains_points")
@@ -92,9 +93,9 @@ def wrong(library, mesh, rays, nearest, inside):
 
 def rate(library, mesh, question, threads, rays):
     """Returns million rays or points a second."""
-    ask, seconds, started = tracer(library, *mesh, threads), [], time.perf_counter()
+    ask = tracer(library, *mesh, threads)
     ask(question, *given(library, question, rays[:100]))  # so that what is built on demand is built
-    arguments = given(library, question, rays)
+    arguments, seconds, started = given(library, question, rays), [], time.perf_counter()
     while len(seconds) < ROUNDS and time.perf_counter() - started < LONG:
         begin = time.perf_counter()
         answer = ask(question, *arguments)
@@ -103,11 +104,14 @@ def rate(library, mesh, question, threads, rays):
 
 
 def measure(library, mesh, judged, timed):
-    most = MOST.get(library)
-    asked = [(question, n) for question in QUESTIONS[library] for n in ((1, 0) if library in THREADED else (1,))]
-    return {"wrong": {kind: wrong(library, mesh, *(part[:most] for part in parts)) for kind, parts in judged.items()},
-            "rates": {f"{question}, {n or 'all'}": rate(library, mesh, question, n, timed[:most])
-                      for question, n in asked}}
+    results = {"wrong": {}, "rates": {}}
+    for kind, parts in judged.items():
+        results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
+    for question in QUESTIONS[library]:
+        few = min(MOST.get(key, len(timed)) for key in (library, question))
+        for threads in (1, 0) if library in THREADED else (1,):
+            results["rates"][f"{question}, {threads or 'all'}"] = rate(library, mesh, question, threads, timed[:few])
+    return results
 
 
 def apart(library, *arguments):

@@ -4,6 +4,7 @@ All coordinates are whole multiples of 2^-GRID, so that float32 holds the meshes
 get the same ones.
 """
 
+import importlib
 import sys
 from pathlib import Path
 
@@ -21,12 +22,9 @@ def floats(whole):
     return (whole * 2.0 ** -GRID).astype(np.float32)
 
 
-def read_obj(path):
-    lines = [line.split() for line in open(path)]
-    vertices = [[float(word) for word in words[1:4]] for words in lines if words[:1] == ["v"]]
-    faces = [[int(word.split("/")[0]) for word in words[1:]] for words in lines if words[:1] == ["f"]]
-    triangles = np.array([[f[0], f[i], f[i + 1]] for f in faces for i in range(1, len(f) - 1)])
-    return np.array(vertices), np.where(triangles > 0, triangles - 1, triangles + len(vertices))
+def read_model(path):
+    mesh = importlib.import_module("trimesh").load(path, force="mesh", process=False)
+    return mesh.vertices, mesh.faces
 
 
 def ball_and_ring():
@@ -37,7 +35,7 @@ def ball_and_ring():
 
 def meshes(models):
     """Returns vertices as whole numbers, in the cube from -1 to 1, and faces, by name."""
-    found = {"icosphere": icosphere(6), "voxels": ball_and_ring()} | {path.stem: read_obj(path) for path in models}
+    found = {"icosphere": icosphere(6), "voxels": ball_and_ring()} | {path.stem: read_model(path) for path in models}
     for name, (vertices, faces) in found.items():
         lower, upper = vertices.min(axis=0), vertices.max(axis=0)
         scaled = (vertices.astype(float) - (lower + upper) / 2) * 2 / (upper - lower).max()
