@@ -22,6 +22,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
 GROWTH = {"sphere": 2e6, "soup": 1e6}  # triangles with --scale 1
 BATCHES = {"limn batch 1": 1, "limn batch 8": 8, "limn batch 64": 64, "limn batch": 4096, "limn batch 65536": 65536}
+LIMN_BENCH = (BIN / "limn", "bench", "--quiet", "--json", "-")
 RATIOS = (("limn", "Embree"), ("limn", "Embree robust"), ("batch", "best mode"))
 PACKAGES = ("numpy", "scipy", "rtree", "pillow", "trimesh", "embreex", "open3d")
 HEAD = """A ratio over 1 says that limn is faster or smaller. Ratios are medians of interleaved rounds, with quartiles.
@@ -29,21 +30,13 @@ In the first table they are geometric means over the kinds of rays. `batch` is t
 mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, streams (1M, 16M)."""
 
 
-def say(*words):
-    print("bench:", *words, file=sys.stderr, flush=True)
-
-
 def run_json(*command):
     """Returns what a program prints. Its exit status may say that a result is wrong."""
-    say(*(getattr(word, "name", word) for word in command))
+    print("bench:", *command, file=sys.stderr, flush=True)
     run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
     if run.returncode not in (0, 1) or not run.stdout:
         sys.exit(f"bench: {command[0]} ended with status {run.returncode}")
     return json.loads(run.stdout)
-
-
-def limn_bench(*arguments):
-    return run_json(BIN / "limn", "bench", "--quiet", "--json", "-", *arguments)["scenes"]
 
 
 def ask_peers(*arguments):
@@ -204,14 +197,14 @@ def measure(kept, options, models):
         (2 ** 18, 1, 200, 2000, 10 ** 6, 2e7) if options.full else (2 ** 17, 1, 40, 200, 10 ** 6, 2e6))
     if scenes or models:
         named = [word for name in scenes for word in ("--scene", name)]
-        results["rays"] = kept("rays", lambda: limn_bench(*named, *models, "--scale", scale, "--rays", rays,
-                                                          "--rounds", 9))
+        results["rays"] = kept("rays", lambda: run_json(*LIMN_BENCH, *named, *models, "--scale", scale, "--rays",
+                                                        rays, "--rounds", 9)["scenes"])
         results["truth"] = kept("truth", lambda: run_json(BIN / "limn_bench_truth", scale, min(rays, 65536), judged,
                                                           *scenes, *models))
     if "growth" in chosen:
-        results["growth"] = [kept(f"{scene} {n}", lambda: limn_bench(
-            "--scene", scene, "--scale", n / whole, "--rays", min(rays, 65536), "--rounds", 3, "--build-rounds", 3,
-            "--threads", 1, "--kind", "primary", "--kind", "diffuse1")[0])
+        results["growth"] = [kept(f"{scene} {n}", lambda: run_json(
+            *LIMN_BENCH, "--scene", scene, "--scale", n / whole, "--rays", min(rays, 65536), "--rounds", 3,
+            "--build-rounds", 3, "--threads", 1, "--kind", "primary", "--kind", "diffuse1")["scenes"][0])
             for scene, whole in GROWTH.items() for n in (1e3, 1e4, 1e5, 5e5, 2e6, 5e6, 2e7) if n <= most]
     if "queries" in chosen:
         results["queries"] = kept("queries", lambda: ask_peers(asked, timed, *models))
@@ -247,7 +240,7 @@ def main():
     write("bench", "Rays and queries", head, results, "\n\n".join(parts))
     kept.forget()
     for fault in found:
-        say(fault)
+        print(f"bench: {fault}", file=sys.stderr)
     return 1 if found else 0
 
 

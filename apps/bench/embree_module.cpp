@@ -40,7 +40,6 @@ public:
             to.dir_x[k] = f(from.direction.x), to.dir_y[k] = f(from.direction.y), to.dir_z[k] = f(from.direction.z);
             to.tnear[k] = f(from.t_min), to.tfar[k] = f(from.t_max);
             to.mask[k] = 0xffffffff;
-            to.id[k] = static_cast<unsigned>(i);
         }
     }
 
