@@ -1,93 +1,133 @@
-"""The accuracy report: docs/accuracy.md and its plots.
+"""How often intersections are wrong, in limn and in others, group by group.
 
-Runs limn_accuracy, table by table (the raw numbers: build/accuracy/*.json), and the hard cases of the suite with more
-rays than the suite has: a tenth of what they name, with --full all. Interrupted, it goes on where it was. Exit status 0
-only if limn is wrong nowhere; the report is written in any case.
-
-Needs limn's programs in build/release/bin and matplotlib. Run through ./build.sh accuracy [--full].
+Run through ./build.sh accuracy. Writes build/results/accuracy.json and accuracy.html. The exit status is 1 if limn is
+wrong anywhere. An interrupted run goes on where it was. docs/accuracy.md says what the groups ask.
 """
 
 import argparse
 import json
-import os
 import subprocess
 import sys
-import time
-from concurrent.futures import ThreadPoolExecutor
 
-import accuracy_plots
-import accuracy_tables
-from machine import ROOT
-from reports import Kept, origin, write
+import matplotlib
 
-BIN = ROOT / "build/release/bin"
-RAW = ROOT / "build/accuracy"
+from results import BIN, RESULTS, Kept, origin, table, write
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
 GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "instances", "leaving", "far-origins",
           "bad-rays", "furnace", "queries")
-# Rays a row, and rays a row of leaks: with --full 1.2e8 through the twelve rows of closed meshes together. 1e8 in each
-# would take two hours of two cores.
-RAYS = {False: ("250000", "1000000"), True: ("1000000", "10000000")}
+LIMIT_ULPS = 1
+LIMIT_FURNACE = 1e-3
+DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut and nothing ends by chance
+WRONG = ("false_hits", "false_misses", "self_hits", "lost", "aborts")
+# Rays a row, and rays a row of leaks. 1e8 in each row of leaks would take two hours of two cores.
+RAYS = {"quick": ("500", "3000"), "usual": ("250000", "1000000"), "full": ("1000000", "10000000")}
 
 
-def measure(group, full):
-    rays, leak_rays = RAYS[full]
+def measure(group, effort):
+    rays, leak_rays = RAYS[effort]
     run = subprocess.run([BIN / "limn_accuracy", group, "--rays", rays, "--leak-rays", leak_rays],
-                         stdout=subprocess.PIPE, text=True)
+                         stdout=subprocess.PIPE)
     if run.returncode != 0:
         sys.exit(f"accuracy: limn_accuracy {group} ended with status {run.returncode}")
-    (RAW / f"{group}.json").write_text(run.stdout)
     return json.loads(run.stdout)
 
 
-def hard_cases(full, kept):
-    """Every case of tests/hard in a process of its own: name, passed, seconds. None where there is no such program."""
-    program = BIN / "test_hard"
-    if not program.exists():
-        return None
-    environment = dict(os.environ, **{"LIMN_FULL" if full else "LIMN_ACCURACY": "1"})
-    names = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True).stdout.splitlines()
+def is_wrong(measure, column, cell):
+    if measure == "furnace":
+        return (column == DEEP and abs(cell["figure"]) > LIMIT_FURNACE or
+                column == "unlimited" and abs(cell["figure"]) > LIMIT_FURNACE + 4.5 * cell["figure_error"])
+    # An error that is infinite or NaN is not within the limits.
+    return column.startswith("limn") and (any(cell[key] for key in WRONG) or not cell["t_ulps"] <= LIMIT_ULPS
+                                          or not cell["uv_ulps"] <= LIMIT_ULPS)
 
-    def run(name):
-        started = time.monotonic()
-        pattern = "".join("\\" + c if c in "\\,[" else c for c in name)
-        done = subprocess.run([program, pattern, "--warn", "NoTests"], env=environment, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
-        seconds = time.monotonic() - started
-        if done.returncode != 0:
-            print(done.stdout, file=sys.stderr)
-        print(f"accuracy: hard case '{name}': {seconds:.0f} s", file=sys.stderr, flush=True)
-        return {"case": name, "passed": done.returncode == 0, "seconds": seconds}
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return list(pool.map(lambda name: kept(f"hard case: {name}", lambda: run(name), lambda case: case["passed"]),
-                             [name.strip() for name in names if name.strip()]))
+def faults(groups):
+    """Returns a line for each row that was not judged in full, and for each cell of limn that is wrong."""
+    found = []
+    for group in groups:
+        for row in group["rows"]:
+            if row["rays"] != row["judged"]:
+                found.append(f"{group['group']}: {row['case']}: {row['rays']} rays, {row['judged']} judged")
+            found += [f"{group['group']}: {row['case']}: {column}" for column, cell in
+                      zip(group["columns"], row["cells"]) if is_wrong(group["measure"], column, cell)]
+    return found
+
+
+def cell_text(measure, column, cell):
+    """Returns what is not 0 of a cell."""
+    if not cell["asked"]:
+        return "–"
+    name = lambda key: "wrong" if measure == "queries" else key.replace("_", " ")
+    parts = [f"{cell[key]:,} {name(key)}" for key in WRONG if cell[key]]
+    parts += [f"{cell[key]:.2g} {unit}" for key, unit in (("t_ulps", "ulps of t"), ("uv_ulps", "ulps of u, v"))
+              if cell[key]]
+    if measure == "furnace":
+        parts.append(f"{cell['figure']:+.1e} ± {cell['figure_error']:.0e}")
+    if measure == "bad" and cell["figure"]:
+        parts.append(f"time × {cell['figure']:.2g}")
+    text = ", ".join(parts) or "0"
+    return f"**{text}**" if is_wrong(measure, column, cell) else text
+
+
+def section(group):
+    rows = [[row["case"], f"{row['rays']:,}",
+             *(cell_text(group["measure"], column, cell) for column, cell in zip(group["columns"], row["cells"]))]
+            for row in group["rows"]]
+    parts = [f"## {group['group']}", table(["case", "rays", *group["columns"]], rows)]
+    if group["group"] == "leaks":
+        draw_leaks(group)
+        parts.append("![leaks over the distance from the origin](accuracy-leaks.svg)")
+    return parts
+
+
+def draw_leaks(group):
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    for axis, kind in zip(axes, ("vertices", "edges")):
+        for k, column in enumerate(group["columns"]):
+            for body, style in (("icosphere", "o-"), ("bumpy ball", "s:")):
+                rows = [row for row in group["rows"] if row["case"].startswith(body) and row["case"].endswith(kind)]
+                rates = [1e6 * row["cells"][k]["false_misses"] / row["cells"][k]["asked"] for row in rows]
+                axis.plot([f"{row['x']:g}" for row in rows], rates, style, color=f"C{k}", label=f"{column}, {body}")
+        axis.set_yscale("symlog", linthresh=1)
+        axis.set(xlabel="distance from the origin along each axis", title=f"aimed at {kind}")
+        axis.grid(True, alpha=0.3)
+    axes[0].set_ylabel("leaks a million rays")
+    axes[0].legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(RESULTS / "accuracy-leaks.svg")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--full", action="store_true",
-                        help="1e7 rays a row of leaks, 1e6 in others, and all rays of the hard cases: an hour more")
-    full = parser.parse_args().full
-    RAW.mkdir(parents=True, exist_ok=True)
-    head = origin("accuracy", "./build.sh accuracy" + (" --full" if full else ""))
-    kept = Kept(RAW / "kept.json", sources=head["sources"], full=full)
-    head = kept("head", lambda: head)
-
-    results = [kept(name, lambda: measure(name, full)) for name in GROUPS]
-    groups = [result["groups"][0] for result in results]
-    cases = hard_cases(full, kept)
-
-    faults = accuracy_tables.faults(groups)
-    faults += [f"hard cases: {c['case']}" for c in cases or [] if not c["passed"]]
-    head = {**head, "faults": len(faults), "compiler": results[0]["compiler"], "embree": results[0]["embree"], "minutes": kept.minutes()}
-    accuracy_plots.draw(groups, ROOT / "docs/accuracy")
-    write("accuracy", accuracy_tables.report(head, groups, cases, full, faults))
-    if not faults:
-        kept.forget()
-    for fault in faults:
+    parser = argparse.ArgumentParser(prog="./build.sh accuracy", description=__doc__.splitlines()[0])
+    parser.add_argument("--full", dest="effort", action="store_const", const="full", default="usual",
+                        help="1e7 rays a row of leaks and 1e6 in others: an hour")
+    parser.add_argument("--quick", dest="effort", action="store_const", const="quick",
+                        help="few rays, to see that all works")
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"what to measure (all): {', '.join(GROUPS)}")
+    options = parser.parse_args()
+    if unknown := set(options.groups) - set(GROUPS):
+        parser.error(f"there is no group {', '.join(unknown)}")
+    head = origin(" ".join(["./build.sh accuracy", *sys.argv[1:]]))
+    kept = Kept("accuracy", **head)
+    measured = [kept(name, lambda: measure(name, options.effort)) for name in options.groups or GROUPS]
+    groups = [one["groups"][0] for one in measured]
+    found = faults(groups)
+    rays = sum(row["rays"] for group in groups for row in group["rows"])
+    parts = [f"{rays:,} rays, each judged by exact arithmetic. Embree: {measured[0]['embree'] or 'not installed'}. "
+             "A cell says how many rays were answered wrong, and the largest errors of the other answers in float32 "
+             "ulps. That of a furnace says the relative deviation of the mean ± its standard error.",
+             f"**limn is wrong in {len(found)} cells.**" if found else "**limn is wrong nowhere.**", *found]
+    for group in groups:
+        parts += section(group)
+    write("accuracy", "Accuracy", head, groups, "\n\n".join(parts))
+    kept.forget()
+    for fault in found:
         print(f"accuracy: {fault}", file=sys.stderr)
-    print(f"docs/accuracy.md: {len(faults)} faults", file=sys.stderr)
-    return 1 if faults else 0
+    return 1 if found else 0
 
 
 if __name__ == "__main__":

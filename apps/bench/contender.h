@@ -1,10 +1,8 @@
 /// \file
-/// The renderers that are measured: limn, and the peers of modules (see peer_module.h).
+/// The renderers that are measured: limn, and those of modules.
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +11,7 @@
 
 namespace limn::bench {
 
-// The result of a ray. For any-hit rays t alone counts: 0 for a hit.
+// The result of a ray. A ray that only asks whether there is a hit has t = 0 for a hit, and nothing else.
 struct Answer {
     double t = kInfinity;  // a miss
     double u = 0, v = 0;
@@ -21,43 +19,37 @@ struct Answer {
     bool operator==(const Answer&) const = default;
 };
 
-// One way to trace rays in a built scene. What is measured is trace(): from rays that are ready in memory, in whatever
-// form suits, to results in memory.
+// One way to trace rays in a built scene. Only trace() is timed: it reads rays that prepare() has put into memory in
+// the form that suits the renderer, and leaves results in memory.
 class Subject {
 public:
-    explicit Subject(std::string name, std::size_t chunk = 4096) : name_(std::move(name)), chunk_(chunk) {}
+    explicit Subject(std::string subject_name) : name(std::move(subject_name)) {}
     virtual ~Subject() = default;
-    Subject(const Subject&) = delete;
-    Subject& operator=(const Subject&) = delete;
-
-    const std::string& name() const { return name_; }
-    std::size_t chunk() const { return chunk_; }  // how many rays it likes to be given at a time
-
-    virtual void prepare(const RaySet& set) = 0;  // `set` stays until the next
-    // Several threads may do so for parts that do not overlap; `first` is a multiple of 64.
+    virtual void prepare(const RaySet& set) = 0;  // `set` lives until the next call
+    // Several threads may trace parts that do not overlap. `first` is a multiple of 64.
     virtual void trace(std::size_t first, std::size_t count) = 0;
     virtual Answer answer(std::size_t i) const = 0;
 
-private:
-    std::string name_;
-    std::size_t chunk_;
+    const std::string name;
 };
 
-class BuiltScene {
-public:
-    virtual ~BuiltScene() = default;
-    virtual double seconds() const = 0;     // that building took, by the clock that build() was given
-    virtual std::size_t bytes() const = 0;  // that it holds, the arrays that it shares with the geometry included
-    virtual std::vector<std::unique_ptr<Subject>> subjects() const = 0;  // valid as long as this
+// A scene that a contender has built. The subjects keep it alive.
+struct BuiltScene {
+    double seconds = 0;     // time of building
+    std::size_t bytes = 0;  // memory of the scene, including arrays that it shares with the geometry
+    std::vector<std::unique_ptr<Subject>> subjects;  // single rays first
 };
 
-class Contender {
-public:
-    virtual ~Contender() = default;
-    virtual std::string name() const = 0;
-    virtual std::string version() const = 0;
-    // \param geometry stays as long as the scene
-    virtual std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const = 0;
+struct Contender {
+    std::string name, version;
+    BuiltScene (*build)(const Geometry& geometry, Clock clock);  // the geometry outlives the scene
 };
+BuiltScene build_limn(const Geometry& geometry, Clock clock);
+
+// limn, and the contenders of the module limn_bench_embree (common/module.h). `notes` says why one is missing.
+std::vector<Contender> load_contenders(std::vector<std::string>& notes);
+
+// The type of a module's limn_module.
+using AddContenders = void(std::vector<Contender>&);
 
 }  // namespace limn::bench

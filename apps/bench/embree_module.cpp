@@ -1,11 +1,14 @@
 // Embree as a contender, in a module that `limn bench` loads if it is installed.
 #include <embree3/rtcore.h>
+#include <immintrin.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
+#include <numeric>
 
-#include "bench/embree_subjects.h"
-#include "bench/peer_module.h"
+#include "bench/contender.h"
 #include "limn/core/error.h"
 #include "module.h"
 
@@ -13,130 +16,206 @@ namespace limn::bench {
 
 namespace {
 
+alignas(64) constexpr int kAllLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+
+// Traces packets of kLanes rays (1: single rays), one by one or in streams of 64 rays. Embree writes results in place,
+// so that trace() copies rays. Converting rays into packets is not timed.
+template <int kLanes, bool kStreams>
+class EmbreeSubject final : public Subject {
+public:
+    EmbreeSubject(const std::string& subject_name, std::shared_ptr<RTCSceneTy> scene)
+        : Subject(subject_name), scene_(std::move(scene)) {}
+
+    void prepare(const RaySet& set) override {
+        set_ = &set;
+        packets_.assign((set.rays.size() + kWidth - 1) / kWidth, {});
+        t_.assign(packets_.size(), {});
+        hits_.assign(set.any ? 0 : packets_.size(), {});
+        const auto f = [](double x) { return static_cast<float>(x); };
+        for (std::size_t i = 0; i < packets_.size() * kWidth; ++i) {
+            const limn::Ray& from = set.rays[std::min(i, set.rays.size() - 1)];  // lanes beyond the last ray repeat it
+            RTCRayNt<kLanes>& to = packets_[i / kWidth];
+            const std::size_t k = i % kWidth;
+            to.org_x[k] = f(from.origin.x), to.org_y[k] = f(from.origin.y), to.org_z[k] = f(from.origin.z);
+            to.dir_x[k] = f(from.direction.x), to.dir_y[k] = f(from.direction.y), to.dir_z[k] = f(from.direction.z);
+            to.tnear[k] = f(from.t_min), to.tfar[k] = f(from.t_max);
+            to.mask[k] = 0xffffffff;
+        }
+    }
+
+    void trace(std::size_t first, std::size_t count) override {
+        // Embree expects its callers to flush denormal numbers (FTZ and DAZ). limn must not be measured with that.
+        const unsigned before = _mm_getcsr();
+        _mm_setcsr(before | 0x8040);
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = set_->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        const std::size_t end = (first + count + kWidth - 1) / kWidth;
+        for (std::size_t p = first / kWidth; p < end; p += kPackets) {
+            const std::size_t packets = std::min(kPackets, end - p);
+            alignas(64) Rays rays[kPackets];
+            for (std::size_t k = 0; k < packets; ++k) fill(rays[k], p + k);
+            ask(context, rays, packets);
+            for (std::size_t k = 0; k < packets; ++k) keep(rays[k], p + k);
+        }
+        _mm_setcsr(before);
+    }
+
+    // Only t, as u, v and primitives of peers aren't compared.
+    Answer answer(std::size_t i) const override {
+        const std::size_t p = i / kWidth, k = i % kWidth;
+        const double t = static_cast<double>(t_[p][k]);
+        if (set_->any) return {.t = t < 0 ? 0 : kInfinity};  // Embree sets tfar = -inf for a hit
+        return {.t = hits_[p].geomID[k] == RTC_INVALID_GEOMETRY_ID ? kInfinity : t};
+    }
+
+private:
+    static constexpr std::size_t kWidth = kLanes;
+    static constexpr std::size_t kPackets = kStreams ? 64 / kWidth : 1;
+
+    using Rays = RTCRayHitNt<kLanes>;
+
+    void fill(Rays& rays, std::size_t packet) const {
+        rays.ray = packets_[packet];
+        if (set_->any) return;
+        std::fill_n(rays.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(rays.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
+    }
+
+    // A packet for any hits is the first part of one for closest hits.
+    void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
+        const RTCScene scene = scene_.get();
+        const bool any = set_->any;
+        if constexpr (kStreams) {
+            const auto n = static_cast<unsigned>(packets);
+            any ? rtcOccludedNM(scene, &context, static_cast<RTCRayN*>(rays), kLanes, n, sizeof(Rays))
+                : rtcIntersectNM(scene, &context, static_cast<RTCRayHitN*>(rays), kLanes, n, sizeof(Rays));
+        } else if constexpr (kLanes == 1) {
+            any ? rtcOccluded1(scene, &context, static_cast<RTCRay*>(rays))
+                : rtcIntersect1(scene, &context, static_cast<RTCRayHit*>(rays));
+        } else if constexpr (kLanes == 4) {
+            any ? rtcOccluded4(kAllLanes, scene, &context, static_cast<RTCRay4*>(rays))
+                : rtcIntersect4(kAllLanes, scene, &context, static_cast<RTCRayHit4*>(rays));
+        } else if constexpr (kLanes == 8) {
+            any ? rtcOccluded8(kAllLanes, scene, &context, static_cast<RTCRay8*>(rays))
+                : rtcIntersect8(kAllLanes, scene, &context, static_cast<RTCRayHit8*>(rays));
+        } else {
+            any ? rtcOccluded16(kAllLanes, scene, &context, static_cast<RTCRay16*>(rays))
+                : rtcIntersect16(kAllLanes, scene, &context, static_cast<RTCRayHit16*>(rays));
+        }
+    }
+
+    void keep(const Rays& rays, std::size_t packet) {
+        std::copy_n(rays.ray.tfar, kWidth, t_[packet].data());
+        if (!set_->any) hits_[packet] = rays.hit;
+    }
+
+    const std::shared_ptr<RTCSceneTy> scene_;
+    const RaySet* set_ = nullptr;
+    std::vector<RTCRayNt<kLanes>> packets_;
+    std::vector<std::array<float, kWidth>> t_;
+    std::vector<RTCHitNt<kLanes>> hits_;  // empty for rays that only ask whether there is a hit
+};
+
 // The memory that Embree holds, as its callback reports it.
 std::atomic<std::ptrdiff_t> bytes_held{0};
-
-bool count_bytes(void* /*user*/, ssize_t bytes, bool /*after*/) {
-    bytes_held += bytes;
-    return true;
-}
 
 RTCDevice device() {
     static const RTCDevice the_device = [] {
         const RTCDevice made = rtcNewDevice("set_affinity=0");
         if (!made) throw Error("Embree does not start");
-        rtcSetDeviceMemoryMonitorFunction(made, count_bytes, nullptr);
+        const auto count = [](void* /*user*/, ssize_t bytes, bool /*after*/) { return bytes_held += bytes, true; };
+        rtcSetDeviceMemoryMonitorFunction(made, count, nullptr);
         return made;
     }();
     return the_device;
 }
 
-class EmbreeScene final : public BuiltScene {
-public:
-    EmbreeScene(const Geometry& geometry, bool robust, std::string name, Clock clock)
-        : name_(std::move(name)), flags_(robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE), scene_(new_scene()) {
-        const std::ptrdiff_t before = bytes_held;
-        // Setting up is not timed, and neither is limn's description. From there on all work is Embree's.
-        RTCScene inner = geometry.mesh && !geometry.places.empty() ? new_scene() : nullptr;
-        if (geometry.mesh) attach_mesh(geometry.mesh->data(), inner ? inner : scene_);
-        if (!geometry.balls.empty()) attach_balls(geometry.balls);
-        if (!geometry.quads.empty()) attach_quads(geometry.quads);
-        for (const Transform& place : geometry.places) attach_instance(inner, place);
-        const Stopwatch watch(clock);
-        for (RTCGeometry g : geometries_) rtcCommitGeometry(g);
-        if (inner) rtcCommitScene(inner);
-        for (RTCGeometry g : instances_) rtcCommitGeometry(g);
-        rtcCommitScene(scene_);
-        seconds_ = watch.seconds();
-        for (RTCGeometry g : geometries_) rtcReleaseGeometry(g);
-        for (RTCGeometry g : instances_) rtcReleaseGeometry(g);
-        if (inner) rtcReleaseScene(inner);  // the instances hold it
-        bytes_ = static_cast<std::size_t>(bytes_held - before) + shared_bytes_;
-        if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw Error("Embree does not build " + geometry.name);
-    }
-    ~EmbreeScene() override { rtcReleaseScene(scene_); }
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
+using ScenePointer = std::shared_ptr<RTCSceneTy>;
 
-    double seconds() const override { return seconds_; }
-    std::size_t bytes() const override { return bytes_; }
-    std::vector<std::unique_ptr<Subject>> subjects() const override { return embree_subjects(name_, scene_); }
+ScenePointer new_scene(RTCSceneFlags flags) {
+    const RTCScene scene = rtcNewScene(device());
+    rtcSetSceneFlags(scene, flags);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    return {scene, rtcReleaseScene};
+}
 
-private:
-    RTCScene new_scene() const {
-        const RTCScene scene = rtcNewScene(device());
-        rtcSetSceneFlags(scene, flags_);
-        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-        return scene;
-    }
+// Hands the geometry over to the scene.
+void attach(const ScenePointer& scene, RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+}
 
-    RTCGeometry new_geometry(RTCGeometryType type, RTCScene scene) {
-        const RTCGeometry geometry = rtcNewGeometry(device(), type);
-        rtcAttachGeometry(scene, geometry);
-        (type == RTC_GEOMETRY_TYPE_INSTANCE ? instances_ : geometries_).push_back(geometry);
-        return geometry;
-    }
+float* new_vertices(RTCGeometry geometry, RTCFormat format, std::size_t floats, std::size_t count) {
+    return static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, format, floats * sizeof(float), count));
+}
 
-    void attach_mesh(const MeshData& mesh, RTCScene scene) {
-        const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE, scene);
-        // Embree reads 16 bytes of the last vertex: an array of its own, which counts as if it were shared.
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3),
-                                                 mesh.vertices.size());
-        std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Float3));
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
-                                   sizeof(Index3), mesh.triangles.size());
-        shared_bytes_ += mesh.triangles.size() * sizeof(Index3);
-    }
+void attach_mesh(const ScenePointer& scene, const MeshData& mesh) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree reads 16 bytes of the last vertex, so that the vertices are copied.
+    std::memcpy(new_vertices(geometry, RTC_FORMAT_FLOAT3, 3, mesh.vertices.size()), mesh.vertices.data(),
+                mesh.vertices.size() * sizeof(Float3));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                               sizeof(Index3), mesh.triangles.size());
+    attach(scene, geometry);
+}
 
-    void attach_balls(const std::vector<Ball>& balls) {
-        const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_SPHERE_POINT, scene_);
-        auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                                               4 * sizeof(float), balls.size()));
-        for (const Ball& ball : balls)
-            for (const double x : {ball.center.x, ball.center.y, ball.center.z, ball.radius})
-                *to++ = static_cast<float>(x);
-    }
+void attach_balls(const ScenePointer& scene, const std::vector<Ball>& balls) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    float* to = new_vertices(geometry, RTC_FORMAT_FLOAT4, 4, balls.size());
+    for (const Ball& ball : balls)
+        for (const double x : {ball.center.x, ball.center.y, ball.center.z, ball.radius}) *to++ = static_cast<float>(x);
+    attach(scene, geometry);
+}
 
-    void attach_quads(const std::vector<Parallelogram>& quads) {
-        const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_QUAD, scene_);
-        auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(Float3), 4 * quads.size()));
-        for (const Parallelogram& q : quads)
-            for (const Point3& p : {q.corner, q.corner + q.edge_u, q.corner + q.edge_u + q.edge_v, q.corner + q.edge_v})
-                for (const double x : {p.x, p.y, p.z}) *to++ = static_cast<float>(x);
-        auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), quads.size()));
-        for (unsigned i = 0; i < 4 * quads.size(); ++i) index[i] = i;
-    }
+void attach_quads(const ScenePointer& scene, const std::vector<Parallelogram>& quads) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_QUAD);
+    float* to = new_vertices(geometry, RTC_FORMAT_FLOAT3, 3, 4 * quads.size());
+    for (const Parallelogram& q : quads)
+        for (const Point3& p : {q.corner, q.corner + q.edge_u, q.corner + q.edge_u + q.edge_v, q.corner + q.edge_v})
+            for (const double x : {p.x, p.y, p.z}) *to++ = static_cast<float>(x);
+    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                                                 4 * sizeof(unsigned), quads.size()));
+    std::iota(index, index + 4 * quads.size(), 0U);
+    attach(scene, geometry);
+}
 
-    void attach_instance(RTCScene inner, const Transform& place) {
-        const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_INSTANCE, scene_);
-        rtcSetGeometryInstancedScene(geometry, inner);
-        float columns[12];
-        for (std::size_t i = 0; i < 12; ++i) columns[i] = static_cast<float>(place.rows[i % 3][i / 3]);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    }
+void attach_instance(const ScenePointer& scene, const ScenePointer& inner, const Transform& place) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, inner.get());
+    float columns[12];
+    for (std::size_t i = 0; i < 12; ++i) columns[i] = static_cast<float>(place.rows[i % 3][i / 3]);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    attach(scene, geometry);
+}
 
-    std::string name_;
-    RTCSceneFlags flags_;
-    RTCScene scene_;
-    std::vector<RTCGeometry> geometries_, instances_;
-    double seconds_ = 0;
-    std::size_t bytes_ = 0, shared_bytes_ = 0;
-};
-
-class EmbreeContender final : public Contender {
-public:
-    explicit EmbreeContender(bool robust) : robust_(robust) {}
-    std::string name() const override { return robust_ ? "Embree robust" : "Embree"; }
-    std::string version() const override { return RTC_VERSION_STRING; }
-    std::unique_ptr<BuiltScene> build(const Geometry& geometry, Clock clock) const override {
-        return std::make_unique<EmbreeScene>(geometry, robust_, name(), clock);
-    }
-
-private:
-    bool robust_;
-};
+template <bool kRobust>
+BuiltScene build(const Geometry& geometry, Clock clock) {
+    constexpr RTCSceneFlags kFlags = kRobust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    const std::ptrdiff_t before = bytes_held;
+    const ScenePointer scene = new_scene(kFlags), inner = geometry.places.empty() ? scene : new_scene(kFlags);
+    if (geometry.mesh) attach_mesh(inner, geometry.mesh->data());
+    if (!geometry.balls.empty()) attach_balls(scene, geometry.balls);
+    if (!geometry.quads.empty()) attach_quads(scene, geometry.quads);
+    for (const Transform& place : geometry.places) attach_instance(scene, inner, place);
+    const Stopwatch watch(clock);  // only Embree's own work is timed
+    if (inner != scene) rtcCommitScene(inner.get());
+    rtcCommitScene(scene.get());
+    BuiltScene built{.seconds = watch.seconds(), .bytes = 0, .subjects = {}};
+    if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw Error("Embree does not build " + geometry.name);
+    built.bytes = static_cast<std::size_t>(bytes_held - before);
+    if (geometry.mesh) built.bytes += geometry.mesh->data().triangles.size() * sizeof(Index3);  // are shared
+    built.subjects.push_back(std::make_unique<EmbreeSubject<1, false>>(kRobust ? "Embree robust" : "Embree", scene));
+    if (kRobust) return built;
+    built.subjects.push_back(std::make_unique<EmbreeSubject<4, false>>("Embree 4", scene));
+    built.subjects.push_back(std::make_unique<EmbreeSubject<8, false>>("Embree 8", scene));
+    built.subjects.push_back(std::make_unique<EmbreeSubject<16, false>>("Embree 16", scene));
+    built.subjects.push_back(std::make_unique<EmbreeSubject<1, true>>("Embree 1M", scene));
+    built.subjects.push_back(std::make_unique<EmbreeSubject<16, true>>("Embree 16M", scene));
+    return built;
+}
 
 }  // namespace
 
@@ -144,6 +223,8 @@ private:
 
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
 
-extern "C" void limn_module(std::vector<std::shared_ptr<const limn::bench::Contender>>& peers) {
-    for (const bool robust : {false, true}) peers.push_back(std::make_shared<limn::bench::EmbreeContender>(robust));
+extern "C" void limn_module(std::vector<limn::bench::Contender>& contenders) {
+    using limn::bench::build;
+    contenders.push_back({.name = "Embree", .version = RTC_VERSION_STRING, .build = build<false>});
+    contenders.push_back({.name = "Embree robust", .version = RTC_VERSION_STRING, .build = build<true>});
 }

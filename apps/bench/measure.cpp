@@ -1,4 +1,4 @@
-#include "bench/measure.h"
+#include "bench/session.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/stopwatch.h"
-
 namespace limn::bench {
 
 namespace {
 
-constexpr double kSameT = 1e-3;  // relative: only what is another surface counts
+constexpr double kSameT = 1e-3;  // relative: a larger difference is another surface
+
+// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
+constexpr double kLeastSeconds = 0.004;
 
 double quantile(const std::vector<double>& sorted, double q) {
     const double place = q * static_cast<double>(sorted.size() - 1);
@@ -21,29 +22,19 @@ double quantile(const std::vector<double>& sorted, double q) {
     return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
-constexpr double kLeastSeconds = 0.004;
-
-// As many as the subject likes, but so few that every thread of several gets some. All packets fit in 64.
-std::size_t chunk_for(const Subject& subject, std::size_t rays, const tbb::task_arena* arena) {
-    if (arena == nullptr) return subject.chunk();
-    const std::size_t share = rays / (8 * static_cast<std::size_t>(arena->max_concurrency())) / 64 * 64;
-    return std::clamp<std::size_t>(share, 64, subject.chunk());
+void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
+    // Every thread gets several parts.
+    const std::size_t share = rays / (8 * static_cast<std::size_t>(arena.max_concurrency())) / 64 * 64;
+    const std::size_t size = std::clamp<std::size_t>(share, 64, 65536);
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, (rays + size - 1) / size,
+                          [&](std::size_t i) { subject.trace(i * size, std::min(size, rays - i * size)); });
+    });
 }
 
-void trace_all(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
-    const std::size_t chunk = chunk_for(subject, rays, arena);
-    const std::size_t chunks = (rays + chunk - 1) / chunk;
-    const auto part = [&](std::size_t i) { subject.trace(i * chunk, std::min(chunk, rays - i * chunk)); };
-    if (arena == nullptr)
-        for (std::size_t i = 0; i < chunks; ++i) part(i);
-    else
-        arena->execute([&] { tbb::parallel_for(std::size_t{0}, chunks, part); });
-}
-
-// Of one pass over the rays.
-double time_of(Subject& subject, std::size_t rays, tbb::task_arena* arena) {
-    const Stopwatch watch(arena == nullptr ? Clock::thread : Clock::wall);
+// Returns the time of one pass over the rays.
+double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
+    const Stopwatch watch(arena.max_concurrency() == 1 ? Clock::thread : Clock::wall);
     for (int passes = 1;; ++passes) {
         trace_all(subject, rays, arena);
         if (const double seconds = watch.seconds(); seconds >= kLeastSeconds) return seconds / passes;
@@ -71,33 +62,28 @@ Spread ratio(const Timing& a, const Timing& b) {
 }
 
 std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
-                            int rounds, const KeepGoing& keep_going) {
-    std::unique_ptr<tbb::task_arena> arena;
-    if (threads > 1) arena = std::make_unique<tbb::task_arena>(threads);
+                            int rounds, const std::function<bool()>& keep_going) {
+    tbb::task_arena arena(threads);
     const std::size_t rays = set.rays.size();
     std::vector<Timing> timings;
     for (const auto& subject : subjects) {
         subject->prepare(set);
-        trace_all(*subject, rays, arena.get());
-        timings.push_back({.subject = subject->name(), .seconds = {}, .mismatches = 0});
-        for (std::size_t i = 0; i < rays; ++i)
-            if (!agrees(subjects.front()->answer(i), subject->answer(i))) ++timings.back().mismatches;
+        trace_all(*subject, rays, arena);
+        Timing& timing = timings.emplace_back(Timing{.subject = subject->name});
+        for (std::size_t i = 0; i < rays; ++i) {
+            const Answer expected = subjects.front()->answer(i), found = subject->answer(i);
+            timing.mismatches += agrees(expected, found) ? 0 : 1;
+            timing.differences += expected == found ? 0 : 1;
+        }
         if (!keep_going()) return timings;
     }
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t s = 0; s < subjects.size(); ++s) {
-            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena.get()));
+            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena));
             if (!keep_going()) return timings;
         }
     }
     return timings;
-}
-
-std::size_t differences(const Subject& a, const Subject& b, std::size_t rays) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < rays; ++i)
-        if (!(a.answer(i) == b.answer(i))) ++count;
-    return count;
 }
 
 }  // namespace limn::bench

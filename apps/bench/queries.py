@@ -1,145 +1,142 @@
-#!/usr/bin/env python3
-"""queries.py [--full] [MODEL.obj ...]: wrong answers and speeds of limn, embreex, Open3D, trimesh and CGAL.
+"""queries.py RAYS TIMED MODEL ...: wrong answers and speeds of limn and of other libraries, as JSON.
 
-Writes the tables of docs/queries.md, of meshes that are made here and of the models, all on the same rays. The
-libraries come from PyPI into build/query-peers and run in processes of their own, CGAL in a program that is built here;
-one that cannot be had is named as missing. What has been measured is kept in build/queries until the sources change, so
-that an interrupted run goes on where it was.
+Is run by bench.py in an environment with these libraries. Judges the answers to RAYS rays of each kind. Takes the time
+of TIMED rays or points. A library that fails or isn't installed has null.
 """
 
-import hashlib
+import importlib
+import json
+import multiprocessing
+import os
+import subprocess
 import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-import queries_peers as peers  # first: it tells numpy's library about threads
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: its products here are small
 
-import numpy as np
+import numpy as np  # noqa: E402
 
-import queries_rays
-import queries_tables as tables
-import reports
+from query_truth import KINDS, floats, make_rays, meshes, truth  # noqa: E402
+from results import ROOT  # noqa: E402
 
-FEW, MANY = 200, 2000  # rays of each kind; --full: many
-MOST = {"trimesh": 200}  # that are asked of one
-TIMED, TIMED_TRIMESH, TIMED_CPP = 1000000, 200, 200000  # rays: from Python, of trimesh's own, in C++
-TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther
+ROUNDS, LONG = 3, 10  # the least of some rounds, of which none begins after so many seconds
+TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther away
+# The most rays or points of slow libraries and questions.
+MOST = {"trimesh": 200, "cgal": 200000, "compute_closest_points": 20000, "compute_signed_distance": 20000}
+ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")
+OPEN3D = ("cast_rays", "test_occlusions", "list_intersections", "count_intersections", *ON_POINTS[:3])
+TRIMESH = ("intersects_first", "intersects_location", "contains_points")
+MODULES = {"limn.open3d": "limn.open3d", "open3d": "open3d", "limn.trimesh": "limn.trimesh",
+           "embreex": "trimesh.ray.ray_pyembree", "trimesh": "trimesh.ray.ray_triangle"}
+QUESTIONS = {"limn.open3d": OPEN3D, "open3d": OPEN3D, "limn.trimesh": TRIMESH, "embreex": TRIMESH, "trimesh": TRIMESH,
+             "cgal": ("cast_rays",)}
+THREADED = ("limn.open3d", "open3d", "limn.trimesh")
 
 
-def wrong(answer, nearest, inside):
-    """Wrong answers a million: of nearest hits, and of counts whose parity does not tell inside; None: no truth."""
-    met = np.isfinite(nearest)
-    t = np.asarray(answer["t"], float)
+def tracer(library, vertices, faces, threads):
+    """Returns a function that answers a question."""
+    if library == "cgal":
+        return lambda question, rays: ask_cgal(vertices, faces, rays)
+    module = importlib.import_module(MODULES[library])
+    if library.endswith("open3d"):
+        scene = module.t.geometry.RaycastingScene(threads)
+        scene.add_triangles(vertices, faces.astype(np.uint32))
+        return lambda question, *given: getattr(scene, question)(*given, nthreads=threads)
+    mesh = importlib.import_module("trimesh").Trimesh(vertices.astype(float), faces, process=False)
+    scene = module.RayMeshIntersector(mesh, **({"threads": threads} if library == "limn.trimesh" else {}))
+    once = {"intersects_location": {"multiple_hits": False}}
+    return lambda question, *given: getattr(scene, question)(*given, **once.get(question, {}))
+
+
+def given(library, question, rays):
+    """Returns the arguments of a question. Points are those that the rays aim at."""
+    if question in ON_POINTS:
+        return [rays[:, :3] + rays[:, 3:]]
+    return np.split(rays.astype(float), 2, axis=1) if "trimesh" in MODULES.get(library, "") else [rays]
+
+
+def ask_cgal(vertices, faces, rays):
+    """Returns t, counts, and the seconds that CGAL's program took for t."""
+    source, sizes = ROOT / "build/queries/input", [len(vertices), len(faces), len(rays)]
+    np.concatenate([sizes, vertices.ravel(), faces.ravel(), rays.ravel()]).tofile(source, sep=" ", format="%.9g")
+    done = subprocess.run([ROOT / "build/queries/cgal_queries", source], stdout=subprocess.PIPE, check=True, text=True)
+    seconds, *found = np.array(done.stdout.split(), float)
+    return np.array(found[::2]), np.array(found[1::2]), seconds
+
+
+def answers(library, mesh, rays):
+    """Returns t of the nearest hits, inf for none, and counts of hits."""
+    ask = tracer(library, *mesh, 0)
+    if library == "cgal":
+        return ask("", rays)[:2]
+    if library.endswith("open3d"):
+        return ask("cast_rays", rays)["t_hit"].numpy(), ask("count_intersections", rays).numpy()
+    origins, ways = given(library, "intersects_location", rays)
+    locations, index, _ = ask("intersects_location", origins, ways)
+    t = np.full(len(rays), np.inf)
+    t[index] = ((locations - origins[index]) * ways[index]).sum(axis=1) / (ways[index] ** 2).sum(axis=1)
+    return t, np.bincount(ask("intersects_id", origins, ways)[1], minlength=len(rays))
+
+
+def wrong(library, mesh, rays, nearest, inside):
+    """Returns wrong answers a million: of nearest hits, and of counts whose parity contradicts `inside`, which is null
+    if no origin has a truth."""
+    t, counts = answers(library, mesh, rays)
+    met, known = np.isfinite(nearest), inside >= 0
     with np.errstate(invalid="ignore"):
         bad = (np.isfinite(t) != met) | (met & (np.abs(t - nearest) > TOLERANCE * np.abs(nearest)))
-    known = inside >= 0
-    odd = np.asarray(answer["counts"])[known].astype(np.int64) % 2
-    return [1e6 * bad.mean(), 1e6 * (odd != inside[known]).mean() if known.any() else None]
+    odd = counts[known].astype(np.int64) % 2
+    return [1e6 * float(bad.mean()), 1e6 * float((odd != inside[known]).mean()) if known.any() else None]
 
 
-class Measured:
-    def __init__(self, models, missing, count):
-        self.count, self.missing = count, missing
-        key = hashlib.sha256(b"".join(path.read_bytes() for path in models)).hexdigest()
-        self.kept = reports.Kept(peers.RAW / "kept.json", sources=reports.digest(reports.report_of("queries").sources),
-                                 models=key, count=count)
-        self.meshes = queries_rays.meshes(models)
-        self.timed = self.meshes[[name for name, _, _ in self.meshes].index(queries_rays.KNOT):]
-        self.libraries = [name for name in tables.NAMES if name not in missing]
-
-    def truth(self, name, vertices, faces, kind, rays):
-        peers.say(f"{name}, {kind}: exact")
-        measure = lambda: [part.tolist() for part in queries_rays.truth(vertices, faces, rays,
-                                                                        queries_rays.is_closed(vertices, faces))]
-        return [np.array(part) for part in self.kept(f"truth {name} {kind}", measure)]
-
-    def wrong(self, name, vertices, faces, kind):
-        """For each library what `wrong` says."""
-        rays = queries_rays.make_rays(kind, vertices, faces, self.count, 7)
-        nearest, inside = self.truth(name, vertices, faces, kind, rays)
-        found = {}
-        for library in self.libraries:
-            count = min(MOST.get(library, len(rays)), len(rays))
-
-            def measure():
-                answer = peers.ask(library, 0, vertices, faces, rays[:count])
-                return answer and wrong(answer, nearest[:count], inside[:count])
-
-            found[library] = self.kept(f"wrong {library} {name} {kind}", measure, bool)
-        return found
-
-    def rate(self, question, library, threads, mesh):
-        """Million random rays, or points, a second from Python; None where there is no such number."""
-        if library in self.missing:
-            return None
-        name, vertices, faces = mesh
-        peers.say(f"{name}, {question} of {library}, {threads or 'all'} threads")
-        rays = queries_rays.make_rays("random", vertices, faces, TIMED_TRIMESH if library == "trimesh" else TIMED, 8)
-        if question == "contains":
-            rays[:, :3] += rays[:, 3:]  # what the rays aim at lies in the mesh's cube
-
-        def measure():
-            answer = peers.ask(library, threads, vertices, faces, rays, question)
-            return answer and len(rays) / float(answer["seconds"]) / 1e6
-
-        return self.kept(f"rate {question} {library} {name} {threads}", measure, bool)
-
-    def rates(self, mesh):
-        """By question, library and threads."""
-        asked = {(pair.question, library, tables.threads_of(library, threads)) for pair in tables.PAIRS
-                 for library in (pair.ours, pair.theirs) for threads in tables.THREADS}
-        return {key: self.rate(*key, mesh) for key in sorted(asked)}
-
-    def in_cpp(self, mesh):
-        """What limn_query_rates says of rays, and CGAL's seconds for the same."""
-        name, vertices, faces = mesh
-        peers.say(f"{name}, C++")
-        rays = queries_rays.make_rays("random", vertices, faces, TIMED_CPP, 8)
-        limn = self.kept(f"C++ limn {name}", lambda: peers.limn_rates("rays", vertices, faces, rays))
-        if "cgal" in self.missing:
-            return limn, None
-
-        def measure():
-            answers = [peers.ask("cgal", 1, vertices, faces, rays) for _ in range(3)]
-            return min(float(answer["seconds"]) for answer in answers) if all(answers) else None
-
-        return limn, self.kept(f"C++ cgal {name}", measure, bool)
-
-    def moved(self, mesh):
-        """Seconds of recompile."""
-        name, vertices, faces = mesh
-        peers.say(f"{name}, moved instances")
-        measure = lambda: peers.limn_rates("move", vertices, faces, np.zeros((0, 6)))
-        return self.kept(f"moved {name}", measure)["recompile"]
+def rate(library, mesh, question, threads, rays):
+    """Returns million rays or points a second."""
+    ask = tracer(library, *mesh, threads)
+    ask(question, *given(library, question, rays[:100]))  # so that what is built on demand is built
+    arguments, seconds, started = given(library, question, rays), [], time.perf_counter()
+    while len(seconds) < ROUNDS and time.perf_counter() - started < LONG:
+        begin = time.perf_counter()
+        answer = ask(question, *arguments)
+        seconds.append(answer[2] if library == "cgal" else time.perf_counter() - begin)
+    return len(rays) / min(seconds) / 1e6
 
 
-def wrong_answers(measured):
-    rows = [(f"{name}, {words}", measured.wrong(name, vertices, faces, kind))
-            for name, vertices, faces in measured.meshes for kind, words in queries_rays.KINDS.items()]
-    return tables.wrong_answers(measured.libraries, rows)
+def measure(library, mesh, judged, timed):
+    results = {"wrong": {}, "rates": {}}
+    for kind, parts in judged.items():
+        results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
+    for question in QUESTIONS[library]:
+        few = min(MOST.get(key, len(timed)) for key in (library, question))
+        for threads in (1, 0) if library in THREADED else (1,):
+            results["rates"][f"{question}, {threads or 'all'}"] = rate(library, mesh, question, threads, timed[:few])
+    return results
 
 
-def speeds(measured):
-    rates, times = [], []
-    for mesh in measured.timed:
-        limn, cgal = measured.in_cpp(mesh)
-        rates += tables.python_rows(mesh[0], measured.rates(mesh)) + tables.cpp_rows(mesh[0], limn, cgal)
-        times += tables.one_hit_rows(mesh[0], limn) + [tables.move_row(mesh[0], measured.moved(mesh))]
-    return tables.speeds(rates, times)
+def apart(library, *arguments):
+    """Measures in a process of its own. Returns None if that fails."""
+    print(f"bench: queries of {library}", file=sys.stderr, flush=True)
+    try:
+        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+            return pool.submit(measure, library, *arguments).result()
+    except Exception as problem:
+        print(f"bench: {library}: {problem}", file=sys.stderr, flush=True)
+        return None
 
 
-def main(arguments):
-    peers.RAW.mkdir(parents=True, exist_ok=True)
-    head = reports.origin("queries")
-    missing = peers.install()
-    models = [Path(argument) for argument in arguments if argument != "--full"]
-    measured = Measured(models, missing, MANY if "--full" in arguments else FEW)
-    sizes = ", ".join(f"{name} {len(faces):,}" for name, _, faces in measured.meshes)
-    parts = [f"{reports.stamp(head)}. Triangles: {sizes}; {measured.count} rays of each kind.", wrong_answers(measured),
-             speeds(measured)]
-    parts += ["Missing: " + "; ".join(f"{one} ({why})" for one, why in missing.items())] if missing else []
-    reports.write("queries", "\n\n".join(parts))
-    measured.kept.forget()
+def main(count, timed, *models):
+    results = {}
+    for name, (vertices, faces) in meshes(map(Path, models)).items():
+        judged = {}
+        for kind in KINDS:
+            rays = make_rays(kind, vertices, faces, count, 7)
+            judged[kind] = floats(rays), *truth(vertices, faces, rays)
+        rays = floats(make_rays("at random", vertices, faces, timed, 8))
+        results[f"{name}, {len(faces):,} triangles"] = {
+            library: apart(library, (floats(vertices), faces), judged, rays) for library in QUESTIONS}
+    print(json.dumps(results))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(*map(int, sys.argv[1:3]), *sys.argv[3:])

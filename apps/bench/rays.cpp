@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "bench/random.h"
@@ -18,14 +17,14 @@ namespace {
 constexpr std::size_t kTile = 8;
 constexpr int kMostPasses = 64;          // over the picture, to gather the rays of deep paths
 constexpr double kOcclusionReach = 0.1;  // of the scene's diagonal
-constexpr int kDepths = 3;
 
-// Which dimension of the random numbers is what; each depth of a path has two.
-constexpr std::uint64_t kPixel = 0, kOcclusion = 2, kScatter = 4;
+// Indices into ray_kinds(). Diffuse rays have one for each depth.
+constexpr std::size_t kPrimary = 0, kDiffuse = 1, kOcclusion = 4, kShadow = 5;
 
 struct Path {
-    Surface at;
-    std::uint64_t number;  // seeds its random numbers
+    Ray ray;
+    std::uint64_t number;         // seeds its random numbers
+    std::optional<Surface> at{};  // where the ray before this one hit
 };
 
 // The k-th pixel of a tile in Z-order, so that any 4, 16 and 64 rays are a square.
@@ -42,103 +41,87 @@ public:
           side_(static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)) / kTile)) * kTile),
           camera_(geometry.camera.value_or(frame_box(box_)), static_cast<int>(side_), static_cast<int>(side_)),
           light_(to_float32(geometry.light.value_or(box_.center() + length(box_.diagonal()) * Vec3(-0.7, 1.1, 0.8)))),
-          t_min_(to_float32(geometry.t_min)) {}
+          t_min_(to_float32(geometry.t_min)) {
+        for (const std::string& kind : ray_kinds()) sets_.push_back({.name = kind, .rays = {}});
+        sets_[kPrimary].coherent = true;
+        sets_[kOcclusion].any = sets_[kShadow].any = true;
+    }
 
     std::vector<RaySet> make() {
         for (int pass = 0; pass < kMostPasses && !is_full(); ++pass) {
-            std::vector<Ray> rays = primary(pass);
-            std::vector<std::uint64_t> numbers(rays.size());
-            std::iota(numbers.begin(), numbers.end(), static_cast<std::uint64_t>(pass) * rays.size());
-            std::vector<Path> paths = follow(rays, numbers);
-            add(primary_, rays);
+            std::vector<Path> paths = primary_paths(pass);
+            add(kPrimary, paths);
+            follow(paths);
             if (paths.empty()) break;
-            gather(paths);
+            for (const Path& path : paths) add_occlusion_and_shadow(path);
+            for (std::size_t kind = kDiffuse; kind < kOcclusion; ++kind) {
+                for (Path& path : paths) path.ray = leave(*path.at, cosine_direction(path, 2 + 2 * kind));
+                add(kind, paths);
+                follow(paths);
+            }
         }
-        std::vector<RaySet> sets{std::move(primary_)};
-        for (RaySet& set : diffuse_) sets.push_back(std::move(set));
-        sets.push_back(std::move(occlusion_));
-        sets.push_back(std::move(shadow_));
-        std::erase_if(sets, [](const RaySet& set) { return set.rays.empty(); });
-        return sets;
+        std::erase_if(sets_, [](const RaySet& set) { return set.rays.empty(); });
+        return std::move(sets_);
     }
 
 private:
     bool is_full() const {
-        return std::all_of(std::begin(diffuse_), std::end(diffuse_),
-                           [&](const RaySet& set) { return set.rays.size() >= count_; }) &&
-               shadow_.rays.size() >= count_;
+        return std::ranges::all_of(sets_, [&](const RaySet& set) { return set.rays.size() == count_; });
     }
 
-    void add(RaySet& set, const std::vector<Ray>& rays) const {
-        const std::size_t room = count_ - std::min(count_, set.rays.size());
-        const auto end = rays.begin() + static_cast<std::ptrdiff_t>(std::min(room, rays.size()));
-        set.rays.insert(set.rays.end(), rays.begin(), end);
+    void add(std::size_t kind, const Ray& ray) {
+        if (sets_[kind].rays.size() < count_) sets_[kind].rays.push_back(ray);
+    }
+    void add(std::size_t kind, const std::vector<Path>& paths) {
+        for (const Path& path : paths) add(kind, path.ray);
     }
 
-    std::vector<Ray> primary(int pass) const {
-        std::vector<Ray> rays;
+    // One through each pixel, tile by tile.
+    std::vector<Path> primary_paths(int pass) const {
+        std::vector<Path> paths;
         const std::size_t tiles = side_ / kTile;
         for (std::size_t tile = 0; tile < tiles * tiles; ++tile) {
             for (std::size_t k = 0; k < kTile * kTile; ++k) {
                 const auto [x, y] = place_in_tile(k);
-                const std::uint64_t number = static_cast<std::uint64_t>(pass) * side_ * side_ + rays.size();
-                Ray ray =
-                    camera_.ray(static_cast<double>(tile % tiles * kTile + x) + random(number, kPixel),
-                                static_cast<double>(tile / tiles * kTile + y) + random(number, kPixel + 1), 0, 0, 0);
+                const std::uint64_t number = static_cast<std::uint64_t>(pass) * side_ * side_ + paths.size();
+                Ray ray = camera_.ray(static_cast<double>(tile % tiles * kTile + x) + random(number, 0),
+                                      static_cast<double>(tile / tiles * kTile + y) + random(number, 1), 0, 0, 0);
                 ray.origin = to_float32(ray.origin);
                 ray.direction = to_float32(normalize(ray.direction));
-                rays.push_back(ray);
+                paths.push_back({ray, number});
             }
         }
-        return rays;
-    }
-
-    // Rays from the points that primary rays have met, and from where the paths go on to.
-    void gather(std::vector<Path>& paths) {
-        std::vector<Ray> rays;
-        for (const Path& path : paths) {
-            rays.push_back(leave(path.at, cosine_direction(path, kOcclusion)));
-            rays.back().t_max = to_float32(kOcclusionReach * length(box_.diagonal()));
-        }
-        add(occlusion_, rays);
-        rays.clear();
-        for (const Path& path : paths) {
-            if (dot(Vec3(path.at.normal), light_ - path.at.position) <= 0) continue;  // its own surface is in the way
-            // t is the share of the way; a float32 just below 1 keeps what holds the light from being in its way.
-            rays.push_back(leave(path.at, light_ - path.at.position));
-            rays.back().t_max = 1 - 0x1p-10;
-        }
-        add(shadow_, rays);
-        for (int depth = 0; depth < kDepths; ++depth) {
-            rays.clear();
-            for (const Path& path : paths)
-                rays.push_back(
-                    leave(path.at, cosine_direction(path, kScatter + 2 * static_cast<std::uint64_t>(depth))));
-            add(diffuse_[depth], rays);
-            std::vector<std::uint64_t> numbers;
-            for (const Path& path : paths) numbers.push_back(path.number);
-            paths = follow(rays, numbers);
-        }
-    }
-
-    // The paths that go on: `numbers` are those of the rays.
-    std::vector<Path> follow(const std::vector<Ray>& rays, const std::vector<std::uint64_t>& numbers) const {
-        std::vector<std::optional<Surface>> ends(rays.size());
-        tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-            if (const auto hit = scene_.closest_hit(rays[i])) ends[i] = scene_.surface_at(rays[i], *hit);
-        });
-        std::vector<Path> paths;
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (ends[i]) paths.push_back({*ends[i], numbers[i]});
         return paths;
     }
 
-    Vec3 cosine_direction(const Path& path, std::uint64_t dimension) const {
-        const Vec3 local = sample_cosine_hemisphere(random(path.number, dimension), random(path.number, dimension + 1));
-        return Frame(Vec3(path.at.normal)).to_world(local);
+    // Moves each path to where its ray hits. Paths that leave the scene end.
+    void follow(std::vector<Path>& paths) const {
+        tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+            const auto hit = scene_.closest_hit(paths[i].ray);
+            paths[i].at = hit ? std::optional(scene_.surface_at(paths[i].ray, *hit)) : std::nullopt;
+        });
+        std::erase_if(paths, [](const Path& path) { return !path.at; });
     }
 
-    // spawn_ray leaves the surface in double; what rounding to float32 may move the origin by is added to that.
+    void add_occlusion_and_shadow(const Path& path) {
+        Ray ray = leave(*path.at, cosine_direction(path, 2));
+        ray.t_max = to_float32(kOcclusionReach * length(box_.diagonal()));
+        add(kOcclusion, ray);
+        const Vec3 to_light = light_ - path.at->position;
+        if (dot(Vec3(path.at->normal), to_light) <= 0) return;  // its own surface is in the way
+        // The light is at t = 1. A smaller t_max keeps the surface that holds the light out of the way.
+        ray = leave(*path.at, to_light);
+        ray.t_max = 1 - 0x1p-10;
+        add(kShadow, ray);
+    }
+
+    // `dimension` is the first of two random numbers.
+    Vec3 cosine_direction(const Path& path, std::uint64_t dimension) const {
+        const Vec3 local = sample_cosine_hemisphere(random(path.number, dimension), random(path.number, dimension + 1));
+        return Frame(Vec3(path.at->normal)).to_world(local);
+    }
+
+    // spawn_ray leaves the surface in double. The largest error of rounding to float32 is added to that.
     Ray leave(const Surface& from, const Vec3& direction) const {
         Ray ray = from.spawn_ray(direction, 0);
         const Vec3 out = dot(direction, Vec3(from.normal)) < 0 ? -Vec3(from.normal) : Vec3(from.normal);
@@ -158,11 +141,7 @@ private:
     const CameraRays camera_;
     const Point3 light_;
     const double t_min_;
-    RaySet primary_{.name = "primary", .any = false, .coherent = true, .rays = {}};
-    RaySet diffuse_[kDepths] = {
-        {.name = "diffuse1", .rays = {}}, {.name = "diffuse2", .rays = {}}, {.name = "diffuse3", .rays = {}}};
-    RaySet occlusion_{.name = "occlusion", .any = true, .coherent = false, .rays = {}};
-    RaySet shadow_{.name = "shadow", .any = true, .coherent = false, .rays = {}};
+    std::vector<RaySet> sets_;
 };
 
 }  // namespace

@@ -2,10 +2,7 @@
 /// The rays that all renderers trace: made once, from limn's exact hits, with float32 components.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "bench/geometry.h"
+#include "bench/scenes.h"
 #include "limn/core/ray.h"
 #include "limn/query/compiled_scene.h"
 

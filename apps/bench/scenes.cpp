@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "bench/random.h"
 #include "limn/core/error.h"
 #include "limn/core/warp.h"
+#include "limn/io/obj.h"
+#include "limn/shape/instance.h"
+#include "limn/shape/quad.h"
+#include "limn/shape/sphere.h"
 
 namespace limn::bench {
 
@@ -19,36 +24,33 @@ std::size_t scaled(double count, double scale) { return static_cast<std::size_t>
 
 std::shared_ptr<const Mesh> mesh_of(MeshData data) { return std::make_shared<Mesh>(std::move(data), nullptr); }
 
-// A closed ball with hills: r = 1 + a sum of waves, the finer the lower.
-class Hills {
-public:
-    Hills() {
-        for (std::size_t i = 0; i < waves_.size(); ++i) {
-            const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
-            const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
-            waves_[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
-        }
-    }
-
-    Vec3 at(const Vec3& direction) const {
-        double r = 1;
-        for (const Wave& w : waves_) r += w.height * std::sin(dot(w.frequency, direction) + w.phase);
-        return r * direction;
-    }
-
-private:
-    struct Wave {
-        Vec3 frequency;
-        double phase = 0, height = 0;
-    };
-    std::array<Wave, 32> waves_;
+struct Wave {
+    Vec3 frequency;
+    double phase, height;
 };
+
+std::array<Wave, 32> make_waves() {
+    std::array<Wave, 32> waves;
+    for (std::size_t i = 0; i < waves.size(); ++i) {
+        const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
+        const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
+        waves[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
+    }
+    return waves;
+}
+
+// Returns a point of a closed ball with hills: r = 1 + a sum of waves.
+Vec3 on_hills(const Vec3& direction) {
+    static const std::array<Wave, 32> waves = make_waves();
+    double r = 1;
+    for (const Wave& w : waves) r += w.height * std::sin(dot(w.frequency, direction) + w.phase);
+    return r * direction;
+}
 
 // The faces of a cube, cut into squares and blown up to a ball. Points on the cube's edges belong to several faces and
 // are worked out from the same whole numbers in each, so that they have the same bits: the surface is closed.
 Geometry displaced_sphere(double scale) {
     const auto cuts = static_cast<std::uint32_t>(std::max(1.0, std::round(std::sqrt(2e6 * scale / 12))));
-    const Hills hills;
     MeshData data;
     for (int face = 0; face < 6; ++face) {
         const auto first = static_cast<std::uint32_t>(data.vertices.size());
@@ -63,7 +65,7 @@ Geometry displaced_sphere(double scale) {
                 p[static_cast<std::size_t>(axis)] = along(side == 1 ? cuts : 0);
                 p[static_cast<std::size_t>((axis + 1) % 3)] = along(i);
                 p[static_cast<std::size_t>((axis + 2) % 3)] = along(j);
-                data.vertices.push_back(to_float3(hills.at(normalize(Vec3(p[0], p[1], p[2])))));
+                data.vertices.push_back(to_float3(on_hills(normalize(Vec3(p[0], p[1], p[2])))));
             }
         }
         for (std::uint32_t j = 0; j < cuts; ++j) {
@@ -76,7 +78,16 @@ Geometry displaced_sphere(double scale) {
             }
         }
     }
-    return {.name = "displaced sphere", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
+    return {.name = "displaced sphere", .mesh = mesh_of(std::move(data))};
+}
+
+// A triangle of any direction. `dimension` is the first of six random numbers.
+template <class Random>
+void add_triangle(MeshData& data, const Vec3& center, double size, const Random& u, std::uint64_t dimension) {
+    const auto first = static_cast<std::uint32_t>(data.vertices.size());
+    for (std::uint64_t k = dimension; k < dimension + 6; k += 2)
+        data.vertices.push_back(to_float3(center + size * sample_uniform_sphere(u(k), u(k + 1))));
+    data.triangles.push_back({first, first + 1, first + 2});
 }
 
 // Triangles of any direction, scattered over the unit cube. Their size goes with their distance from one another, so
@@ -87,19 +98,14 @@ Geometry soup(double scale) {
     MeshData data;
     for (std::size_t i = 0; i < count; ++i) {
         const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };
-        const Vec3 center{u(0), u(1), u(2)};
-        const auto first = static_cast<std::uint32_t>(data.vertices.size());
-        for (std::uint64_t corner = 0; corner < 3; ++corner)
-            data.vertices.push_back(
-                to_float3(center + size * sample_uniform_sphere(u(3 + 2 * corner), u(4 + 2 * corner))));
-        data.triangles.push_back({first, first + 1, first + 2});
+        add_triangle(data, {u(0), u(1), u(2)}, size, u, 3);
     }
-    return {.name = "soup", .mesh = mesh_of(std::move(data)), .places = {}, .balls = {}, .quads = {}};
+    return {.name = "soup", .mesh = mesh_of(std::move(data))};
 }
 
 // As many as in the book's last picture, standing still.
 Geometry spheres(double scale) {
-    Geometry g{.name = "spheres", .mesh = nullptr, .places = {}, .balls = {}, .quads = {}};
+    Geometry g{.name = "spheres"};
     g.balls.push_back({{0, -1000, 0}, 1000});
     for (const double x : {-4.0, 0.0, 4.0}) g.balls.push_back({{x, 1, 0}, 1});
     const int reach = std::max(1, static_cast<int>(11 * std::sqrt(scale)));
@@ -130,7 +136,7 @@ void add_box(Geometry& g, const Vec3& size, const Transform& place) {
 
 // Five walls, a lamp and two boxes: 18 quads, whatever the scale.
 Geometry cornell_box() {
-    Geometry g{.name = "cornell box", .mesh = nullptr, .places = {}, .balls = {}, .quads = {}};
+    Geometry g{.name = "cornell box"};
     const Vec3 x{555, 0, 0}, y{0, 555, 0}, z{0, 0, 555};
     g.quads = {{{555, 0, 0}, y, z}, {{0, 0, 0}, y, z},   {{0, 0, 0}, x, z},
                {{0, 555, 0}, x, z}, {{0, 0, 555}, x, y}, {{343, 554, 332}, {-130, 0, 0}, {0, 0, -105}}};
@@ -154,18 +160,13 @@ MeshData tree(std::size_t count) {
     for (std::size_t i = kSides; i < count; ++i) {
         const auto u = [i](std::uint64_t dimension) { return random_number(5, i, dimension); };
         const Vec3 inside = sample_uniform_ball(u(0), u(1), u(2));
-        const Vec3 center{0.3 * inside.x, 0.65 + 0.35 * inside.y, 0.3 * inside.z};
-        const auto first = static_cast<std::uint32_t>(data.vertices.size());
-        for (std::uint64_t corner = 0; corner < 3; ++corner)
-            data.vertices.push_back(
-                to_float3(center + 0.015 * sample_uniform_sphere(u(3 + 2 * corner), u(4 + 2 * corner))));
-        data.triangles.push_back({first, first + 1, first + 2});
+        add_triangle(data, {0.3 * inside.x, 0.65 + 0.35 * inside.y, 0.3 * inside.z}, 0.015, u, 3);
     }
     return data;
 }
 
 Geometry forest(double scale) {
-    Geometry g{.name = "forest", .mesh = mesh_of(tree(scaled(1e4, scale))), .places = {}, .balls = {}, .quads = {}};
+    Geometry g{.name = "forest", .mesh = mesh_of(tree(scaled(1e4, scale)))};
     const int side = std::max(1, static_cast<int>(std::round(100 * std::sqrt(scale))));
     for (int i = 0; i < side * side; ++i) {
         const auto u = [i](std::uint64_t dimension) {
@@ -198,6 +199,27 @@ Geometry make_scene(const std::string& name, double scale) {
     if (name == "cornell") return cornell_box();
     if (name == "forest") return forest(scale);
     throw ArgumentError("'" + name + "' is not the name of a scene");
+}
+
+Geometry load_scene(const std::string& path) {
+    const Model model = load_obj(path, {.textures = false});
+    return {.name = std::filesystem::path(path).filename().string(), .mesh = model.meshes.front()};  // an OBJ gives one
+}
+
+Scene describe(const Geometry& geometry) {
+    Scene scene;
+    scene.name = geometry.name;
+    if (geometry.mesh && geometry.places.empty()) scene.add(geometry.mesh);
+    for (const Transform& place : geometry.places) scene.add(std::make_shared<Instance>(geometry.mesh, place));
+    for (const Ball& ball : geometry.balls) scene.add(std::make_shared<Sphere>(ball.center, ball.radius, nullptr));
+    for (const Parallelogram& q : geometry.quads)
+        scene.add(std::make_shared<Quad>(q.corner, q.edge_u, q.edge_v, nullptr));
+    return scene;
+}
+
+std::size_t stored_primitives(const Geometry& geometry) {
+    const std::size_t triangles = geometry.mesh ? geometry.mesh->data().triangles.size() : 0;
+    return triangles + geometry.places.size() + geometry.balls.size() + geometry.quads.size();
 }
 
 }  // namespace limn::bench

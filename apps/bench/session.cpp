@@ -1,160 +1,196 @@
 #include "bench/session.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
-
-#include "bench/limn_contender.h"
-#include "bench/scenes.h"
+#include <thread>
 
 namespace limn::bench {
 
 namespace {
 
-// Small scenes are built so fast that a few rounds say little. They get more rounds, until so many seconds are spent,
-// or so many rounds.
+using app::Json;
+
+// A few rounds of building a small scene say little. Building is repeated until it has taken kLeastBuilding seconds or
+// kMostBuilds rounds.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
-bool is_batch(const std::string& subject) { return subject.starts_with("limn "); }
+constexpr char kLine[] = "  {:<10} {:>2} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}  {:<18} {:<18} {:<18} {:>8}\n";
 
-bool is_robust(const std::string& name) { return name.ends_with("robust"); }
-
-// The names of Embree's modes are longer than that of its scene. Single rays of the default scene count too: if they
-// are fastest, they are its best mode.
-bool is_peer_mode(const std::string& subject) { return subject.starts_with("Embree") && !is_robust(subject); }
-
-const Timing* fastest(const std::vector<Timing>& timings, bool (*counts)(const std::string&)) {
+// Returns the fastest subject that fits, or null.
+template <class Fits>
+const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
     const Timing* best = nullptr;
     for (const Timing& t : timings)
-        if (counts(t.subject) && !t.seconds.empty() &&
+        if (fits(t.subject) && !t.seconds.empty() &&
             (best == nullptr || spread_of(t.seconds).median < spread_of(best->seconds).median))
             best = &t;
     return best;
 }
 
+std::string ratio_text(const Timing* a, const Timing* b) {
+    if (a == nullptr || b == nullptr) return "-";
+    const Spread r = ratio(*a, *b);
+    return fmt::format("{:.2f} ({:.2f}..{:.2f})", r.median, r.low, r.high);
+}
+
+double million_a_second(const Timing& timing, std::size_t rays) {
+    return static_cast<double>(rays) / spread_of(timing.seconds).median * 1e-6;
+}
+
+std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& timings) {
+    const auto find = [&](const char* name) { return fastest(timings, [&](const auto& s) { return s == name; }); };
+    const Timing *single = find("limn"), *plain = find("Embree"), *robust = find("Embree robust");
+    const Timing* batch = fastest(timings, [](const std::string& s) { return s.starts_with("limn batch"); });
+    const Timing* best =
+        fastest(timings, [](const std::string& s) { return s.starts_with("Embree") && s != "Embree robust"; });
+    const auto rate = [&](const Timing* t) {
+        return t == nullptr ? "-" : fmt::format("{:.2f}", million_a_second(*t, set.rays.size()));
+    };
+    const auto differ = [&](const Timing* t) {
+        const auto rays = static_cast<double>(set.rays.size());
+        return t == nullptr ? "-" : fmt::format("{:.1f}", 1e6 * static_cast<double>(t->mismatches) / rays);
+    };
+    return fmt::format(kLine, set.name, threads, rate(single), rate(batch), rate(plain), rate(robust), rate(best),
+                       best == nullptr || best == plain ? "1" : best->subject.substr(7), ratio_text(single, plain),
+                       ratio_text(single, robust), ratio_text(batch, best), differ(plain) + "/" + differ(robust));
+}
+
 class Session {
 public:
-    Session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers, const Watch& watch)
-        : plan_(plan), peers_(peers), watch_(watch) {}
+    Session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch)
+        : plan_(plan), contenders_(contenders), watch_(watch) {}
 
-    std::vector<SceneResult> run() {
+    Results run() {
         for (const std::string& name : plan_.scenes)
-            if (goes_on()) measure_scene([&] { return make_scene(name, plan_.scale); });
+            if (goes_on()) measure_scene(make_scene(name, plan_.scale));
         for (const std::string& path : plan_.models)
-            if (goes_on()) measure_scene([&] { return load_scene(path); });
+            if (goes_on()) measure_scene(load_scene(path));
+        Json versions = Json::object();
+        for (const Contender& contender : contenders_) versions[contender.name] = contender.version;
+        results_.json = {{"complete", going_},
+                         {"versions", versions},
+                         {"rounds", plan_.rounds},
+                         {"cores", std::thread::hardware_concurrency()},
+                         {"scenes", scenes_}};
         return std::move(results_);
     }
 
 private:
     bool goes_on() {
         const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
-        going_ = going_ && watch_((static_cast<double>(scenes_done_) + part_) / scenes);
+        going_ = going_ && watch_((scenes_done_ + part_) / scenes);
         return going_;
     }
 
-    template <class Make>
-    void measure_scene(const Make& make) {
-        part_ = 0;
-        const Geometry geometry = make();
-        SceneResult& result = results_.emplace_back();
-        result.name = geometry.name;
-        result.primitives = stored_primitives(geometry);
-        measure_builds(geometry, result);
-        if (goes_on()) measure_rays(geometry, result);
+    void measure_scene(const Geometry& geometry) {
+        const std::size_t primitives = stored_primitives(geometry);
+        Json bytes = Json::object(), builds = Json::array(), rows = Json::array();
+        results_.table += fmt::format("{}: {} primitives", geometry.name, primitives);
+        std::vector<std::unique_ptr<Subject>> subjects;
+        for (const Contender& contender : contenders_) {
+            BuiltScene built = contender.build(geometry, Clock::wall);
+            bytes[contender.name] = built.bytes;
+            results_.table += fmt::format("; {} {:.1f} bytes each", contender.name,
+                                          static_cast<double>(built.bytes) / static_cast<double>(primitives));
+            std::ranges::move(built.subjects, std::back_inserter(subjects));
+        }
+        results_.table += '\n';
+        for (const int threads : plan_.threads) builds.push_back(measure_builds(geometry, threads));
+        if (goes_on()) rows = measure_rays(geometry, subjects);
+        scenes_.push_back({{"name", geometry.name},
+                           {"primitives", primitives},
+                           {"bytes", bytes},
+                           {"builds", builds},
+                           {"rows", rows}});
         ++scenes_done_;
+        part_ = 0;
     }
 
-    void measure_builds(const Geometry& geometry, SceneResult& result) {
-        const LimnContender limn;
-        for (const int threads : plan_.threads) {
-            // This limits what Embree does in an arena of its own, too.
-            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(threads));
-            BuildRow& row = result.builds.emplace_back();
-            row.threads = threads;
-            std::vector<const Contender*> builders{&limn};
-            for (const auto& peer : peers_)
-                if (!is_robust(peer->name())) builders.push_back(peer.get());  // which builds as its plain scene does
-            for (const Contender* builder : builders)
-                row.timings.push_back({.subject = builder->name(), .seconds = {}, .mismatches = 0});
-            const Clock clock = threads == 1 ? Clock::process : Clock::wall;
-            double spent = 0;
-            for (int round = 0; round < plan_.build_rounds || spent < kLeastBuilding; ++round) {
-                if (plan_.build_rounds == 0 || round == kMostBuilds) break;
-                for (std::size_t i = 0; i < builders.size() && goes_on(); ++i) {
-                    const double seconds = builders[i]->build(geometry, clock)->seconds();
-                    spent += seconds;
-                    row.timings[i].seconds.push_back(seconds);
-                }
-                if (!going_) break;
+    Json measure_builds(const Geometry& geometry, int threads) {
+        std::vector<Timing> timings;
+        for (const Contender& contender : contenders_) timings.push_back({.subject = contender.name});
+        // This limits Embree's threads too.
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+        const Clock clock = threads == 1 ? Clock::process : Clock::wall;
+        const int most = plan_.build_rounds == 0 ? 0 : std::max(plan_.build_rounds, kMostBuilds);
+        double spent = 0;
+        for (int round = 0; round < most && (round < plan_.build_rounds || spent < kLeastBuilding); ++round) {
+            for (std::size_t i = 0; i < contenders_.size() && goes_on(); ++i) {
+                timings[i].seconds.push_back(contenders_[i].build(geometry, clock).seconds);
+                spent += timings[i].seconds.back();
             }
+            if (!going_) break;
         }
+        Json seconds = Json::object();
+        std::string text;
+        for (const Timing& t : timings) {
+            seconds[t.subject] = t.seconds;
+            if (t.seconds.empty()) continue;
+            text += fmt::format("{} {} {:.3f} s", text.empty() ? "" : ",", t.subject, spread_of(t.seconds).median);
+            if (&t != &timings.front()) text += " x " + ratio_text(&timings.front(), &t);
+        }
+        if (!text.empty())
+            results_.table += fmt::format("  built by {} thread{}:{}\n", threads, threads == 1 ? "" : "s", text);
+        return {{"threads", threads}, {"seconds", seconds}};
     }
 
-    void measure_rays(const Geometry& geometry, SceneResult& result) {
-        const LimnScene limn(describe(geometry));
-        std::vector<std::unique_ptr<BuiltScene>> built;
-        std::vector<std::unique_ptr<Subject>> subjects = limn.subjects();
-        result.bytes.emplace_back("limn", limn.bytes());
-        for (const auto& peer : peers_) {
-            built.push_back(peer->build(geometry, Clock::wall));
-            result.bytes.emplace_back(peer->name(), built.back()->bytes());
-            auto more = built.back()->subjects();
-            // Of the robust scene single rays are enough.
-            if (is_robust(peer->name())) more.resize(1);
-            for (auto& subject : more) subjects.push_back(std::move(subject));
-        }
-        std::vector<RaySet> sets = make_rays(geometry, limn.compiled(), plan_.rays);
+    Json measure_rays(const Geometry& geometry, const std::vector<std::unique_ptr<Subject>>& subjects) {
+        std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan_.rays);
         if (!plan_.kinds.empty())
-            std::erase_if(sets, [&](const RaySet& set) {
-                return std::find(plan_.kinds.begin(), plan_.kinds.end(), set.name) == plan_.kinds.end();
-            });
+            std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan_.kinds, set.name) == 0; });
         const auto measurements =
             static_cast<double>(sets.size() * plan_.threads.size() * subjects.size()) * (plan_.rounds + 1);
+        results_.table += fmt::format(kLine, "rays", "th", "limn", "batch", "Embree", "robust", "best", "(mode)",
+                                      "limn/Embree", "limn/robust", "batch/best", "differ/M");
+        Json rows = Json::array();
         for (const RaySet& set : sets) {
             for (const int threads : plan_.threads) {
-                if (!goes_on()) return;
-                RayRow& row = result.rows.emplace_back();
-                row.rays = set.name, row.count = set.rays.size(), row.any = set.any, row.threads = threads;
-                row.timings = measure(subjects, set, threads, plan_.rounds, [&] {
-                    part_ += 1 / measurements;
-                    return goes_on();
-                });
-                for (std::size_t i = 1; i < row.timings.size(); ++i)
-                    if (is_batch(row.timings[i].subject))
-                        row.differences += differences(*subjects[0], *subjects[i], set.rays.size());
+                if (!goes_on()) return rows;
+                rows.push_back(row(set, threads, measure(subjects, set, threads, plan_.rounds, [&] {
+                                       part_ += 1 / measurements;
+                                       return goes_on();
+                                   })));
             }
         }
+        return rows;
+    }
+
+    Json row(const RaySet& set, int threads, const std::vector<Timing>& timings) {
+        Json subjects = Json::array();
+        std::size_t differences = 0;  // of limn's batches
+        for (const Timing& t : timings) {
+            if (!t.subject.starts_with("Embree")) differences += t.differences;
+            if (t.seconds.empty()) continue;
+            subjects.push_back({{"name", t.subject},
+                                {"million_a_second", million_a_second(t, set.rays.size())},
+                                {"mismatches", t.mismatches},
+                                {"seconds", t.seconds}});
+        }
+        if (differences > 0)
+            results_.fault = fmt::format("{}: {} rays have other results in batches", set.name, differences);
+        results_.table += row_text(set, threads, timings);
+        return {{"rays", set.name},   {"count", set.rays.size()},   {"any", set.any},
+                {"threads", threads}, {"differences", differences}, {"subjects", subjects}};
     }
 
     const Plan& plan_;
-    const std::vector<std::shared_ptr<const Contender>>& peers_;
+    const std::vector<Contender>& contenders_;
     const Watch& watch_;
-    std::vector<SceneResult> results_;
-    std::size_t scenes_done_ = 0;
+    Results results_;
+    Json scenes_ = Json::array();
+    double scenes_done_ = 0;
     double part_ = 0;  // of the scene's measurements that is done
     bool going_ = true;
 };
 
 }  // namespace
 
-const Timing* RayRow::find(const std::string& subject) const {
-    const auto found =
-        std::find_if(timings.begin(), timings.end(), [&](const Timing& t) { return t.subject == subject; });
-    return found == timings.end() || found->seconds.empty() ? nullptr : &*found;
-}
-
-const Timing* RayRow::best_batch() const { return fastest(timings, is_batch); }
-const Timing* RayRow::best_peer() const { return fastest(timings, is_peer_mode); }
-
-double RayRow::million_a_second(const Timing& timing) const {
-    return static_cast<double>(count) / spread_of(timing.seconds).median * 1e-6;
-}
-
-std::vector<SceneResult> run_session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
-                                     const Watch& watch) {
-    return Session(plan, peers, watch).run();
+Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch) {
+    return Session(plan, contenders, watch).run();
 }
 
 }  // namespace limn::bench

@@ -1,14 +1,36 @@
 /// \file
-/// What `limn bench` does: scene by scene, builds, rays, rounds.
+/// What `limn bench` measures: scene by scene, the building and then the rays of each kind. In each round all renderers
+/// take their turn, so that other load of the machine falls on all alike.
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
+#include <span>
 
-#include "bench/measure.h"
+#include "bench/contender.h"
+#include "json_output.h"
 
 namespace limn::bench {
+
+struct Timing {
+    std::string subject;
+    std::vector<double> seconds{};  // one a round
+    // The number of rays that differ from the first subject: by hit or miss or by a thousandth of t, and by any bit.
+    std::size_t mismatches = 0, differences = 0;
+};
+
+// The median and quartiles of some numbers.
+struct Spread {
+    double median = 0, low = 0, high = 0;
+};
+Spread spread_of(std::vector<double> values);
+
+// How much faster a is than b, round by round.
+Spread ratio(const Timing& a, const Timing& b);
+
+// Traces the set with each subject once and compares the results with those of the first subject. Then traces it
+// `rounds` times and takes the time. Measures fewer rounds, or none, if `keep_going` returns false.
+std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
+                            int rounds, const std::function<bool()>& keep_going);
 
 struct Plan {
     std::vector<std::string> scenes;  // names that make_scene knows
@@ -21,40 +43,16 @@ struct Plan {
     std::vector<int> threads;
 };
 
-// Rays of one kind, by some number of threads.
-struct RayRow {
-    std::string rays;
-    std::size_t count = 0;
-    bool any = false;
-    int threads = 1;
-    std::vector<Timing> timings;
-    std::size_t differences = 0;  // between limn's single rays and its batches, of all sizes together
-
-    const Timing* find(const std::string& subject) const;
-    // The fastest by its median, among limn's batches or Embree's modes for many rays at once; none if there is none.
-    const Timing* best_batch() const;
-    const Timing* best_peer() const;
-    double million_a_second(const Timing& timing) const;
+struct Results {
+    std::string table;
+    app::Json json = app::Json::object();
+    std::string fault;  // says where batches and single rays of limn have different results; empty: nowhere
 };
 
-struct BuildRow {
-    int threads = 1;
-    std::vector<Timing> timings;
-};
-
-struct SceneResult {
-    std::string name;
-    std::size_t primitives = 0;
-    std::vector<std::pair<std::string, std::size_t>> bytes;  // by contender
-    std::vector<BuildRow> builds;
-    std::vector<RayRow> rows;
-};
-
-// Gets the share of the plan that is done after each measurement; returns false to stop.
+// Is given the share of the plan that is done after each measurement. Returns false to stop.
 using Watch = std::function<bool(double)>;
 
-// The results as far as they went.
-std::vector<SceneResult> run_session(const Plan& plan, const std::vector<std::shared_ptr<const Contender>>& peers,
-                                     const Watch& watch);
+// Returns the results so far if it is stopped.
+Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch);
 
 }  // namespace limn::bench

@@ -6,9 +6,6 @@
 #include <csignal>
 #include <thread>
 
-#include "bench/peer_module.h"
-#include "bench/results.h"
-#include "bench/scenes.h"
 #include "bench/session.h"
 #include "commands.h"
 #include "interrupt.h"
@@ -29,9 +26,10 @@ constexpr const char* kMeaning =
 batch/best are medians of the ratios of each round, with their quartiles. In every round each
 renderer takes its turn. One thread is measured by processor time, several by the clock.
 
-Embree appears if its module was built. best is its fastest mode: packets of 4, 8 or 16,
-streams of single rays (1M) or of packets (16M). differ/M is the number of rays in a million
-on which Embree and limn differ.)";
+batch is the fastest of limn's batches of 1, 8, 64, 4096 and 65536 rays. Embree appears if its
+module was built. best is its fastest mode: single rays, packets of 4, 8 or 16, streams of single
+rays (1M) or of packets (16M). differ/M is the number of rays in a million on which Embree and
+limn differ.)";
 
 template <class Integer>
 auto integer_option(const char* option, Integer lowest, Integer highest, Integer& value) {
@@ -106,7 +104,7 @@ int bench_command(int argc, const char* const* argv) {
 
     const Console console{.program = "limn", .quiet = quiet};
     std::vector<std::string> notes;
-    const auto peers = bench::load_peers(notes);
+    const std::vector<bench::Contender> contenders = bench::load_contenders(notes);
     for (const std::string& note : notes) console.note(note);
     catch_interrupts();
     ProgressBar bar(!quiet && stderr_is_terminal());
@@ -116,15 +114,11 @@ int bench_command(int argc, const char* const* argv) {
         bar.update({fraction, seconds.count()});
         return caught_signal() == 0;
     };
-    const auto results = from_files([&] { return bench::run_session(plan, peers, watch); });
+    const bench::Results results = from_files([&] { return bench::run_session(plan, contenders, watch); });
     bar.clear();
-    json.write(bench::results_table(results), bench::results_json(plan, peers, results, caught_signal() == 0));
+    json.write(results.table, results.json);
     if (caught_signal() != 0) return 128 + caught_signal();
-    for (const bench::SceneResult& scene : results)
-        for (const bench::RayRow& row : scene.rows)
-            if (row.differences > 0)
-                throw Error(fmt::format("{}, {}: {} rays have other results in batches", scene.name, row.rays,
-                                        row.differences));
+    if (!results.fault.empty()) throw Error(results.fault);
     return kDone;
 }
 

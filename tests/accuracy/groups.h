@@ -1,4 +1,4 @@
-// The tables of the report.
+// The groups of rays that limn_accuracy measures.
 #pragma once
 
 #include <vector>

@@ -1,10 +1,9 @@
-// limn_accuracy [GROUP ...] [--rays N] [--leak-rays N] [--threads N]: measures the tables of the accuracy report and
-// writes them to stdout as JSON. --time: what the answers cost, instead. Run by apps/bench/accuracy.py.
+// limn_accuracy [GROUP ...] [--rays N] [--leak-rays N] [--threads N]: measures groups of rays and writes them to stdout
+// as JSON. Run by apps/bench/accuracy.py.
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/cost.h"
 #include "accuracy/embree.h"
 #include "accuracy/groups.h"
 #include "limn/core/error.h"
@@ -55,8 +54,8 @@ Json to_json(const Group& group) {
 
 [[noreturn]] void usage(const std::string& problem) {
     std::fprintf(stderr,
-                 "limn_accuracy: %s\nusage: limn_accuracy [GROUP ...] [--rays N] [--leak-rays N] [--threads N] "
-                 "[--time]\ngroups:",
+                 "limn_accuracy: %s\nusage: limn_accuracy [GROUP ...] [--rays N] [--leak-rays N] [--threads N]\n"
+                 "groups:",
                  problem.c_str());
     for (const NamedGroup& group : kGroups) std::fprintf(stderr, " %s", group.name);
     std::fputc('\n', stderr);
@@ -74,7 +73,6 @@ std::uint64_t number(const std::string& option, const char* text) {
 
 int run(int argc, char** argv) {
     Effort effort;
-    bool time = false;
     std::vector<const NamedGroup*> chosen;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
@@ -84,8 +82,6 @@ int run(int argc, char** argv) {
             effort.leak_rays = number(word, argv[++i]);
         } else if (word == "--threads") {
             effort.threads = static_cast<unsigned>(std::min<std::uint64_t>(number(word, argv[++i]), 1024));
-        } else if (word == "--time") {
-            time = true;
         } else {
             const auto* group = std::find_if(std::begin(kGroups), std::end(kGroups),
                                              [&](const NamedGroup& g) { return word == g.name; });
@@ -96,13 +92,8 @@ int run(int argc, char** argv) {
     if (chosen.empty())
         for (const NamedGroup& group : kGroups) chosen.push_back(&group);
 
-    Json out;
-    if (time) {
-        out = measure_cost();
-    } else {
-        out = {{"embree", embree_version()}, {"compiler", __VERSION__}, {"groups", Json::array()}};
-        for (const NamedGroup* group : chosen) out["groups"].push_back(to_json(group->measure(effort)));
-    }
+    Json out{{"embree", embree_version()}, {"compiler", __VERSION__}, {"groups", Json::array()}};
+    for (const NamedGroup* group : chosen) out["groups"].push_back(to_json(group->measure(effort)));
     const std::string text = out.dump(1);
     return std::puts(text.c_str()) >= 0 && std::fflush(stdout) == 0 ? 0 : 1;
 }

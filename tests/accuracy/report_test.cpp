@@ -1,4 +1,4 @@
-// The measuring program with few rays: its tables are whole, its judgement sees what is wrong.
+// The measuring program with few rays: every ray is judged, and what is wrong is counted.
 #include <nlohmann/json.hpp>
 
 #include "catch.h"

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/limn_contender.h"
-#include "bench/measure.h"
+#include "bench/session.h"
 #include "bench/truth.h"
 #include "catch.h"
 #include "limn/shape/mesh_edges.h"
@@ -134,8 +133,8 @@ TEST_CASE("Spread: median and quartiles, between neighbours where there is no mi
 }
 
 TEST_CASE("Ratios are taken round by round: twice as fast is 2, whatever the machine does meanwhile", "[bench]") {
-    const Timing fast{.subject = "a", .seconds = {1, 10, 2}, .mismatches = 0};
-    const Timing slow{.subject = "b", .seconds = {2, 20, 4}, .mismatches = 0};
+    const Timing fast{.subject = "a", .seconds = {1, 10, 2}};
+    const Timing slow{.subject = "b", .seconds = {2, 20, 4}};
     const Spread r = ratio(fast, slow);
     CHECK(r.median == 2);
     CHECK(r.low == 2);
@@ -144,31 +143,28 @@ TEST_CASE("Ratios are taken round by round: twice as fast is 2, whatever the mac
 
 TEST_CASE("Measuring counts whose answers differ, on one thread and on two", "[bench]") {
     const Geometry g = make_scene("soup", kTiny), other = make_scene("soup", kTiny / 2);
-    const LimnScene scene(describe(g)), wrong(describe(other));
-    const RaySet set = make_rays(g, scene.compiled(), 5000).front();
-    std::vector<std::unique_ptr<Subject>> subjects = scene.subjects();
+    const RaySet set = make_rays(g, compile(describe(g)), 5000).front();
+    std::vector<std::unique_ptr<Subject>> subjects = build_limn(g, Clock::wall).subjects;
     const std::size_t own = subjects.size();
-    for (auto& subject : wrong.subjects()) subjects.push_back(std::move(subject));
+    for (auto& subject : build_limn(other, Clock::wall).subjects) subjects.push_back(std::move(subject));
     for (const int threads : {1, 2}) {
         const auto timings = measure(subjects, set, threads, 2, [] { return true; });
         REQUIRE(timings.size() == subjects.size());
         for (std::size_t i = 0; i < timings.size(); ++i) {
             CHECK(timings[i].seconds.size() == 2);
             CHECK((timings[i].mismatches == 0) == (i < own));
+            CHECK((timings[i].differences == 0) == (i < own));
         }
-        CHECK(differences(*subjects[0], *subjects[1], set.rays.size()) == 0);
-        CHECK(differences(*subjects[0], *subjects[own], set.rays.size()) > 0);
     }
 }
 
 TEST_CASE("Measuring stops when it is told to, with what it has", "[bench]") {
     const Geometry g = make_scene("cornell", 1);
-    const LimnScene scene(describe(g));
-    const RaySet set = make_rays(g, scene.compiled(), 100).front();
-    const auto subjects = scene.subjects();
-    int left = 4;
+    const RaySet set = make_rays(g, compile(describe(g)), 100).front();
+    const auto subjects = build_limn(g, Clock::wall).subjects;
+    std::size_t left = subjects.size() + 1;  // each once for its results, and one round of the first
     const auto timings = measure(subjects, set, 1, 100, [&] { return --left > 0; });
-    REQUIRE(timings.size() == 3);
+    REQUIRE(timings.size() == subjects.size());
     CHECK(timings[0].seconds.size() == 1);
     CHECK(timings[1].seconds.empty());
 }

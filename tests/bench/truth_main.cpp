@@ -1,8 +1,10 @@
-// limn_bench_truth: what limn answers to the rays of `limn bench`, on a sample, against exact truth. As JSON on stdout.
-// Usage: limn_bench_truth SCALE RAYS SAMPLE [MODEL.obj ...]. Exit status 1 if an answer is wrong.
+// limn_bench_truth judges a sample of limn's answers to the rays of `limn bench` by exact arithmetic. It prints JSON.
+// Usage: limn_bench_truth SCALE RAYS SAMPLE SCENE|MODEL.obj ... The exit status is 1 if an answer is wrong.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "bench/scenes.h"
 #include "bench/truth.h"
@@ -30,8 +32,8 @@ bool judge_scene(const bench::Geometry& geometry, std::size_t rays, std::size_t 
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 4) {
-        std::fputs("usage: limn_bench_truth SCALE RAYS SAMPLE [MODEL.obj ...]\n", stderr);
+    if (argc < 5) {
+        std::fputs("usage: limn_bench_truth SCALE RAYS SAMPLE SCENE|MODEL.obj ...\n", stderr);
         return 2;
     }
     try {
@@ -40,10 +42,11 @@ int main(int argc, char** argv) {
         const auto sample = static_cast<std::size_t>(std::atoll(argv[3]));
         nlohmann::ordered_json out = nlohmann::ordered_json::array();
         bool all_right = true;
-        for (const std::string& name : bench::scene_names())
-            all_right = judge_scene(bench::make_scene(name, scale), rays, sample, out) && all_right;
-        for (int i = 4; i < argc; ++i)
-            all_right = judge_scene(bench::load_scene(argv[i]), rays, sample, out) && all_right;
+        for (const std::string name : std::span(argv + 4, argv + argc)) {
+            const bool is_known = std::ranges::count(bench::scene_names(), name) > 0;
+            const bench::Geometry geometry = is_known ? bench::make_scene(name, scale) : bench::load_scene(name);
+            all_right = judge_scene(geometry, rays, sample, out) && all_right;
+        }
         std::printf("%s\n", out.dump(1).c_str());
         return all_right ? 0 : 1;
     } catch (const std::exception& e) {
