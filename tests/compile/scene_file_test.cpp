@@ -23,8 +23,9 @@
 #include "support/folder.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::scene_file_test {
+
+using namespace test;
 
 namespace {
 
@@ -314,3 +315,5 @@ TEST_CASE("Scene files: user-defined objects are refused by their kind, and noth
     refused(sphere({0, 0, 0}, 1, std::make_shared<Lambertian>(std::make_shared<OwnTexture>())), "textures");
     CHECK_THROWS_AS(scene_of_everything().save(folder.path("none/a.scene")), FileError);
 }
+
+}  // namespace limn::scene_file_test
