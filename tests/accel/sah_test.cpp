@@ -9,7 +9,8 @@
 #include "support/grid.h"
 #include "wide_tree.h"
 
-using namespace limn;
+namespace limn::sah_test {
+
 using accel::build_wide_bvh;
 using accel::FloatBox;
 using test::draw_int;
@@ -148,3 +149,5 @@ TEST_CASE("WideBvh: it costs no more than what a full sweep with greedy collapse
         CHECK(cost <= 1.05 * test::reference_cost(boxes));
     }
 }
+
+}  // namespace limn::sah_test

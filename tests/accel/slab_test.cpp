@@ -11,7 +11,7 @@
 #include "property.h"
 #include "support/grid.h"
 
-using namespace limn;
+namespace limn::slab_test {
 
 namespace {
 
@@ -276,3 +276,5 @@ TEST_CASE("Slab: the interval and the box are wider by the rounding of hits, rel
         CHECK_FALSE(meets(box, {{-scale, scale * (1 + 1e-7), 0}, towards}));
     }
 }
+
+}  // namespace limn::slab_test

@@ -4,7 +4,8 @@
 
 #include "catch.h"
 
-using namespace limn;
+namespace limn::subtree_test {
+
 using accel::BuildPrimitive;
 using accel::SplitNode;
 
@@ -39,3 +40,5 @@ TEST_CASE("SubtreeBuilder: boxes that part one by one do so until halving the re
             CHECK(depth > accel::kMaxSplitDepth - 5);
         }
 }
+
+}  // namespace limn::subtree_test

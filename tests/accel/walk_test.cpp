@@ -8,7 +8,8 @@
 #include "property.h"
 #include "support/grid.h"
 
-using namespace limn;
+namespace limn::walk_test {
+
 using accel::build_wide_bvh;
 using accel::FloatBox;
 using accel::WideBvh;
@@ -121,3 +122,5 @@ TEST_CASE("to_float_box: the box in float holds the box in double, and is no wid
     CHECK(accel::scale_to_one(3) == 0.25);
     CHECK(accel::scale_to_one(0x1p-1060) == 0x1p1000);
 }
+
+}  // namespace limn::walk_test

@@ -11,7 +11,8 @@
 #include "catch.h"
 #include "wide_tree.h"
 
-using namespace limn;
+namespace limn::wide_bvh_test {
+
 using accel::build_wide_bvh;
 using accel::BuildSettings;
 using accel::FloatBox;
@@ -141,3 +142,5 @@ TEST_CASE("WideBvh: children are ordered by where their centres lie along the oc
         }
     }
 }
+
+}  // namespace limn::wide_bvh_test

@@ -9,7 +9,7 @@
 #include "support/folder.h"
 #include "support/text.h"
 
-namespace limn::test {
+namespace limn::test::bench_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -135,4 +135,4 @@ TEST_CASE("limn bench: interrupted, it prints what it has and ends with 130", "[
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::bench_test

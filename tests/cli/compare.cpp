@@ -8,7 +8,7 @@
 #include "support/folder.h"
 #include "table.h"
 
-namespace limn::test {
+namespace limn::test::compare_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -150,4 +150,4 @@ TEST_CASE("limn compare: a picture of the error replaces none that is compared, 
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::compare_test

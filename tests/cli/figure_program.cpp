@@ -7,7 +7,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::figure_program_test {
 namespace {
 
 TEST_CASE("Figure program: writes NAME.exr and NAME.png in the current folder, or what -o names", "[cli]") {
@@ -77,4 +77,4 @@ TEST_CASE("Figure program: refuses as limn does, under its own name", "[cli]") {
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::figure_program_test

@@ -18,7 +18,7 @@
 #include "support/folder.h"
 #include "support/text.h"
 
-namespace limn::test {
+namespace limn::test::films_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -294,4 +294,4 @@ TEST_CASE("Films: a figure whose film alone is written writes no picture", "[cli
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::films_test

@@ -9,7 +9,7 @@
 #include "support/folder.h"
 #include "table.h"
 
-namespace limn::test {
+namespace limn::test::info_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST_CASE("limn info: what is no model and no image is refused with status 1", "
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::info_test

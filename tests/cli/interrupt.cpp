@@ -14,7 +14,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::interrupt_test {
 namespace {
 
 constexpr const char* kEndless = "1000000000";
@@ -106,4 +106,4 @@ TEST_CASE("Progress: a bar is drawn on a terminal and taken away at the end, and
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::interrupt_test

@@ -5,7 +5,7 @@
 #include "json_output.h"
 #include "limn/core/math.h"
 
-namespace limn::app {
+namespace limn::app::json_test {
 namespace {
 
 nlohmann::ordered_json read_back(const Json& json) { return nlohmann::ordered_json::parse(json_text(json)); }
@@ -46,4 +46,4 @@ TEST_CASE("JSON: members are added once, and replaced where they are", "[cli][js
 }
 
 }  // namespace
-}  // namespace limn::app
+}  // namespace limn::app::json_test

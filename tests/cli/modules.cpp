@@ -8,7 +8,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::modules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_CASE("Modules: one of another version, and what is none, are refused", "[cl
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::modules_test

@@ -9,7 +9,7 @@
 #include "property.h"
 #include "render_options.h"
 
-namespace limn::app {
+namespace limn::app::options_test {
 namespace {
 
 RenderOptions parsed(std::vector<const char*> words) {
@@ -233,4 +233,4 @@ TEST_CASE("Options: the command line is kept as a shell would read it back", "[c
 }
 
 }  // namespace
-}  // namespace limn::app
+}  // namespace limn::app::options_test

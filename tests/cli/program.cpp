@@ -12,7 +12,7 @@
 #include "stderr.h"
 #include "text_file.h"
 
-namespace limn::test {
+namespace limn::test::program_test {
 namespace {
 
 template <class Body>
@@ -68,4 +68,4 @@ TEST_CASE("Program: a reader that has gone is an error of writing, not the progr
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::program_test

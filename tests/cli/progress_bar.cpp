@@ -4,7 +4,7 @@
 #include "catch.h"
 #include "stderr.h"
 
-namespace limn::test {
+namespace limn::test::progress_bar_test {
 namespace {
 
 std::string bar_at(double fraction, double seconds) {
@@ -55,4 +55,4 @@ TEST_CASE("Progress bar: drawn five times a second at most, erased once, and nev
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::progress_bar_test

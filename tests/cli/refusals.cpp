@@ -12,7 +12,7 @@
 #include "support/folder.h"
 #include "support/text.h"
 
-namespace limn::test {
+namespace limn::test::refusals_test {
 namespace {
 
 TEST_CASE("limn: version and help go to stdout with status 0", "[cli]") {
@@ -282,4 +282,4 @@ TEST_CASE("limn render: no output replaces a file that the model is made of, by 
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::refusals_test

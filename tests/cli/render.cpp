@@ -10,7 +10,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::render_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -247,4 +247,4 @@ TEST_CASE("limn render: what was not reached within --spp or --time-limit is sai
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::render_test

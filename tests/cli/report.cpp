@@ -6,7 +6,7 @@
 
 #include "catch.h"
 
-namespace limn::test {
+namespace limn::test::report_test {
 namespace {
 
 RenderResult result() {
@@ -159,4 +159,4 @@ TEST_CASE("Facts: what is unlimited, switched off, unknown or unfinished says so
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::report_test

@@ -6,7 +6,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::scale_test {
 namespace {
 
 Image picture(const Folder& folder, double scale, const std::string& seed) {
@@ -36,4 +36,4 @@ TEST_CASE("limn render: a model scaled by 1e-6 or 1e6 gives the same picture but
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::scale_test

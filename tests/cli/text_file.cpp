@@ -6,7 +6,7 @@
 #include "process.h"
 #include "support/folder.h"
 
-namespace limn::test {
+namespace limn::test::text_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST_CASE("Text file: outputs and inputs are told apart by the file, however it 
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::text_file_test

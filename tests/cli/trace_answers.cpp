@@ -11,7 +11,7 @@
 #include "support/folder.h"
 #include "support/random_geometry.h"
 
-namespace limn::test {
+namespace limn::test::trace_answers_test {
 namespace {
 
 // A hilly field of triangles, quads and pentagons, none of them flat, with faces between them that get dropped.
@@ -213,4 +213,4 @@ TEST_CASE("limn trace: rays that cannot be used are misses, and counted", "[cli]
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::trace_answers_test

@@ -9,7 +9,7 @@
 #include "support/folder.h"
 #include "support/text.h"
 
-namespace limn::test {
+namespace limn::test::trace_streams_test {
 namespace {
 
 const std::string kRay = std::string(kTriangleRay) + "\n", kAnswer = std::string(kTriangleAnswer) + "\n";
@@ -207,4 +207,4 @@ TEST_CASE("limn trace: float64 does not go to a terminal", "[cli][trace]") {
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::trace_streams_test

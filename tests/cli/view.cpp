@@ -13,7 +13,7 @@
 #include "support/folder.h"
 #include "table.h"
 
-namespace limn::test {
+namespace limn::test::view_test {
 namespace {
 
 // Renders the house with these options to a.exr, small.
@@ -262,4 +262,4 @@ TEST_CASE("limn render: --preview replaces each picture while it renders, again 
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::view_test

@@ -4,8 +4,9 @@
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::agreement_test {
+
+using namespace test;
 
 namespace {
 
@@ -186,3 +187,5 @@ TEST_CASE("compile: rays that start close beside large tilted shapes are answere
     CHECK(tally.wrong == 0);
     CHECK(tally.hits > 20000);
 }
+
+}  // namespace limn::agreement_test

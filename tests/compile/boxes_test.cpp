@@ -7,8 +7,9 @@
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::boxes_test {
+
+using namespace test;
 
 TEST_CASE("CompiledScene: flat boxes far from the origin lose no ray", "[compile][boxes]") {
     Random random(353);
@@ -75,3 +76,5 @@ TEST_CASE("CompiledScene: a box in float is the smallest around the one in doubl
         }
     }
 }
+
+}  // namespace limn::boxes_test

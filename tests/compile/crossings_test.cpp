@@ -11,8 +11,9 @@
 #include "support/tally.h"
 #include "trace/traverse.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::crossings_test {
+
+using namespace test;
 using trace::Crossing;
 
 namespace {
@@ -199,3 +200,5 @@ TEST_CASE("are_occluded: boundaries that light passes straight through stop noth
     CHECK_FALSE(occluded({cloudy}, {.origin = {1.5, 0, 9}, .direction = {0, 0, -1}}));
     CHECK_FALSE(occluded({cloudy}, {.origin = {0, 0, 9}, .direction = {0, 0, -1}, .t_max = 7.5}));
 }
+
+}  // namespace limn::crossings_test

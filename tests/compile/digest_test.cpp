@@ -16,8 +16,9 @@
 #include "limn/texture/perlin.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::digest_test {
+
+using namespace test;
 
 namespace {
 
@@ -146,3 +147,5 @@ TEST_CASE("Digests: user-defined objects are in it by their tags", "[compile][di
     CHECK_FALSE(compiled_one(std::make_shared<WithTag>(1)).has_untagged());
     CHECK(compiled_one(std::make_shared<Parametric>(1)).has_untagged());
 }
+
+}  // namespace limn::digest_test

@@ -15,8 +15,9 @@
 #include "property.h"
 #include "support/cases.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::laws_test {
+
+using namespace test;
 
 namespace {
 
@@ -220,3 +221,5 @@ TEST_CASE("compile: of two users' shapes in each other's boxes the nearer is hit
     REQUIRE(hit);
     CHECK((hit->object == 1 && hit->t == 100.5));
 }
+
+}  // namespace limn::laws_test

@@ -6,8 +6,9 @@
 #include "support/random_geometry.h"
 #include "support/scene_zoo.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::light_tree_test {
+
+using namespace test;
 using flat::Light;
 using flat::LightKind;
 using flat::LightNode;
@@ -153,3 +154,5 @@ TEST_CASE("Light tree: lights all in one place, or in one line, make no endless 
         CHECK(scene.lights.nodes.size() == 1999);
     }
 }
+
+}  // namespace limn::light_tree_test

@@ -11,8 +11,9 @@
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::lights_test {
+
+using namespace test;
 using flat::Light;
 using flat::LightKind;
 
@@ -310,3 +311,5 @@ TEST_CASE("Lights: a ball's error bound covers its whole way, its radius and wha
     // Far out in the object's own space the rounding is as large, wherever the instance puts it.
     CHECK(bound(far, far, 1, Transform::translate({0, 1024, 0})).x >= 1024 * gamma(16));
 }
+
+}  // namespace limn::lights_test

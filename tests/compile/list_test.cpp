@@ -5,8 +5,9 @@
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::list_test {
+
+using namespace test;
 
 namespace {
 
@@ -287,3 +288,5 @@ TEST_CASE("Lists: a triangle without area is in none, its number stays its own",
     REQUIRE(hit);
     CHECK(hit->element == 1);
 }
+
+}  // namespace limn::list_test

@@ -8,7 +8,7 @@
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"
 
-using namespace limn;
+namespace limn::odd_scenes_test {
 
 namespace {
 
@@ -82,3 +82,5 @@ TEST_CASE("compile: a hit endlessly far away is a miss", "[compile]") {
         });
     }
 }
+
+}  // namespace limn::odd_scenes_test

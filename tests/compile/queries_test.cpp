@@ -5,8 +5,9 @@
 #include "limn/texture/checker.h"
 #include "support/scene_zoo.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::queries_test {
+
+using namespace test;
 
 namespace {
 
@@ -302,3 +303,5 @@ TEST_CASE("compile: an object that contains itself is refused", "[compile]") {
     scene.add(loop);
     CHECK_THROWS_AS(compile(scene), ArgumentError);
 }
+
+}  // namespace limn::queries_test

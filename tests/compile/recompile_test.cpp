@@ -7,8 +7,9 @@
 #include "limn/query/compiled_scene.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::recompile_test {
+
+using namespace test;
 
 namespace {
 
@@ -152,3 +153,5 @@ TEST_CASE("Recompiling: what cannot be moved is refused, and the scene stays as 
     CHECK_FALSE(scene.any_hit({{3, 0, 5}, {0, 0, -1}}));
     CHECK(scene.any_hit({{0, 0, 20}, {0, 0, -1}}));
 }
+
+}  // namespace limn::recompile_test

@@ -4,7 +4,7 @@
 #include "limn/record_sink.h"
 #include "support/meshes.h"
 
-using namespace limn;
+namespace limn::records_test {
 
 namespace {
 
@@ -176,3 +176,5 @@ TEST_CASE("RecordSink: more primitives than numbers are refused", "[compile][rec
     CHECK_NOTHROW(deeper(7));                              // below 2^63
     CHECK_THROWS_AS(deeper(2), ArgumentError);
 }
+
+}  // namespace limn::records_test

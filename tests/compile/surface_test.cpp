@@ -7,8 +7,9 @@
 #include "support/scene_zoo.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::surface_test {
+
+using namespace test;
 
 namespace {
 
@@ -297,3 +298,5 @@ TEST_CASE("outward_normals: those of surface_at, from whichever side a ray came,
     std::vector<Vec3> normals(2);
     CHECK_THROWS_AS(outward_normals(empty, two, one, normals), ArgumentError);
 }
+
+}  // namespace limn::surface_test

@@ -12,8 +12,9 @@
 #include "limn/texture/image_texture.h"
 #include "support/scene_zoo.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::tables_test {
+
+using namespace test;
 
 namespace {
 
@@ -313,3 +314,5 @@ TEST_CASE("CompiledScene: of shapes in a row only the first on the way is asked"
             CHECK(asked_by([&] { CHECK(bvh.hit(ray)->t == 0.5); }) == 1);
         }
 }
+
+}  // namespace limn::tables_test

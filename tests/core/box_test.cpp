@@ -8,7 +8,8 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
+namespace limn::box_test {
+
 using limn::test::Random;
 
 namespace {
@@ -153,3 +154,5 @@ TEST_CASE("transform_box: the box of something unbounded stays unbounded", "[cor
         CHECK(image.contains(transform_point(m, {0, 0, 0})));
     }
 }
+
+}  // namespace limn::box_test

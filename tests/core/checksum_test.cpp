@@ -2,7 +2,7 @@
 
 #include "property.h"
 
-using namespace limn;
+namespace limn::checksum_test {
 
 namespace {
 
@@ -53,3 +53,5 @@ TEST_CASE("Checksums: texts are told apart by where they end, numbers by their b
     CHECK(of_number(0.0) != of_number(-0.0));
     CHECK(of_number(1) != of_number(std::int64_t{1}));
 }
+
+}  // namespace limn::checksum_test

@@ -5,7 +5,7 @@
 #include "limn/core/math.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::color_test {
 
 TEST_CASE("Color: arithmetic works channel by channel", "[core][color]") {
     const Color a{1, 2, 4}, b{8, 0.5, 3};
@@ -77,3 +77,5 @@ TEST_CASE("sRGB: decoding undoes encoding, both rise, and both are odd", "[core]
         if (y - x > 1e-6) RC_ASSERT((srgb_encode(x) < srgb_encode(y) && srgb_decode(x) < srgb_decode(y)));
     });
 }
+
+}  // namespace limn::color_test

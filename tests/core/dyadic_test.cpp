@@ -8,7 +8,8 @@
 #include "catch.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::dyadic_test {
+
 using Rational = boost::multiprecision::cpp_rational;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("Dyadic::square_root: right to 60 bits, and exact for squares", "[core
     CHECK(Dyadic(0x1p-1074).square_root() == Dyadic(0x1p-537));
     CHECK(Dyadic(0x1p-1073).square_root() < Dyadic(0x1.7p-537));
 }
+
+}  // namespace limn::dyadic_test

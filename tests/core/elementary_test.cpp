@@ -4,8 +4,9 @@
 #include "limn/core/math.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::elementary_test {
+
+using namespace test;
 
 namespace {
 
@@ -99,3 +100,5 @@ TEST_CASE("Elementary: ends and what is beyond them", "[core][elementary]") {
     CHECK(std::isnan(arc_tangent(1, nan)));
     CHECK(std::isnan(sine(kInfinity)));
 }
+
+}  // namespace limn::elementary_test

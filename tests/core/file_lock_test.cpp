@@ -10,8 +10,9 @@
 #include "limn/core/error.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::file_lock_test {
+
+using namespace test;
 
 TEST_CASE("File locks: one has it at a time, by whatever name, and it ends with the object", "[core][file-lock]") {
     const Folder folder;
@@ -49,3 +50,5 @@ TEST_CASE("File locks: it dies with its process", "[core][file-lock]") {
     { const FileLock lock(path); }
     CHECK(folder.names().empty());
 }
+
+}  // namespace limn::file_lock_test

@@ -6,8 +6,9 @@
 #include "predicates/triangle-inl.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::HWY_NAMESPACE;
+namespace limn::filter_test {
+
+using namespace HWY_NAMESPACE;
 using test::Random;
 
 namespace {
@@ -231,3 +232,5 @@ TEST_CASE("The exact fallback knows the answers of textbook cases", "[core][filt
     const SphereHits behind = exact_sphere({0.25, 0.25, 3}, 1, down, nullptr, nullptr, search);
     CHECK((!behind.near_found && behind.far_found && behind.far == 0.5));
 }
+
+}  // namespace limn::filter_test

@@ -8,7 +8,7 @@
 #include "limn/core/warp.h"
 #include "support/chi_square.h"
 
-using namespace limn;
+namespace limn::frame_test {
 
 namespace {
 
@@ -50,3 +50,5 @@ TEST_CASE("Frame: local and world coordinates are inverse to each other", "[core
         CHECK(length(f.to_world({0, 0, 1}) - f.z) == 0);
     }
 }
+
+}  // namespace limn::frame_test

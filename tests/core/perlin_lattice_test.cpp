@@ -4,7 +4,7 @@
 
 #include "catch.h"
 
-using namespace limn;
+namespace limn::perlin_lattice_test {
 
 TEST_CASE("PerlinLattice: made of SplitMix64's own sequence, so that pictures stay what they are", "[core][perlin]") {
     // The generator's published test vector for this seed.
@@ -22,3 +22,5 @@ TEST_CASE("PerlinLattice: made of SplitMix64's own sequence, so that pictures st
     CHECK(begins_with(lattice.perm_z, {232, 124, 112, 200, 194, 75}));
     CHECK((lattice.perm_x[255] == 162 && lattice.perm_y[255] == 101 && lattice.perm_z[255] == 132));
 }
+
+}  // namespace limn::perlin_lattice_test

@@ -4,7 +4,8 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
+namespace limn::surface_test {
+
 using limn::test::Random;
 using limn::test::Real;
 
@@ -136,3 +137,5 @@ TEST_CASE("spawn_ray_to: a ray to another surface leaves both ends by their erro
         CHECK(dot(to.normal, ray.direction) * static_cast<double>(height) <= 0);
     }
 }
+
+}  // namespace limn::surface_test

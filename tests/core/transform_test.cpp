@@ -7,7 +7,8 @@
 #include "support/grid.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::transform_test {
+
 using limn::test::Random;
 
 namespace {
@@ -204,3 +205,5 @@ TEST_CASE("interpolate: bit-exact at both ends, clamped outside, linear between"
                 CHECK(m.rows[r][c] == Approx(a.rows[r][c] + t * (b.rows[r][c] - a.rows[r][c])).margin(1e-12));
     }
 }
+
+}  // namespace limn::transform_test

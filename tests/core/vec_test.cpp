@@ -10,7 +10,8 @@
 #include "support/grid.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::vec_test {
+
 using limn::test::Random;
 
 TEST_CASE("Vec3: the cross product is perpendicular to both factors and as long as Lagrange's identity says",
@@ -128,3 +129,5 @@ TEST_CASE("is_usable: refuses a ray exactly when a field is NaN, infinite or con
     ray.time = -3;
     CHECK(is_usable(ray));
 }
+
+}  // namespace limn::vec_test

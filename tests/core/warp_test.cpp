@@ -10,7 +10,8 @@
 #include "support/chi_square.h"
 #include "support/grid.h"
 
-using namespace limn;
+namespace limn::warp_test {
+
 using test::chi_square_p;
 using test::DirectionHistogram;
 using test::kDraws;
@@ -188,3 +189,5 @@ TEST_CASE("Warp: below the horizon the cosine density is zero", "[core][warp]") 
     CHECK(pdf_cosine_hemisphere(-0.5) == 0);
     CHECK(pdf_cosine_hemisphere(1) == Approx(1 / kPi));
 }
+
+}  // namespace limn::warp_test

@@ -5,8 +5,9 @@
 #include "catch.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_analytic_camera {
+
+using namespace test;
 
 namespace {
 
@@ -112,3 +113,5 @@ TEST_CASE("T5: the streak of the moving ball holds as much light as the ball at 
     CAPTURE(sum.mean, sum.error, truth);
     CHECK(agrees(sum, truth));
 }
+
+}  // namespace limn::test_analytic_camera

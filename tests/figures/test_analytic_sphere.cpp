@@ -6,8 +6,9 @@
 #include "scene_parts.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_analytic_sphere {
+
+using namespace test;
 
 namespace {
 
@@ -170,3 +171,5 @@ TEST_CASE("T8: a medium absorbs the same alone, in a list, and in a Bvh of one t
         objects.push_back(std::make_shared<Sphere>(Point3{5.0 * count, 0, 0}, 1.0, figures::matte({.5, .5, .5})));
     }
 }
+
+}  // namespace limn::test_analytic_sphere

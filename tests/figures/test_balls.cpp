@@ -8,8 +8,9 @@
 #include "scene_parts.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_balls {
+
+using namespace test;
 
 namespace {
 
@@ -164,3 +165,5 @@ TEST_CASE("Figure 5: left and right are mirror images", "[figures]") {
     CAPTURE(difference.mean, difference.error);
     CHECK(agrees(difference, 0));
 }
+
+}  // namespace limn::test_balls

@@ -4,8 +4,9 @@
 #include "catch.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_blur {
+
+using namespace test;
 
 namespace {
 
@@ -126,3 +127,5 @@ TEST_CASE("Figures 17 and 18: the lens moves light, it does not add any", "[figu
     CAPTURE(a.mean, a.error, b.mean, b.error);
     CHECK(std::abs(a.mean - b.mean) + kSigmas * std::hypot(a.error, b.error) < .01 * a.mean);
 }
+
+}  // namespace limn::test_blur

@@ -6,7 +6,7 @@
 #include "limn/record_sink.h"
 #include "support.h"
 
-using namespace limn;
+namespace limn::test_contents {
 
 namespace {
 
@@ -243,3 +243,5 @@ TEST_CASE("Contents: figures 15 and 16 are the Cornell box, with boxes and with 
           walls + "quad (113, 554, 127) (330, 0, 0) (0, 0, 305): lamp (7, 7, 7)\n" +
               "smoke (0, 0, 0) of density 0.01 in " + tall + "smoke (1, 1, 1) of density 0.01 in " + low);
 }
+
+}  // namespace limn::test_contents

@@ -9,8 +9,9 @@
 #include "support/folder.h"
 #include "support/same_render.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_cornell {
+
+using namespace test;
 
 namespace {
 
@@ -220,3 +221,5 @@ TEST_CASE("Figure 16: seven shards, merged in three orders, are the bits of one 
         check_same(render_result(Film::merge(films)), whole);
     }
 }
+
+}  // namespace limn::test_cornell

@@ -9,7 +9,8 @@
 #include "figure_data.h"
 #include "support.h"
 
-using namespace limn;
+namespace limn::test_data {
+
 using figures::data_file;
 using figures::read_bouncing_spheres;
 using figures::read_perlin_lattice;
@@ -109,3 +110,5 @@ TEST_CASE("LIMN_FIGURE_DATA names another folder for the data", "[figures]") {
     CHECK(other == "/elsewhere/cube.obj");
     CHECK(std::filesystem::exists(usual));
 }
+
+}  // namespace limn::test_data

@@ -5,8 +5,9 @@
 #include "catch.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_estimators {
+
+using namespace test;
 
 namespace {
 
@@ -104,3 +105,5 @@ TEST_CASE("Every figure has the report's size and depth, its own name, and a des
 #undef LIMN_CHECK_FIGURE
     CHECK(names.size() == 18);
 }
+
+}  // namespace limn::test_estimators

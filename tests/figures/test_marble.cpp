@@ -6,8 +6,9 @@
 #include "catch.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_marble {
+
+using namespace test;
 
 namespace {
 
@@ -112,3 +113,5 @@ TEST_CASE("Different seeds give different marble, equal seeds the same", "[figur
     CHECK(a.value(s) != b.value(s));
     CHECK(a.value(s) == c.value(s));
 }
+
+}  // namespace limn::test_marble

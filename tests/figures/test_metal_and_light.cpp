@@ -6,8 +6,9 @@
 #include "scene_parts.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_metal_and_light {
+
+using namespace test;
 
 namespace {
 
@@ -143,3 +144,5 @@ TEST_CASE("Figure 12: the ball casts a soft shadow below itself", "[figures]") {
     CHECK(before < 1);
     CHECK(agrees(share_lit(6.2), 1));
 }
+
+}  // namespace limn::test_metal_and_light

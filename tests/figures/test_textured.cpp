@@ -10,8 +10,9 @@
 #include "scene_parts.h"
 #include "support.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::test_textured {
+
+using namespace test;
 
 namespace {
 
@@ -297,3 +298,5 @@ TEST_CASE("Figure 9: three colours, and as much of the dark as of the light cell
     CHECK(agrees(triangle_mean(1, .8), .48, 1e-6));
     CHECK(agrees(triangle_mean(2, 1), .50, 1e-6));
 }
+
+}  // namespace limn::test_textured

@@ -2,8 +2,9 @@
 #include "hard/exact_mesh.h"
 #include "hard/query_meshes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::all_hits_test {
+
+using namespace test;
 
 namespace {
 
@@ -134,3 +135,5 @@ TEST_CASE("All hits: a touched sphere once, the boundaries of media flagged, an 
         CHECK(hits.empty());
     }
 }
+
+}  // namespace limn::all_hits_test

@@ -6,7 +6,9 @@
 #include "catch.h"
 #include "hard/arithmetic_probe.h"
 
-using namespace limn::test;
+namespace limn::arithmetic_test {
+
+using namespace test;
 
 namespace {
 
@@ -78,3 +80,5 @@ TEST_CASE("Arithmetic: products are rounded before they are added, sums are take
         CHECK(rounded[i] == static_cast<double>(single));
     }
 }
+
+}  // namespace limn::arithmetic_test

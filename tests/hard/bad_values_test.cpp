@@ -8,8 +8,9 @@
 #include "hard/special_values.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::bad_values_test {
+
+using namespace test;
 
 namespace {
 
@@ -366,3 +367,5 @@ TEST_CASE("Bad geometry: random bits for coordinates are refused or answered ali
     check(tally, "random bits");
     CHECK(built > count(1e6) / 4);
 }
+
+}  // namespace limn::bad_values_test

@@ -2,8 +2,9 @@
 #include "hard/query_meshes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::batches_test {
+
+using namespace test;
 
 TEST_CASE("Batches: on any number of threads as one by one, unusable rays counted", "[hard][filters]") {
     Random random(633);
@@ -82,3 +83,5 @@ TEST_CASE("Batches of points: on any number of threads as one by one", "[hard][f
     std::vector<double> short_one(n - 1);
     CHECK_THROWS_AS(scene.signed_distance(points, short_one), ArgumentError);
 }
+
+}  // namespace limn::batches_test

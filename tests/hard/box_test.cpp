@@ -8,8 +8,9 @@
 #include "limn/shape/bvh.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::box_test {
+
+using namespace test;
 
 namespace {
 
@@ -282,3 +283,5 @@ TEST_CASE("Box: in half-open worlds, among numbers up to 3e38 and subnormal ones
     check(tally, "all magnitudes");
     CHECK(tally.hits > tally.rays / 10);
 }
+
+}  // namespace limn::box_test

@@ -3,8 +3,9 @@
 #include "hard/hard.h"
 #include "support/scene_zoo.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::bvh_test {
+
+using namespace test;
 
 namespace {
 
@@ -163,3 +164,5 @@ TEST_CASE("Trees: of many exact copies the first is hit, whatever stands around 
         check(tally, scene.name());
     }
 }
+
+}  // namespace limn::bvh_test

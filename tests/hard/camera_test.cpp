@@ -6,8 +6,9 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::camera_test {
+
+using namespace test;
 
 namespace {
 
@@ -183,3 +184,5 @@ TEST_CASE("Camera: one at the ends of the numbers is refused, or all its rays ca
     CHECK(made > 1000);
     CHECK(refused > 1000);
 }
+
+}  // namespace limn::camera_test

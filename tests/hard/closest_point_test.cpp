@@ -2,8 +2,9 @@
 #include "hard/query_meshes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::closest_point_test {
+
+using namespace test;
 
 namespace {
 
@@ -183,3 +184,5 @@ TEST_CASE("Closest points: of spheres in instances of any size", "[hard][closest
         CHECK(nearest->distance == Approx(2 * size));
     }
 }
+
+}  // namespace limn::closest_point_test

@@ -1,8 +1,9 @@
 // Shapes that coincide, touch, or nearly so: the nearest is the least reported t, and of equals the first.
 #include "hard/exact_mesh.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::closest_test {
+
+using namespace test;
 
 namespace {
 
@@ -155,3 +156,5 @@ TEST_CASE("Closest: of a mesh that holds each triangle three times the last copy
     }
     check(tally, "copies");
 }
+
+}  // namespace limn::closest_test

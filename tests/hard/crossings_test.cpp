@@ -2,8 +2,9 @@
 #include "hard/query_meshes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::crossings_test {
+
+using namespace test;
 
 namespace {
 
@@ -261,3 +262,5 @@ TEST_CASE("Crossings: where a ray touches a box or runs along its face it enters
     scene.add(ball({9, 0, 0}, 1));
     CHECK(compile(scene).count_intersections({{9, 1, 5}, {0, 0, -1}}) == 0);
 }
+
+}  // namespace limn::crossings_test

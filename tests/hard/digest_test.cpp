@@ -10,8 +10,9 @@
 #include "limn/query/compiled_scene.h"
 #include "support/text.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::digest_test {
+
+using namespace test;
 
 namespace {
 
@@ -206,3 +207,5 @@ TEST_CASE("Digest: the points hit, their error bounds and normals have the same 
     });
     CHECK(digest.text() == kSurfaces);
 }
+
+}  // namespace limn::digest_test

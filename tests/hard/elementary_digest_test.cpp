@@ -4,8 +4,9 @@
 #include "core/elementary.h"
 #include "support/text.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::elementary_digest_test {
+
+using namespace test;
 
 TEST_CASE("Digest: the elementary functions have the same bits in every build", "[hard][digest]") {
     const struct {
@@ -32,3 +33,5 @@ TEST_CASE("Digest: the elementary functions have the same bits in every build", 
         CHECK(hexadecimal(sum.value()) == row.digest);
     }
 }
+
+}  // namespace limn::elementary_digest_test

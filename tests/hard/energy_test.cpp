@@ -5,8 +5,9 @@
 #include "limn/material/metal.h"
 #include "render/single_ray.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::energy_test {
+
+using namespace test;
 
 namespace {
 
@@ -206,3 +207,5 @@ TEST_CASE("Lamps: from 1.5 to 1.5e7 radii away a ball lights a floor by its shar
         check_mean(m, kAlbedo, 1e-3);
     }
 }
+
+}  // namespace limn::energy_test

@@ -13,8 +13,9 @@
 #include "limn/material/lambertian.h"
 #include "limn/render/render.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::environment_test {
+
+using namespace test;
 
 namespace {
 
@@ -262,5 +263,7 @@ TEST_CASE("Environment: a picture has the same bits in every one, on one thread 
             CHECK(different == 0);
         }
 }
+
+}  // namespace limn::environment_test
 
 #endif

@@ -4,8 +4,9 @@
 #include "hard/hard.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::exact_truth_test {
+
+using namespace test;
 
 namespace {
 
@@ -323,3 +324,5 @@ TEST_CASE("The judge goes on behind a hit at t_min by its rounding, however litt
     CHECK(faults(Answer{1 + 0x1p-20, 0.5, 0.5, 0}) == 1);
     CHECK(faults(std::nullopt) == 1);
 }
+
+}  // namespace limn::exact_truth_test

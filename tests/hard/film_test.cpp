@@ -7,8 +7,9 @@
 #include "limn/texture/perlin.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::film_test {
+
+using namespace test;
 
 namespace {
 
@@ -88,3 +89,5 @@ TEST_CASE(
         }
     CHECK(differing == 0);
 }
+
+}  // namespace limn::film_test

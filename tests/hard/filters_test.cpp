@@ -3,8 +3,9 @@
 #include "hard/query_meshes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::filters_test {
+
+using namespace test;
 
 TEST_CASE("Filters: as if all hits were found first and those passed over taken out", "[hard][filters]") {
     Random random(631);
@@ -84,3 +85,5 @@ TEST_CASE("Filters: a ray that leaves the triangle it starts on, through its ver
     }
     check(tally, "leaving");
 }
+
+}  // namespace limn::filters_test

@@ -6,8 +6,9 @@
 #include "limn/render/render.h"
 #include "predicates/ray_frame.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::instance_test {
+
+using namespace test;
 
 namespace {
 
@@ -352,3 +353,5 @@ TEST_CASE("Instance: a singular matrix, or one with NaN or an infinity, is refus
                 CHECK_THROWS_AS(Instance(object, Transform{}, m), ArgumentError);
             }
 }
+
+}  // namespace limn::instance_test

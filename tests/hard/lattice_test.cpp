@@ -1,8 +1,9 @@
 // Surfaces on whole numbers, and rays that run along their lines or start on them: every equality is exact.
 #include "hard/exact_mesh.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::lattice_test {
+
+using namespace test;
 
 namespace {
 
@@ -137,3 +138,5 @@ TEST_CASE("Cubes: rays along the edges and diagonals of whole cubes in a row are
     check(tally, "row");
     CHECK(tally.hits > tally.rays / 4);
 }
+
+}  // namespace limn::lattice_test

@@ -6,8 +6,9 @@
 #include "limn/material/lambertian.h"
 #include "limn/render/render.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::leaving_test {
+
+using namespace test;
 
 namespace {
 
@@ -248,3 +249,5 @@ TEST_CASE("Leaving: a diffuse ground sphere of radius 1e3 to 1e7 in a uniform fi
         CHECK(worst < 1e-3);
     }
 }
+
+}  // namespace limn::leaving_test

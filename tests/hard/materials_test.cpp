@@ -8,8 +8,9 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::materials_test {
+
+using namespace test;
 
 TEST_CASE("Lambertian: every sample is a unit direction above the surface, whatever the normal and the numbers",
           "[hard][materials]") {
@@ -134,3 +135,5 @@ TEST_CASE("Dielectric: what is sampled has unit length and keeps to Snell's law,
     CHECK(wrong == 0);
     CHECK(worst_law <= 1e-12);
 }
+
+}  // namespace limn::materials_test

@@ -5,8 +5,9 @@
 #include "limn/shape/constant_medium.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::media_test {
+
+using namespace test;
 using transport::FreeFlight;
 using transport::MediaAlongRay;
 
@@ -262,3 +263,5 @@ TEST_CASE("Media: a density that is negative, infinite or no number is refused",
         CHECK_THROWS_AS(medium_of(boundary, density), ArgumentError);
     CHECK_NOTHROW(medium_of(boundary, -0.0));
 }
+
+}  // namespace limn::media_test

@@ -2,8 +2,9 @@
 #include "hard/exact_mesh.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::mesh_test {
+
+using namespace test;
 
 namespace {
 
@@ -366,3 +367,5 @@ TEST_CASE("Meshes: triangles of size 1e-20 to 1e18 are hit at the exact t, from 
     }
     check(tally, "sizes");
 }
+
+}  // namespace limn::mesh_test

@@ -3,8 +3,9 @@
 #include "catch.h"
 #include "hard/placed.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::motion_test {
+
+using namespace test;
 
 namespace {
 
@@ -214,3 +215,5 @@ TEST_CASE("Motion: the box of a moving instance contains the exact image of its 
     }
     CHECK(outside == 0);
 }
+
+}  // namespace limn::motion_test

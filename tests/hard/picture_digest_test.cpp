@@ -6,8 +6,9 @@
 #include "support/meshes.h"
 #include "support/text.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::picture_digest_test {
+
+using namespace test;
 
 namespace {
 
@@ -96,3 +97,5 @@ TEST_CASE("Digest: a picture of turned boxes and smoke has the same bits in ever
 TEST_CASE("Digest: so does one of all textures and lobes under a sky", "[hard][digest]") {
     CHECK(digest(outdoors(), {.look_from = {0.5, 1, 6}, .aperture_angle = 1, .focus_distance = 6}) == kOutdoors);
 }
+
+}  // namespace limn::picture_digest_test

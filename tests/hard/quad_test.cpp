@@ -3,8 +3,9 @@
 #include "hard/shapes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::quad_test {
+
+using namespace test;
 
 namespace {
 
@@ -305,3 +306,5 @@ TEST_CASE("make_box: no ray from inside escapes through edges and corners, place
         check(tally, "kind " + std::to_string(kind));
     }
 }
+
+}  // namespace limn::quad_test

@@ -12,7 +12,7 @@
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"
 
-using namespace limn;
+namespace limn::reviewed_test {
 
 namespace {
 
@@ -132,3 +132,5 @@ TEST_CASE("Sphere: of two roots that are one in double the nearer is not reporte
     CHECK_FALSE(scene.closest_hit(ray));
     CHECK(scene.all_hits(ray).empty());
 }
+
+}  // namespace limn::reviewed_test

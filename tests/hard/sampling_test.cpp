@@ -16,8 +16,9 @@
 #include "support/real.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sampling_test {
+
+using namespace test;
 using transport::Sampler;
 
 namespace {
@@ -269,3 +270,5 @@ TEST_CASE("Media: free paths are exponential in mean and distribution, and so is
     CHECK(whole.p_value() > 1e-3);
     CHECK(tail.p_value() > 1e-3);
 }
+
+}  // namespace limn::sampling_test

@@ -2,8 +2,10 @@
 #include "hard/hard.h"
 #include "hard/shapes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sphere_limits_test {
+
+using namespace test;
+using test::scaled;
 
 namespace {
 
@@ -228,3 +230,5 @@ TEST_CASE("Sphere: whatever the length of the direction, t times it is the same"
     check(tally, "directions");
     CHECK(tally.hits == 2 * 601);
 }
+
+}  // namespace limn::sphere_limits_test

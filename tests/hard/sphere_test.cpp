@@ -2,8 +2,9 @@
 #include "hard/hard.h"
 #include "hard/shapes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sphere_test {
+
+using namespace test;
 
 namespace {
 
@@ -154,3 +155,5 @@ TEST_CASE("Sphere: u and v are between 0 and 1 and name the point, at poles and 
         check(tally, "r = " + number(r));
     }
 }
+
+}  // namespace limn::sphere_test

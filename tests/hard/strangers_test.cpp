@@ -5,8 +5,9 @@
 #include "catch.h"
 #include "hard/placed.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::strangers_test {
+
+using namespace test;
 
 namespace {
 
@@ -282,3 +283,5 @@ TEST_CASE("Strangers: that ask a compiled scene are answered for the numbers of 
         CHECK(hits > asked / 10);
     }
 }
+
+}  // namespace limn::strangers_test

@@ -9,8 +9,9 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::texture_test {
+
+using namespace test;
 
 namespace {
 
@@ -132,3 +133,5 @@ TEST_CASE("sRGB: of every float between two stored values the nearer one is stor
     }
     CHECK(wrong == 0);
 }
+
+}  // namespace limn::texture_test

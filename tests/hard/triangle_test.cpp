@@ -3,8 +3,9 @@
 #include "hard/shapes.h"
 #include "limn/core/error.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::triangle_test {
+
+using namespace test;
 
 namespace {
 
@@ -350,3 +351,5 @@ TEST_CASE("Triangle: it is refused exactly where its area is exactly zero", "[ha
                                  {-1113.45459, -79.2090149, -56.2431908}}),
                     ArgumentError);
 }
+
+}  // namespace limn::triangle_test

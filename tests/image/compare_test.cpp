@@ -9,7 +9,7 @@
 #include "limn/core/math.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::compare_test {
 
 namespace {
 
@@ -220,3 +220,5 @@ TEST_CASE("compare: sums are in double, so a million small errors are not lost b
     // The bound on any order of summation; in float the small ones' share of 3e-8 would be lost.
     CHECK(compare_images(test, Image(1000, 1000)).mse == Approx(expected).epsilon(gamma(3'000'000)));
 }
+
+}  // namespace limn::compare_test

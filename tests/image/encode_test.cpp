@@ -6,7 +6,8 @@
 #include "catch.h"
 #include "limn/core/error.h"
 
-using namespace limn;
+namespace limn::encode_test {
+
 using Bytes = std::vector<std::uint8_t>;
 
 namespace {
@@ -43,3 +44,5 @@ TEST_CASE("encode_srgb8: colours are divided by alpha, and nothing is black", "[
     CHECK(encode_srgb8(image, 0, alpha) == Bytes{60, 90, 120, 64, 60, 90, 120, 255, 0, 0, 0, 0});
     CHECK_THROWS_AS(encode_srgb8(image, 0, std::span(alpha).first(2)), ArgumentError);
 }
+
+}  // namespace limn::encode_test

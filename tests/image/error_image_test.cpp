@@ -8,7 +8,7 @@
 #include "limn/core/error.h"
 #include "limn/image/compare.h"
 
-using namespace limn;
+namespace limn::error_image_test {
 
 namespace {
 
@@ -81,3 +81,5 @@ TEST_CASE("Error image: sizes must agree", "[image][compare]") {
     CHECK_THROWS_AS(error_image(a, a, b), ArgumentError);
     CHECK_THROWS_AS(error_image(Image(), Image()), ArgumentError);
 }
+
+}  // namespace limn::error_image_test

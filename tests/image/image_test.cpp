@@ -8,7 +8,7 @@
 #include "limn/core/error.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::image_test {
 
 TEST_CASE("Image: every value of a new image is the fill, rounded to float32", "[image]") {
     const Image image(3, 2, Color{0.1, 0.2, 0.3});
@@ -71,3 +71,5 @@ TEST_CASE("Image: a size beyond all memory is refused with its size, not wrapped
     }
 }
 #endif
+
+}  // namespace limn::image_test

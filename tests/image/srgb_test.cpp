@@ -4,7 +4,7 @@
 #include "limn/core/color.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::srgb_test {
 
 TEST_CASE("sRGB: decoding and encoding all 256 stored values is the identity", "[image][color]") {
     for (int i = 0; i < 256; ++i) {
@@ -47,3 +47,5 @@ TEST_CASE("sRGB: each function undoes the other, and both are increasing", "[ima
         if (x < y) RC_ASSERT(srgb_encode(x) < srgb_encode(y) && srgb_decode(x) < srgb_decode(y) + 1e-8);
     });
 }
+
+}  // namespace limn::srgb_test

@@ -14,8 +14,9 @@
 #include "limn/io/image_io.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::disk_test {
+
+using namespace test;
 
 namespace {
 
@@ -85,3 +86,5 @@ TEST_CASE("Saving: a disk that stores other bytes than it is given is found out,
     CHECK(folder.read("a.png") == "old picture");
     CHECK(folder.names() == Names{"a.png"});
 }
+
+}  // namespace limn::disk_test

@@ -4,8 +4,9 @@
 
 #include "gltf_files.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::gltf_broken_test {
+
+using namespace test;
 
 namespace {
 
@@ -270,3 +271,5 @@ TEST_CASE("glTF: whatever bytes are flipped, the file is refused or sound", "[io
         CHECK(loaded < 1000);
     }
 }
+
+}  // namespace limn::gltf_broken_test

@@ -7,8 +7,9 @@
 #include "limn/material/rough_conductor.h"
 #include "lowered_material.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::gltf_materials_test {
+
+using namespace test;
 
 TEST_CASE("glTF: factors and the index are those of the material", "[io][gltf]") {
     const auto lowered = [](const std::string& factors, const std::string& extensions = "{}") {
@@ -122,3 +123,5 @@ TEST_CASE("glTF: pictures without texture coordinates, and a wrapT of its own, g
     CHECK(load(replaced(textured, "{\"magFilter\"", "{\"wrapT\": 33071, \"magFilter\"")).warnings ==
           std::vector<std::string>{"a wrapT other than its wrapS of material 'material 0' is not used"});
 }
+
+}  // namespace limn::gltf_materials_test

@@ -16,8 +16,9 @@
 #include "limn/texture/image_texture.h"
 #include "lowered_material.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::gltf_test {
+
+using namespace test;
 
 namespace {
 
@@ -260,3 +261,5 @@ TEST_CASE("glTF: each primitive is a mesh of the vertices that it uses", "[io][g
     CHECK(model.meshes[1]->data().material_slots[0] == 0);
     CHECK(model.meshes[1]->face(0) == 1);  // faces of the file
 }
+
+}  // namespace limn::gltf_test

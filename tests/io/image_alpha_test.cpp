@@ -6,8 +6,9 @@
 #include "make_png.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_alpha_test {
+
+using namespace test;
 
 namespace {
 
@@ -194,3 +195,5 @@ TEST_CASE("EXR: of a part the data window is its own, and the display window tha
 }
 
 #endif
+
+}  // namespace limn::image_alpha_test

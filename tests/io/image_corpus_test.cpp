@@ -9,8 +9,9 @@
 #include "peak_memory.h"
 #include "picture_bytes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_corpus_test {
+
+using namespace test;
 
 namespace {
 
@@ -236,3 +237,5 @@ TEST_CASE("Image corpus: a picture is read only where the file can hold it and t
     CHECK_THROWS_AS(require_possible_size(0, 1, 3, 100, "a"), FileError);
     CHECK_THROWS_AS(require_possible_size(1, -1, 3, 100, "a"), FileError);
 }
+
+}  // namespace limn::image_corpus_test

@@ -7,8 +7,9 @@
 #include "judge_image.h"
 #include "make_png.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_damage_test {
+
+using namespace test;
 
 namespace {
 
@@ -69,3 +70,5 @@ TEST_CASE("Damaged images: whatever bytes are changed in a file, it is refused o
             check_sane(load_from_memory(bytes));
         }
 }
+
+}  // namespace limn::image_damage_test

@@ -11,8 +11,9 @@
 #include "make_png.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_decoding_test {
+
+using namespace test;
 
 namespace {
 
@@ -138,3 +139,5 @@ TEST_CASE("Decoding: broken files are refused with their name, never read in par
         CHECK(error.path() == "the logo");
     }
 }
+
+}  // namespace limn::image_decoding_test

@@ -7,8 +7,9 @@
 #include "peak_memory.h"
 #include "picture_bytes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_headers_test {
+
+using namespace test;
 
 namespace {
 
@@ -198,3 +199,5 @@ TEST_CASE("Image headers: a palette's last pixel on a TGA's last byte is there",
     check(load_from_memory(header + zeros(3) + "\x1a\x66\xcc" + "\1" + zeros(1)), Loads{2, 1, {0.8, 0.4, 0.1}});
     check(load_from_memory(header + zeros(3) + "\x1a\x66\xcc" + "\1"), "breaks off");
 }
+
+}  // namespace limn::image_headers_test

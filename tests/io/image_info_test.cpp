@@ -6,8 +6,9 @@
 #include "make_png.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_info_test {
+
+using namespace test;
 
 namespace {
 
@@ -76,3 +77,5 @@ TEST_CASE("Image info: files that are no pictures are refused with their name", 
         }
     }
 }
+
+}  // namespace limn::image_info_test

@@ -12,8 +12,9 @@
 #include "limn/io/image_io.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_refusals_test {
+
+using namespace test;
 
 namespace {
 
@@ -252,3 +253,5 @@ TEST_CASE("Loading: a picture that breaks off is refused in every format", "[io]
         }
     }
 }
+
+}  // namespace limn::image_refusals_test

@@ -11,8 +11,9 @@
 #include "limn/io/image_io.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::image_round_trip_test {
+
+using namespace test;
 
 TEST_CASE("PNG: 8-bit values survive saving and loading, all 256", "[io][image]") {
     const Folder folder;
@@ -220,3 +221,5 @@ TEST_CASE("EXR: a layer of another size, without a name or with a colour's is re
     CHECK(folder.names().empty());
 }
 #endif
+
+}  // namespace limn::image_round_trip_test

@@ -12,8 +12,9 @@
 #include "make_png.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::locale_test {
+
+using namespace test;
 
 namespace {
 
@@ -58,7 +59,7 @@ TEST_CASE("Locale: a decimal comma changes nothing in what is read and written",
     folder.write("a.mtl", "newmtl m\nKd 0.5 0.25 1234.5\nNs 1000.5\n");
     const std::string obj = folder.write(
         "a.obj", "mtllib a.mtl\nv 0.5 -1234567.25 1e-1\nv 1 0 0\nv 0 1 0\nvn 0 0.5 0.5\nusemtl m\nf 1//1 2//1 3//1\n");
-    const std::string png = make_png(1, 8, PngColor::rgb, "\x80\x80\x80", png_chunk("gAMA", big_endian(45455)));
+    const std::string png = make_png(1, 8, PngColor::rgb, "\x80\x80\x80", test::png_chunk("gAMA", big_endian(45455)));
     const std::string hdr =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nGAMMA=1.5\nEXPOSURE=0.25\n\n-Y 1 +X 1\n\x80\x40\xc0\x80";
     const auto everything = [&] {
@@ -98,3 +99,5 @@ TEST_CASE("Locale: the one that the tests build takes commas in C and in C++", "
     std::snprintf(text, sizeof text, "%g", 0.25);
     CHECK(std::string(text) == "0,25");
 }
+
+}  // namespace limn::locale_test

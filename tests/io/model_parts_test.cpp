@@ -4,8 +4,9 @@
 #include "limn/io/model.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::model_parts_test {
+
+using namespace test;
 
 namespace {
 
@@ -46,3 +47,5 @@ TEST_CASE("Model: from memory it is that of the file, and messages call it what 
     const std::string utf16("\xff\xfev\0 \0", 6);
     CHECK_THROWS_WITH(from_text(utf16), Catch::Contains("UTF-16"));
 }
+
+}  // namespace limn::model_parts_test

@@ -8,8 +8,9 @@
 #include "lowered_material.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::mtl_maps_test {
+
+using namespace test;
 
 namespace {
 
@@ -95,3 +96,5 @@ TEST_CASE("MTL: norm bends normals, and so do the heights of bump, of which whit
     CHECK(options.warnings ==
           std::vector<std::string>{folder.path("a.mtl") + ": line 2: the options of bump are not used, but for -bm"});
 }
+
+}  // namespace limn::mtl_maps_test

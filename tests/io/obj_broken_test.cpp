@@ -13,8 +13,9 @@
 #include "support/folder.h"
 #include "support/meshes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::obj_broken_test {
+
+using namespace test;
 
 namespace {
 
@@ -139,3 +140,5 @@ TEST_CASE("Broken OBJ: whatever characters are changed in a file, it is refused 
     CHECK(loaded > 2000);
     CHECK(loaded < 18'000);
 }
+
+}  // namespace limn::obj_broken_test

@@ -8,8 +8,9 @@
 #include "limn/io/obj.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::obj_corpus_test {
+
+using namespace test;
 
 namespace {
 
@@ -95,3 +96,5 @@ TEST_CASE("OBJ corpus: every model has one verdict", "[io][obj]") {
     CHECK(judged == present);
     CHECK(judged.size() >= 70);
 }
+
+}  // namespace limn::obj_corpus_test

@@ -9,8 +9,9 @@
 #include "predicates/mesh_triangle.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::obj_forms_test {
+
+using namespace test;
 
 namespace {
 
@@ -183,3 +184,5 @@ TEST_CASE("OBJ: a weight or a colour behind the coordinates is not used", "[io][
     const MeshData d = data_of(load("v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 1 1 1\nf 1 2 3\n"));
     CHECK(d.vertices == std::vector<Float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
+
+}  // namespace limn::obj_forms_test

@@ -12,8 +12,9 @@
 #include "limn/core/math.h"
 #include "predicates/mesh_triangle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::obj_large_test {
+
+using namespace test;
 
 namespace {
 
@@ -117,3 +118,5 @@ TEST_CASE("Large OBJ: coordinates printed with 9 digits are read bit for bit", "
     }
     CHECK(wrong == 0);
 }
+
+}  // namespace limn::obj_large_test

@@ -12,8 +12,9 @@
 #include "lowered_material.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::obj_materials_test {
+
+using namespace test;
 
 namespace {
 
@@ -345,3 +346,5 @@ TEST_CASE("MTL: a malformed number is refused with the MTL's name and the line",
     }
     CHECK(load_one(folder, "Ka x\nKd spectral a.rfl\nunknown nan\n").warnings.size() == 2);  // Ka is never used
 }
+
+}  // namespace limn::obj_materials_test

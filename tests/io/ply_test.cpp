@@ -8,8 +8,9 @@
 #include "limn/core/surface.h"
 #include "limn/material/lambertian.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::ply_test {
+
+using namespace test;
 
 namespace {
 
@@ -265,3 +266,5 @@ TEST_CASE("PLY: whatever bytes are flipped, the file is refused or sound", "[io]
         CHECK(loaded < 1000);
     }
 }
+
+}  // namespace limn::ply_test

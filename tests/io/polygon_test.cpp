@@ -9,7 +9,7 @@
 #include "limn/core/math.h"
 #include "predicates/mesh_triangle.h"
 
-using namespace limn;
+namespace limn::polygon_test {
 
 namespace {
 
@@ -134,3 +134,5 @@ TEST_CASE("Polygon: 300,000 corners around a circle are cut", "[io][polygon]") {
     for (const Index3& t : cut(circle)) sum += length(area_vector(circle, t));
     CHECK(sum == Approx(length(newell_normal(circle)) / 2).epsilon(1e-9));
 }
+
+}  // namespace limn::polygon_test

@@ -22,8 +22,9 @@
 #include "limn/io/image_io.h"
 #include "support/folder.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::replace_file_test {
+
+using namespace test;
 
 namespace {
 
@@ -196,3 +197,5 @@ TEST_CASE("Saving: whenever the process is killed, the old or the new picture st
         kill_and_check(child, generator, std::chrono::microseconds(20'000), folder, even, odd);
     }
 }
+
+}  // namespace limn::replace_file_test

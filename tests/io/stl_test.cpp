@@ -6,8 +6,9 @@
 #include "limn/material/lambertian.h"
 #include "limn/shape/mesh_edges.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::stl_test {
+
+using namespace test;
 
 namespace {
 
@@ -163,3 +164,5 @@ TEST_CASE("STL: whatever bytes are flipped, the file is refused or sound", "[io]
         CHECK(loaded < 1000);
     }
 }
+
+}  // namespace limn::stl_test

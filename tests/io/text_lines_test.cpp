@@ -8,8 +8,9 @@
 #include "catch.h"
 #include "formats.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::text_lines_test {
+
+using namespace test;
 
 namespace {
 
@@ -112,3 +113,5 @@ TEST_CASE("Numbers: printed with 9 digits, any float32 reads back, in any locale
     CHECK(wrong == 0);
     CHECK(tiny == 0.0f);
 }
+
+}  // namespace limn::text_lines_test

@@ -7,8 +7,9 @@
 #include "limn/core/error.h"
 #include "material/lobe.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::dielectric_test {
+
+using namespace test;
 
 namespace {
 
@@ -200,3 +201,5 @@ TEST_CASE("Dielectric: with a shading normal no direction ends on the wrong side
 TEST_CASE("Dielectric: impossible indices are refused", "[material][dielectric]") {
     for (const double index : {0.0, -1.5, std::nan(""), kInfinity}) CHECK_THROWS_AS(Dielectric(index), ArgumentError);
 }
+
+}  // namespace limn::dielectric_test

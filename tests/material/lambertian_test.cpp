@@ -8,8 +8,9 @@
 #include "limn/texture/checker.h"
 #include "material/lobe.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::lambertian_test {
+
+using namespace test;
 
 TEST_CASE("Lambertian: samples follow the density, and nothing is lost", "[material][lambertian]") {
     const Surface s = surface({1, -2, 3});
@@ -91,3 +92,5 @@ TEMPLATE_TEST_CASE("Diffuse materials: an albedo below 0 or above 1 is refused",
     CHECK_THROWS_AS(TestType(std::shared_ptr<const Texture>()), ArgumentError);
     CHECK_NOTHROW(TestType(Color{1, 1, 1}));
 }
+
+}  // namespace limn::lambertian_test

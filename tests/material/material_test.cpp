@@ -13,8 +13,9 @@
 #include "limn/texture/solid.h"
 #include "material/lobe.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::material_test {
+
+using namespace test;
 
 namespace {
 
@@ -197,3 +198,5 @@ TEST_CASE("Material: one that is shared is packed once, and none for null", "[ma
     CHECK(sink.records().materials.size() == 1);
     CHECK(lower_material(sink, nullptr) == MaterialId::none);
 }
+
+}  // namespace limn::material_test

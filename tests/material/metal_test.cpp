@@ -6,8 +6,9 @@
 #include "limn/core/error.h"
 #include "material/lobe.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::metal_test {
+
+using namespace test;
 
 namespace {
 
@@ -119,3 +120,5 @@ TEST_CASE("Metal: impossible arguments are refused", "[material][metal]") {
     }
     CHECK_THROWS_AS(Metal(std::shared_ptr<const Texture>(), .1), ArgumentError);
 }
+
+}  // namespace limn::metal_test

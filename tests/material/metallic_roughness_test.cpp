@@ -9,8 +9,9 @@
 #include "material/lobe.h"
 #include "material/microfacets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::metallic_roughness_test {
+
+using namespace test;
 
 namespace {
 
@@ -158,3 +159,5 @@ TEST_CASE("MetallicRoughness: what is out of range is refused", "[material][meta
     CHECK_THROWS_AS(MetallicRoughness(std::shared_ptr<const Texture>(), 0, 0.5), ArgumentError);
     CHECK_THROWS_AS(MetallicRoughness(solid(kWhite), std::shared_ptr<const Texture>()), ArgumentError);
 }
+
+}  // namespace limn::metallic_roughness_test

@@ -9,8 +9,9 @@
 #include "material/lobe.h"
 #include "material/microfacets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::normal_map_test {
+
+using namespace test;
 
 namespace {
 
@@ -144,3 +145,5 @@ TEST_CASE("NormalMap: a direction that rounding leaves no density weighs nothing
     CHECK(v->weight.get<Color>(0) == Color{});
     CHECK(v->pdf[0] > 0);
 }
+
+}  // namespace limn::normal_map_test

@@ -10,8 +10,9 @@
 #include "limn/limn.h"
 #include "material/lobe.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::oren_nayar_test {
+
+using namespace test;
 
 namespace {
 
@@ -102,3 +103,5 @@ TEST_CASE("OrenNayar: a roughness or albedo outside [0, 1] is refused", "[materi
     }
     CHECK_THROWS_AS(OrenNayar(std::shared_ptr<const Texture>(), 0.5), ArgumentError);
 }
+
+}  // namespace limn::oren_nayar_test

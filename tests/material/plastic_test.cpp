@@ -8,8 +8,9 @@
 #include "material/lobe.h"
 #include "material/microfacets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::plastic_test {
+
+using namespace test;
 
 namespace {
 
@@ -131,3 +132,5 @@ TEST_CASE("Plastic: what is out of range is refused", "[material][plastic]") {
     CHECK_THROWS_AS(Plastic(std::make_shared<SolidColor>(kWhite), 0.5, 1.5, std::shared_ptr<const Texture>()),
                     ArgumentError);
 }
+
+}  // namespace limn::plastic_test

@@ -9,8 +9,9 @@
 #include "material/lobe.h"
 #include "material/microfacets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::rough_conductor_test {
+
+using namespace test;
 
 namespace {
 
@@ -198,3 +199,5 @@ TEST_CASE("RoughConductor: what is out of range is refused", "[material][rough-c
     CHECK_THROWS_AS(RoughConductor(ComplexIndex{{0, 1, 1}, {}}, 0.5), ArgumentError);
     CHECK_THROWS_AS(RoughConductor(ComplexIndex{{1, 1, 1}, {-1, 0, 0}}, 0.5), ArgumentError);
 }
+
+}  // namespace limn::rough_conductor_test

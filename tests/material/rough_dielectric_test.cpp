@@ -8,8 +8,9 @@
 #include "material/lobe.h"
 #include "material/microfacets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::rough_dielectric_test {
+
+using namespace test;
 
 namespace {
 
@@ -161,3 +162,5 @@ TEST_CASE("RoughDielectric: what is out of range is refused", "[material][rough-
     for (const double bad : {-0.1, 1.1, std::nan("")}) CHECK_THROWS_AS(RoughDielectric(1.5, bad), ArgumentError);
     for (const double bad : {-1.0, 0.0, HUGE_VAL}) CHECK_THROWS_AS(RoughDielectric(bad, 0.5), ArgumentError);
 }
+
+}  // namespace limn::rough_dielectric_test

@@ -6,8 +6,9 @@
 #include "limn/limn.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::alpha_mask_test {
+
+using namespace test;
 
 namespace {
 
@@ -158,3 +159,5 @@ TEST_CASE("AlphaMask: what is out of range is refused", "[render][alpha-mask]") 
     RecordSink sink;
     CHECK_THROWS_AS(AlphaMask(std::make_shared<AlphaMask>(kBlack, 0.5), 0.5).lower(sink), ArgumentError);
 }
+
+}  // namespace limn::alpha_mask_test

@@ -5,8 +5,9 @@
 #include "support/folder.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::alpha_test {
+
+using namespace test;
 
 namespace {
 
@@ -96,3 +97,5 @@ TEST_CASE("Alpha: a film keeps it, and is not taken for an opaque one", "[render
     CHECK(opaque.alpha().empty());
     CHECK(second.film().memory_bytes() > opaque.film().memory_bytes());
 }
+
+}  // namespace limn::alpha_test

@@ -4,8 +4,9 @@
 
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::camera_samples_test {
+
+using namespace test;
 
 namespace {
 
@@ -116,3 +117,5 @@ TEST_CASE(
     }
     CHECK((times.size() == 64 && lenses.size() == 64));
 }
+
+}  // namespace limn::camera_samples_test

@@ -5,8 +5,9 @@
 #include "support/folder.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::crop_test {
+
+using namespace test;
 
 namespace {
 
@@ -123,3 +124,5 @@ TEST_CASE("Crop: one that is empty or leaves the picture is refused", "[render][
         CHECK_THROWS_WITH(RenderJob(scene(), view(), settings(bad)), Catch::Contains("crop window"));
     }
 }
+
+}  // namespace limn::crop_test

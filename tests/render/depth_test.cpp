@@ -4,8 +4,9 @@
 #include "limn/material/metal.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::depth_test {
+
+using namespace test;
 
 namespace {
 
@@ -92,3 +93,5 @@ TEST_CASE("Depth: passing the boundary of a medium is no segment", "[render][dep
         CHECK(seen({object, sphere({0, 0, 0}, 0.5, grey(0.5))}, 1, 2) == Approx(0.5).epsilon(1e-6));
     }
 }
+
+}  // namespace limn::depth_test

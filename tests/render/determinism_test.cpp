@@ -6,8 +6,9 @@
 #include "render/path.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::determinism_test {
+
+using namespace test;
 
 namespace {
 
@@ -172,3 +173,5 @@ TEST_CASE("Independence: neighbouring pixels, seeds and samples are not correlat
     CHECK(std::abs(correlation(shifted(a, 1), second)) <= bound);
     CHECK(std::abs(correlation(coins(21, side, 1), second)) <= bound);
 }
+
+}  // namespace limn::determinism_test

@@ -13,8 +13,9 @@
 #include "support/chi_square.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::environment_test {
+
+using namespace test;
 using transport::PathTracer;
 
 namespace {
@@ -231,3 +232,5 @@ TEST_CASE("Environment: a render to an error reaches it under a sun", "[render][
     many.seed = 77;
     CHECK(compare_images(r.image, render(scene, kEye, many).image).relative_mse <= 2 * 2e-3);
 }
+
+}  // namespace limn::environment_test

@@ -9,8 +9,9 @@
 #include "render/single_ray.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::equiangular_test {
+
+using namespace test;
 using transport::Equiangular;
 
 namespace {
@@ -121,3 +122,5 @@ TEST_CASE("Equiangular: light sampling and naive paths agree in thin and thick f
     check_estimators("behind glass",
                      {ball, fog_in(small, 1), sphere({0, 1, 0}, 2.5, std::make_shared<Dielectric>(1.3))});
 }
+
+}  // namespace limn::equiangular_test

@@ -6,8 +6,9 @@
 #include "property.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::error_estimate_test {
+
+using namespace test;
 using transport::estimate_error;
 
 namespace {
@@ -359,3 +360,5 @@ TEST_CASE("Error estimate: of samples whose squares are no numbers there is none
     CHECK_FALSE(estimate_error(film).reason.empty());
     CHECK(std::isnan(estimate_error(film).ci95_high));
 }
+
+}  // namespace limn::error_estimate_test

@@ -6,8 +6,9 @@
 #include "limn/image/compare.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::estimate_test {
+
+using namespace test;
 
 namespace {
 
@@ -163,3 +164,5 @@ TEST_CASE("Error estimate: a render to an error keeps its promise 95 times in 10
         CHECK(margins[static_cast<std::size_t>(stops / 2)] <= 1.35);
     }
 }
+
+}  // namespace limn::estimate_test

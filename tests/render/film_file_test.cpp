@@ -10,8 +10,9 @@
 #include "support/folder.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::film_file_test {
+
+using namespace test;
 
 namespace {
 
@@ -294,3 +295,5 @@ TEST_CASE("Merging: the tiles of all files, in any order, make the film that has
         std::ranges::shuffle(paths, generator);
     }
 }
+
+}  // namespace limn::film_file_test

@@ -7,8 +7,9 @@
 #include "property.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::film_test {
+
+using namespace test;
 
 TEST_CASE("Film: a pixel is the mean of its samples, and those that are not finite count as black", "[render][film]") {
     Film film(3, 2);
@@ -94,3 +95,5 @@ TEST_CASE("Film: the largest share is that of the brightest sample, and all wher
     CHECK(film.largest_share(1, 0) <= 1);
     CHECK(film.largest_share(2, 0) == 0);
 }
+
+}  // namespace limn::film_test

@@ -10,8 +10,9 @@
 #include "limn/texture/solid.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::first_hits_test {
+
+using namespace test;
 
 namespace {
 
@@ -191,3 +192,5 @@ TEST_CASE("Compiled scene: a surface tells its albedo, its emission and what the
     }
     check(0, -9, "", {0.5, 0.5, 0.5}, {});
 }
+
+}  // namespace limn::first_hits_test

@@ -5,8 +5,9 @@
 #include "limn/material/metal.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::furnace_test {
+
+using namespace test;
 
 namespace {
 
@@ -209,3 +210,5 @@ TEST_CASE("Integrating sphere: a small lamp in a white room gives the exact unif
     check_mean(measure(scene, at_wall, square(16, 32, kUnlimitedDepth)), truth, 3e-3);
     check_mean(measure(scene, at_wall, square(16, 32, kUnlimitedDepth, Estimator::naive)), truth, 6e-3);
 }
+
+}  // namespace limn::furnace_test

@@ -4,8 +4,9 @@
 #include "support/pictures.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::light_choice_test {
+
+using namespace test;
 
 namespace {
 
@@ -187,3 +188,5 @@ TEST_CASE("Light choice: lights of extreme sizes and places are still chosen amo
         }
     }
 }
+
+}  // namespace limn::light_choice_test

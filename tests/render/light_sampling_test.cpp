@@ -6,8 +6,9 @@
 #include "support/single_shading.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::light_sampling_test {
+
+using namespace test;
 
 namespace {
 
@@ -211,3 +212,5 @@ TEST_CASE("Light sampling: what is no light, or seen edge-on, has density 0", "[
     CHECK(pdf_light(scene.flat(), {{-3, 1, 0.25}, {}}, 0, 1, on_quad) == 0);
     CHECK(pdf_light(scene.flat(), {{-3, 1, 0.25}, {}}, 0, 3, on_quad) == 0);
 }
+
+}  // namespace limn::light_sampling_test

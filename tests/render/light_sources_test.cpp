@@ -9,8 +9,9 @@
 #include "render/single_ray.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::light_sources_test {
+
+using namespace test;
 
 namespace {
 
@@ -240,3 +241,5 @@ TEST_CASE("Lamps: one side shines and the other does not, however it is turned",
     CHECK(reflected(std::make_shared<Disk>(Point3{0, 2, 0}, Vec3{0, -1, 0}, 1.0, lamp_of(Sides::front))) > 0.05);
     CHECK(reflected(std::make_shared<Disk>(Point3{0, 2, 0}, Vec3{0, 1, 0}, 1.0, lamp_of(Sides::front))) == 0);
 }
+
+}  // namespace limn::light_sources_test

@@ -6,8 +6,9 @@
 #include "support/pictures.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::lights_test {
+
+using namespace test;
 
 namespace {
 
@@ -255,3 +256,5 @@ TEST_CASE("Motion: a ball that moves over the shutter is seen as long as it cove
         CHECK(mean(render(scene, closed, square(4, 16, 2)).image) == 0);
     }
 }
+
+}  // namespace limn::lights_test

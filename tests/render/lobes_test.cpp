@@ -15,8 +15,9 @@
 #include "support/single_shading.h"
 #include "trace/targets.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::lobes_test {
+
+using namespace test;
 using bsdf::Vertices;
 using flat::Light;
 using flat::LightKind;
@@ -396,3 +397,5 @@ TEST_CASE("Lobes: many receivers at once choose the lights that each chooses alo
         CHECK((count < 3 || none > 0));
     });
 }
+
+}  // namespace limn::lobes_test

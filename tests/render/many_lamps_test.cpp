@@ -1,8 +1,9 @@
 // Emitters in motion, and many of them: sampling against scattering alone.
 #include "render/single_ray.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::many_lamps_test {
+
+using namespace test;
 
 TEST_CASE("Lamps: by both estimators one shines alike that instances move, whole, as a mesh, or a ball",
           "[render][lights]") {
@@ -46,3 +47,5 @@ TEST_CASE("Lamps: by both estimators many close to a wall shine alike", "[render
     check_same(measure(scene, camera, square(16, 16, 4)), measure(scene, camera, square(16, 64, 4, Estimator::naive)),
                1.5e-2);
 }
+
+}  // namespace limn::many_lamps_test

@@ -6,8 +6,9 @@
 #include "property.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::media_along_ray_test {
+
+using namespace test;
 using transport::FreeFlight;
 using transport::MediaAlongRay;
 
@@ -236,3 +237,5 @@ TEST_CASE("Media along a ray: one without extinction changes nothing", "[render]
     for (const double choose : {0.0, 0.5, 1 - 0x1p-53})
         CHECK(media.sample(0.5, choose).phase == scene.flat().medium_shapes[1].phase);
 }
+
+}  // namespace limn::media_along_ray_test

@@ -4,8 +4,9 @@
 #include "render/media.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::media_places_test {
+
+using namespace test;
 
 namespace {
 
@@ -76,3 +77,5 @@ TEST_CASE("Media: a bubble that touches the skin from inside leaves outside outs
     CHECK(depth_up_to(4, smoke(skin)) == Approx(1).epsilon(1e-12));
     CHECK(depth_up_to(9, smoke(skin)) == Approx(2).epsilon(1e-12));
 }
+
+}  // namespace limn::media_places_test

@@ -3,8 +3,9 @@
 #include "limn/texture/checker.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::media_test {
+
+using namespace test;
 
 namespace {
 
@@ -227,3 +228,5 @@ TEST_CASE("Media: a textured albedo is looked up where the light scatters", "[re
     CHECK(at(0.5) == Approx(std::exp(-4.0)).margin(0.006));
     CHECK(at(-0.5) > 0.2);
 }
+
+}  // namespace limn::media_test

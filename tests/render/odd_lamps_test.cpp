@@ -7,8 +7,9 @@
 #include "limn/texture/solid.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::odd_lamps_test {
+
+using namespace test;
 
 namespace {
 
@@ -76,3 +77,5 @@ TEST_CASE("Media: extinction up to the largest finite numbers gives no NaN", "[r
         CHECK(result.report.nonfinite_samples == 0);
     }
 }
+
+}  // namespace limn::odd_lamps_test

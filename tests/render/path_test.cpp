@@ -6,8 +6,9 @@
 #include "render/single_ray.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::path_test {
+
+using namespace test;
 using transport::PathTracer;
 using transport::Sampler;
 
@@ -247,3 +248,5 @@ TEST_CASE("Path: a sample does not depend on those that came before it", "[rende
         RC_ASSERT(used.radiance(ray, a) == fresh.radiance(ray, b));
     });
 }
+
+}  // namespace limn::path_test

@@ -4,8 +4,9 @@
 #include "support/single_shading.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::planar_light_test {
+
+using namespace test;
 using flat::Light;
 using flat::LightKind;
 
@@ -94,3 +95,5 @@ TEST_CASE("Planar lights: from in their plane nothing is drawn", "[render][light
         }
     }
 }
+
+}  // namespace limn::planar_light_test

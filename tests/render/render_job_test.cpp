@@ -16,8 +16,9 @@
 #include "support/same_render.h"
 #include "support/text.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::render_job_test {
+
+using namespace test;
 
 namespace {
 
@@ -375,3 +376,5 @@ TEST_CASE("Jobs: films of untagged user-defined classes are bound to their progr
     CHECK(RenderJob(bound, kEye, settings_of({}, 1)).film().info().program != Hash128{});
     CHECK(RenderJob(lit_scene(), kEye, settings_of({}, 1)).film().info().program == Hash128{});
 }
+
+}  // namespace limn::render_job_test

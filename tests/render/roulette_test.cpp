@@ -3,8 +3,9 @@
 #include "render/single_ray.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::roulette_test {
+
+using namespace test;
 
 TEST_CASE("Roulette: ends paths without a change of their mean, wherever they go", "[render][path]") {
     // A room lit at one end, so that a path's direction matters; after 40 segments 1e-6 of the light is left.
@@ -44,3 +45,5 @@ TEST_CASE("Roulette: keeps light of one colour alone", "[render][path]") {
         check_mean(along(compile_with(sky(1), objects), ray, kUnlimitedDepth, Estimator::path, 20'000), 0.5 / 3, 1e-2);
     }
 }
+
+}  // namespace limn::roulette_test

@@ -10,8 +10,9 @@
 #include "support/pictures.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sample_rates_test {
+
+using namespace test;
 
 namespace {
 
@@ -198,3 +199,5 @@ TEST_CASE("Adaptive sampling: neither the picture nor the estimate of its error 
     CHECK(std::abs(sum_z) < 4 * std::sqrt(count));
     CHECK((estimate > 0.9 * error && estimate < 1.1 * error));
 }
+
+}  // namespace limn::sample_rates_test

@@ -5,8 +5,9 @@
 
 #include "property.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sampler_test {
+
+using namespace test;
 using transport::Sampler;
 using transport::Use;
 
@@ -100,3 +101,5 @@ TEST_CASE("Sampler: any two dimensions of a sample, and those of neighbours, are
         }
     CHECK(largest <= 5);
 }
+
+}  // namespace limn::sampler_test

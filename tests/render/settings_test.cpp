@@ -10,8 +10,9 @@
 #include "limn/core/error.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::settings_test {
+
+using namespace test;
 
 namespace {
 
@@ -289,3 +290,5 @@ TEST_CASE("render: the report says what was rendered", "[render][settings]") {
     CHECK(r.complete);
     CHECK(std::string(version()).find('.') != std::string::npos);
 }
+
+}  // namespace limn::settings_test

@@ -21,8 +21,9 @@
 #include "support/random_geometry.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::shading_test {
+
+using namespace test;
 
 namespace {
 
@@ -217,3 +218,5 @@ TEST_CASE("Shading: a ray that meets nothing brings the background of its direct
         CHECK(tracer.radiance(Ray{{1, 2, 3}, direction}, numbers) == background.radiance(direction));
     }
 }
+
+}  // namespace limn::shading_test

@@ -11,8 +11,9 @@
 #include "render/sampler.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::sobol_test {
+
+using namespace test;
 using transport::Sampler;
 
 namespace {
@@ -167,3 +168,5 @@ TEST_CASE("Sobol: at no number of samples is the mean worse than that of indepen
                   variance_of_mean(samples, SamplerKind::independent, functions[f]) * (1 + 4.5 * 2 / std::sqrt(400.0)));
         }
 }
+
+}  // namespace limn::sobol_test

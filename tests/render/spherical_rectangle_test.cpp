@@ -6,8 +6,9 @@
 #include "support/single_shading.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::spherical_rectangle_test {
+
+using namespace test;
 
 namespace {
 
@@ -90,3 +91,5 @@ TEST_CASE("SphericalRectangle: the corners of the unit square are those of the r
             }
     });
 }
+
+}  // namespace limn::spherical_rectangle_test

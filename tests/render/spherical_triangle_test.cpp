@@ -5,8 +5,9 @@
 #include "support/single_shading.h"
 #include "support/solid_angle.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::spherical_triangle_test {
+
+using namespace test;
 
 namespace {
 
@@ -91,3 +92,5 @@ TEST_CASE("SphericalTriangle: the corners of the unit square are those of the tr
         RC_ASSERT(length(t.whole().sample(last, last) - t.c) <= 1e-6);
     });
 }
+
+}  // namespace limn::spherical_triangle_test

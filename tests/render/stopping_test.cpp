@@ -4,8 +4,9 @@
 #include "limn/image/compare.h"
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::stopping_test {
+
+using namespace test;
 
 namespace {
 
@@ -167,3 +168,5 @@ TEST_CASE("Samplers: both converge to the same picture, Sobol points sooner", "[
     const double expected = sobol.error.estimate + independent.error.estimate;
     CHECK(std::abs(apart / expected - 1) <= 4.5 * std::sqrt(8.0 / 3 / (32 * 32)) + 0.02);
 }
+
+}  // namespace limn::stopping_test

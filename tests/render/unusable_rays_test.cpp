@@ -1,8 +1,9 @@
 // Rays that extreme numbers make unusable while a picture is rendered: each is counted and carries no light.
 #include "support/pictures.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::unusable_rays_test {
+
+using namespace test;
 
 namespace {
 
@@ -77,3 +78,5 @@ TEST_CASE("render: shadow rays from such a point are counted too", "[render][unu
     CHECK(r.report.nonfinite_samples == 0);
     for (const float v : r.image.values()) CHECK(v == 0);
 }
+
+}  // namespace limn::unusable_rays_test

@@ -4,8 +4,9 @@
 #include "support/pictures.h"
 #include "support/single_shading.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::weights_test {
+
+using namespace test;
 
 namespace {
 
@@ -64,3 +65,5 @@ TEST_CASE("Lamps: a ball in a scaled instance is sampled like the scaled ball", 
             CHECK(length(b->point.position - a->point.position) <= 1e-13);
         }
 }
+
+}  // namespace limn::weights_test

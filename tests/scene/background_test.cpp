@@ -3,7 +3,8 @@
 #include "catch.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::background_test {
+
 using limn::test::Random;
 
 TEST_CASE("Background: black is black and a constant is the same in every direction, to the bit",
@@ -35,3 +36,5 @@ TEST_CASE("Background: a gradient is (1 - a) bottom + a top with a = (y + 1) / 2
         CHECK(c.b == Approx(1));
     }
 }
+
+}  // namespace limn::background_test

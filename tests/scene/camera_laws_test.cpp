@@ -5,7 +5,8 @@
 #include "property.h"
 #include "support/grid.h"
 
-using namespace limn;
+namespace limn::camera_laws_test {
+
 using test::draw_int;
 using test::draw_on_grid;
 using test::draw_point;
@@ -137,3 +138,5 @@ TEST_CASE("frame_box: a box endless on either side is refused, one of a point is
     }
     CHECK(length(frame_box(Box{{0, 0, 0}, {0, 0, 0}}).look_from - Point3{}) > 0);
 }
+
+}  // namespace limn::camera_laws_test

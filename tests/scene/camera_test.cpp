@@ -4,7 +4,8 @@
 #include "limn/core/error.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::camera_test {
+
 using limn::test::Random;
 
 namespace {
@@ -285,3 +286,5 @@ TEST_CASE("frame_box: an empty or unbounded box and an impossible aspect ratio a
     for (const Point3 p : {Point3{0, 0, 0}, Point3{1e5, -2, 3}, Point3{1e-20, 0, 0}})
         CHECK_NOTHROW(CameraRays(frame_box(Box{p, p}), 8, 8));
 }
+
+}  // namespace limn::camera_test

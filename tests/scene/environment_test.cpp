@@ -8,8 +8,9 @@
 #include "limn/scene/sky.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::environment_test {
+
+using namespace test;
 
 namespace {
 
@@ -109,3 +110,5 @@ TEST_CASE("Sky: what cannot be is refused by its name", "[scene][environment]") 
     CHECK_THROWS_WITH(make_sky({.scale = -1}), Catch::Contains("scale"));
     CHECK_THROWS_WITH(make_sky({.height = 1}), Catch::Contains("height"));
 }
+
+}  // namespace limn::environment_test

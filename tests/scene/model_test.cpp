@@ -7,8 +7,9 @@
 #include "limn/scene/scene.h"
 #include "support/meshes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::model_test {
+
+using namespace test;
 
 namespace {
 
@@ -48,3 +49,5 @@ TEST_CASE("Model: a material is replaced by its name, wherever it is, and the tr
     CHECK(model.meshes[0]->hit({.origin = {0.5, 0.5, 5}, .direction = {0, 0, -1}})->material == green.get());
     CHECK_THROWS_AS(model.replace_material("yellow", green), ArgumentError);
 }
+
+}  // namespace limn::model_test

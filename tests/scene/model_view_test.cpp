@@ -8,7 +8,7 @@
 #include "support/meshes.h"
 #include "support/solid_angle.h"
 
-namespace limn::test {
+namespace limn::test::model_view_test {
 namespace {
 
 // A box from (-1, -2, 0) to (3, 2, 2), so that its sphere has radius 3 around (1, 0, 1).
@@ -157,4 +157,4 @@ TEST_CASE("Model view: what cannot be shown is refused", "[scene][view]") {
 }
 
 }  // namespace
-}  // namespace limn::test
+}  // namespace limn::test::model_view_test

@@ -9,7 +9,7 @@
 #include "scene/camera_rays.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::projection_test {
 
 namespace {
 
@@ -121,3 +121,5 @@ TEST_CASE("Camera: rays that are made together are those that are made one by on
         }
     }
 }
+
+}  // namespace limn::projection_test

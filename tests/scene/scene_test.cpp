@@ -4,7 +4,7 @@
 #include "limn/core/error.h"
 #include "limn/shape/sphere.h"
 
-using namespace limn;
+namespace limn::scene_test {
 
 TEST_CASE("Scene: objects are numbered in the order of add, and null is refused", "[scene]") {
     Scene scene;
@@ -20,3 +20,5 @@ TEST_CASE("Scene: objects are numbered in the order of add, and null is refused"
     CHECK(scene.objects().size() == 3);
     CHECK(scene.bounds() == merge(a->bounds(), b->bounds()));
 }
+
+}  // namespace limn::scene_test

@@ -12,7 +12,8 @@
 #include "support/random_geometry.h"
 #include "support/tally.h"
 
-using namespace limn;
+namespace limn::aggregate_test {
+
 using limn::test::Random;
 using limn::test::Tally;
 using Objects = std::vector<std::shared_ptr<const Hittable>>;
@@ -190,3 +191,5 @@ TEST_CASE("HittableList and Bvh: an unusable ray misses", "[shape][list]") {
         CHECK_FALSE(Bvh(objects).hit(ray));
     }
 }
+
+}  // namespace limn::aggregate_test

@@ -10,8 +10,9 @@
 #include "support/real.h"
 #include "support/tally.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::disk_test {
+
+using namespace test;
 
 namespace {
 
@@ -255,3 +256,5 @@ TEST_CASE("Disk: near, textured, stretched and moving it lights by both estimato
                    measure(scene, camera, square(4, 512, 2, Estimator::naive)), 0.02);
     }
 }
+
+}  // namespace limn::disk_test

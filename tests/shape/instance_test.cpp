@@ -11,7 +11,8 @@
 #include "support/random_geometry.h"
 #include "support/tally.h"
 
-using namespace limn;
+namespace limn::instance_test {
+
 using limn::test::Random;
 using limn::test::Tally;
 
@@ -276,3 +277,5 @@ TEST_CASE("Instance: whether a motion is singular does not depend on its size", 
         CHECK_NOTHROW(Instance(unit_sphere(), of(1), Transform{}));
     }
 }
+
+}  // namespace limn::instance_test

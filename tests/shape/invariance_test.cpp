@@ -6,7 +6,8 @@
 #include "property.h"
 #include "support/cases.h"
 
-using namespace limn;
+namespace limn::invariance_test {
+
 using test::Case;
 using test::draw_case;
 using test::draw_int;
@@ -232,3 +233,5 @@ TEST_CASE("Shapes: seen through the identity, and through steps of 2^k and whole
         return true;
     });
 }
+
+}  // namespace limn::invariance_test

@@ -10,7 +10,8 @@
 #include "support/meshes.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::medium_test {
+
 using limn::test::Random;
 
 TEST_CASE("ConstantMedium: hit is the crossing of its boundary, flagged index-matched", "[shape][medium]") {
@@ -55,3 +56,5 @@ TEST_CASE("ConstantMedium: what cannot be is refused by name, an invisible mediu
     for (const double density : {0.0, 1e-30, 1e30}) CHECK_NOTHROW(ConstantMedium(ball, density, white));
     CHECK_NOTHROW(ConstantMedium(ball, 1, std::make_shared<SolidColor>(Color{0.5, 0.5, 0.5})));
 }
+
+}  // namespace limn::medium_test

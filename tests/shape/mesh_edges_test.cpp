@@ -7,8 +7,9 @@
 #include "catch.h"
 #include "support/meshes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::mesh_edges_test {
+
+using namespace test;
 
 namespace {
 
@@ -119,3 +120,5 @@ TEST_CASE("Edges: their number depends neither on the order nor on the sense of 
         check(sphere, before.edges, before.open, before.nonmanifold);
     }
 }
+
+}  // namespace limn::mesh_edges_test

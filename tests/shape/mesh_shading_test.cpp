@@ -5,7 +5,7 @@
 #include "limn/shape/sphere.h"
 #include "limn/shape/triangle.h"
 
-using namespace limn;
+namespace limn::mesh_shading_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("Shapes: the error bound of a hit grows with each coordinate that goes
     data.triangles = {{0, 1, 2}};
     CHECK(in_units(error_of(Mesh(data, nullptr), down)) == Approx(112));
 }
+
+}  // namespace limn::mesh_shading_test

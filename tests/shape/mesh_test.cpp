@@ -9,7 +9,8 @@
 #include "support/random_geometry.h"
 #include "support/tally.h"
 
-using namespace limn;
+namespace limn::mesh_test {
+
 using limn::test::Random;
 using limn::test::Tally;
 
@@ -162,3 +163,5 @@ TEST_CASE("Mesh: at a vertex the normal and the texture coordinates are that ver
         CHECK(hit->uv == Uv{data.uvs[i].u, data.uvs[i].v});
     }
 }
+
+}  // namespace limn::mesh_test

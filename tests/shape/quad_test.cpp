@@ -6,7 +6,8 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
+namespace limn::quad_test {
+
 using limn::test::Random;
 
 TEST_CASE("Quad: parallel or zero edges, NaN and infinity are refused by name", "[shape][quad]") {
@@ -102,3 +103,5 @@ TEST_CASE("Quad: an unusable ray misses", "[shape][quad]") {
     const Quad quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, nullptr);
     for (const Ray& ray : test::unusable_rays()) CHECK_FALSE(quad.hit(ray));
 }
+
+}  // namespace limn::quad_test

@@ -6,8 +6,9 @@
 #include "predicates/mesh_triangle.h"
 #include "support/meshes.h"
 
-using namespace limn;
-using namespace limn::test;
+namespace limn::smooth_normals_test {
+
+using namespace test;
 
 TEST_CASE("Smooth normals: those of a sphere point away from its centre, and no vertex is split", "[shape][smooth]") {
     const MeshData sphere = icosphere(3), smooth = smooth_normals(sphere, 30);
@@ -74,3 +75,5 @@ TEST_CASE("Smooth normals: angles and indices out of range, and arrays of other 
         for (const MeshData& data : {uvs, slots, faces}) CHECK_THROWS_AS(smooth_normals(data, 30), ArgumentError);
     }
 }
+
+}  // namespace limn::smooth_normals_test

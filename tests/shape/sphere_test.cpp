@@ -5,7 +5,8 @@
 #include "support/random_geometry.h"
 #include "support/real.h"
 
-using namespace limn;
+namespace limn::sphere_test {
+
 using limn::test::Random;
 
 namespace {
@@ -149,3 +150,5 @@ TEST_CASE("Sphere: an unusable ray misses", "[shape][sphere]") {
     REQUIRE(far);
     CHECK(far->t == Approx(3));
 }
+
+}  // namespace limn::sphere_test

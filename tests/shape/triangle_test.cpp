@@ -4,7 +4,8 @@
 #include "limn/core/error.h"
 #include "support/random_geometry.h"
 
-using namespace limn;
+namespace limn::triangle_test {
+
 using limn::test::Random;
 
 namespace {
@@ -97,3 +98,5 @@ TEST_CASE("Triangle: an unusable ray misses", "[shape][triangle]") {
     const Triangle triangle({-4, -4, 0}, {4, -4, 0}, {0, 4, 0}, nullptr);
     for (const Ray& ray : test::unusable_rays()) CHECK_FALSE(triangle.hit(ray));
 }
+
+}  // namespace limn::triangle_test

@@ -11,7 +11,7 @@
 #include "pattern/checker.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::checker_test {
 
 namespace {
 
@@ -105,3 +105,5 @@ TEST_CASE("Checker: impossible arguments are refused", "[texture][checker]") {
     CHECK_THROWS_AS(Checker(1, nullptr, solid), ArgumentError);
     CHECK_THROWS_AS(Checker(1, solid, nullptr), ArgumentError);
 }
+
+}  // namespace limn::checker_test

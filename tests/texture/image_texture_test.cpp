@@ -10,7 +10,8 @@
 #include "pattern/image_lookup.h"
 #include "property.h"
 
-using namespace limn;
+namespace limn::image_texture_test {
+
 using pattern::lookup_image;
 
 namespace {
@@ -200,3 +201,5 @@ TEST_CASE("ImageTexture: an empty image is refused", "[texture][image]") {
     CHECK_THROWS_AS(ImageTexture(Image()), ArgumentError);
     CHECK_THROWS_AS(ImageTexture(std::shared_ptr<const Image>()), ArgumentError);
 }
+
+}  // namespace limn::image_texture_test

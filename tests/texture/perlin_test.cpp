@@ -10,7 +10,8 @@
 #include "limn/core/math.h"
 #include "pattern/perlin.h"
 
-using namespace limn;
+namespace limn::perlin_test {
+
 using pattern::marble;
 using pattern::noise;
 using pattern::turbulence;
@@ -268,3 +269,5 @@ TEMPLATE_TEST_CASE("Perlin textures: impossible arguments are refused", "[textur
     CHECK_THROWS_AS(TestType(1, 1, Color{-1, 0, 0}), ArgumentError);
     CHECK_NOTHROW(TestType(-2, 1));
 }
+
+}  // namespace limn::perlin_test

@@ -10,7 +10,7 @@
 #include "limn/texture/perlin.h"
 #include "limn/texture/solid.h"
 
-using namespace limn;
+namespace limn::texture_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("Texture: noises that share a lattice refer to the same one", "[textur
     check(std::make_shared<Marble>(4, lattice, color), TextureKind::marble);
     CHECK(sink.records().lattices.size() == 1);
 }
+
+}  // namespace limn::texture_test
