@@ -85,7 +85,7 @@ def programs(folder, names, target=None, emulator=()):
     for name in names:
         done = subprocess.run([*emulator, folder / "bin" / name, *(["-s"] if name == "test_digest" else [])],
                               capture_output=True, text=True, env=environment)
-        if done.returncode == 4:
+        if "LIMN_TEST_TARGET: " in done.stderr:
             return None
         digests += re.findall(r'"([0-9a-f]{16})" == ', done.stdout)
         if done.returncode != 0:

@@ -11,8 +11,8 @@ const bool kPrepared = [] {
     // Another build of the kernels than the best: SCALAR or EMU128, SSE4, AVX2, AVX3.
     if (const char* target = std::getenv("LIMN_TEST_TARGET");
         target != nullptr && !limn::trace::force_target(target)) {
-        std::cerr << "LIMN_TEST_TARGET: " << target << " is not here\n";
-        std::exit(4);  // CTest counts the test as skipped
+        std::cerr << "LIMN_TEST_TARGET: " << target << " is not here\n";  // CTest counts the test as skipped
+        std::exit(EXIT_FAILURE);
     }
     return true;
 }();
