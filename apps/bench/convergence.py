@@ -6,31 +6,32 @@ thread, with several seeds. On a machine that does something else meanwhile the 
 """
 
 import argparse
+import math
 import os
 import statistics
 import sys
-
-import numpy as np
+import tempfile
+from pathlib import Path
 
 import promise
-from convergence_numbers import agreement, corrected_relmse, half_error, median_seconds, solves_another_problem
-from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer
+from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer, compare
 from results import RESULTS, Kept, origin, table, write
 
 LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights")
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
+DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
 STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-")}
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./build.sh convergence", description=__doc__.splitlines()[0])
-    parser.add_argument("--promise", action="store_true", help="measure limn's estimate of its own error instead")
+    parser.add_argument("--promise", action="store_true", help="measure limn's estimate of its error instead")
     parser.add_argument("--size", type=int, choices=(100, 400), default=100, help="pixels a side (100)")
     parser.add_argument("--scene", action="append", choices=SCENES + SCENES_OF_LIMN, metavar="NAME",
                         help="only these (all; at size 400 five): " + ", ".join(SCENES))
     parser.add_argument("--peer", action="append", choices=[*PEERS, UNIFORM, "none"], metavar="NAME",
-                        help=f"only these (all): {', '.join(PEERS)}, {UNIFORM} (limn with the same "
-                             "number of samples in every pixel), none")
+                        help=f"only these: {', '.join(PEERS)}, {UNIFORM} (limn with the same number of samples in every "
+                             "pixel), none")
     parser.add_argument("--seeds", type=int, metavar="N", help="renders of each kind (4; with --promise 50)")
     parser.add_argument("--cap", type=float, metavar="SECONDS",
                         help="of the longest render, and of half a reference (5; at size 400 40)")
@@ -43,50 +44,103 @@ def parse_arguments():
     return a
 
 
-def reference(renderer, a):
+def reference(renderer, folder, a):
     """Two independent halves."""
-    threads = len(os.sched_getaffinity(0))
+    threads, spp = len(os.sched_getaffinity(0)), PILOT_SPP
     for seed in (1, 2):  # the first one compiles if there is a compiler
-        seconds = renderer.render(a.size, PILOT_SPP, seed, threads)[1]
-    spp = PILOT_SPP
+        seconds, _ = renderer.render(folder / "pilot.exr", a.size, spp, seed, threads)
     while spp < LARGEST_SPP and 1.5 * spp * seconds / PILOT_SPP < a.cap:
         spp *= 2
-    return np.array([renderer.render(a.size, spp, seed, threads)[0] for seed in (1001, 1002)])
+    halves = [folder / f"{renderer.key}-{half}.exr" for half in "ab"]
+    for seed, half in enumerate(halves, 1001):
+        renderer.render(half, a.size, spp, seed, threads)
+    return halves
 
 
-def goes_on(rung, halves, a):
-    """Whether the next rung is short enough, and this one not better yet than its reference."""
-    return GROWTH * statistics.median(rung["seconds"]) <= a.cap and statistics.mean(rung["errors"]) > half_error(halves)
+def agreement(ours, theirs):
+    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+    from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
+
+    def blocks(picture):
+        image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
+        size = image.spec().width // 10
+        ImageBufAlgo.resize(image, "box", 10, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
+        return small
+
+    (a, b), (c, d) = map(blocks, ours), map(blocks, theirs)
+    against_ours, variance = compare(c, a, b), compare(c, d)["relmse"] / 2
+    difference = max(0, against_ours["corrected_relmse"] - variance)
+    return math.sqrt(difference), math.sqrt(variance + against_ours["reference_relmse"])
 
 
 def measure(scene, renderers, a):
     """A row for each renderer. One that cannot render the scene says why."""
     print(f"convergence: {scene}", file=sys.stderr, flush=True)
     rows, references = {}, {}
-    for renderer in renderers:
-        row = rows[renderer.key] = {"rungs": []}
-        try:
-            row["about"] = renderer.open(scene)
-            references[renderer.key] = reference(renderer, a)
-            row["agreement"] = agreement(references["limn"], references[renderer.key])
-        except Failed as problem:
-            if renderer.key == "limn":
-                raise
-            row["failed"] = str(problem)
-    # Climb the ladders of samples. The renderers take turns at each rung and seed.
-    active, spp = [renderer for renderer in renderers if renderer.key in references], FIRST_SPP
-    while active and spp <= LARGEST_SPP:
-        for renderer in active:
-            rows[renderer.key]["rungs"].append({"seconds": [], "errors": []})
-        for seed in range(1, a.seeds + 1):
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for renderer in renderers:
+            row = rows[renderer.key] = {"rungs": []}
+            try:
+                row["about"] = renderer.open(scene)
+                references[renderer.key] = reference(renderer, folder, a)
+                row["agreement"] = agreement(references["limn"], references[renderer.key])
+            except Failed as problem:
+                if renderer.key == "limn":
+                    raise
+                row["failed"] = str(problem)
+        # Climb the ladders of samples. The renderers take turns at each rung and seed.
+        active, spp = [renderer for renderer in renderers if renderer.key in references], FIRST_SPP
+        while active and spp <= LARGEST_SPP:
             for renderer in active:
-                rung = rows[renderer.key]["rungs"][-1]
-                picture, seconds, rung["spp"] = renderer.render(a.size, spp, seed, 1)
-                rung["seconds"].append(seconds)
-                rung["errors"].append(corrected_relmse(picture, references[renderer.key]))
-        active = [r for r in active if goes_on(rows[r.key]["rungs"][-1], references[r.key], a)]
-        spp *= GROWTH
+                rows[renderer.key]["rungs"].append({"seconds": [], "errors": []})
+            for seed in range(1, a.seeds + 1):
+                for renderer in active:
+                    rung = rows[renderer.key]["rungs"][-1]
+                    seconds, rung["spp"] = renderer.render(folder / "a.exr", a.size, spp, seed, 1)
+                    compared = compare(folder / "a.exr", *references[renderer.key])
+                    rung["seconds"].append(seconds)
+                    rung["errors"].append(compared["corrected_relmse"])
+                    rung["reference_error"] = compared["reference_relmse"]
+            active = [renderer for renderer in active if goes_on(rows[renderer.key]["rungs"][-1], a.cap)]
+            spp *= GROWTH
     return rows
+
+
+def goes_on(rung, cap):
+    """Whether the next rung is short enough, and this one not better yet than its reference."""
+    return (GROWTH * statistics.median(rung["seconds"]) <= cap
+            and statistics.mean(rung["errors"]) > rung["reference_error"])
+
+
+def seconds_to(error, curve):
+    """Seconds to an error on a curve of (seconds, error), by the line error = c / seconds^p through the three points
+    that are nearest to it, and whether the error is outside of what was measured."""
+    known = [(math.log(s), math.log(e)) for s, e in curve if s > 0 and e > 0]
+    if not known:
+        return math.inf, True
+    goal = math.log(error)
+    near = sorted(known, key=lambda point: abs(point[1] - goal))[:3]
+    x, y = (statistics.mean(axis) for axis in zip(*near))
+    spread = sum((p[0] - x) ** 2 for p in near)
+    slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
+    if not -3 < slope < -0.3:  # noise hides the convergence: take that of independent samples
+        slope = -1.0
+    return math.exp(x + (goal - y) / slope), not min(e for _, e in known) <= goal <= max(e for _, e in known)
+
+
+def seconds_by_seed(error, rungs):
+    """In ascending order. A rung has the lists "seconds" and "errors" with an entry for each seed."""
+    curves = zip(*([(statistics.median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
+    return sorted(seconds_to(error, curve) for curve in curves)
+
+
+def median_seconds(error, row):
+    return statistics.median(seconds for seconds, _ in seconds_by_seed(error, row["rungs"]))
+
+
+def solves_another_problem(difference, noise):
+    return difference > max(DIFFERENT, 2 * noise)
 
 
 def amount(x):
@@ -94,28 +148,22 @@ def amount(x):
 
 
 def seconds_cell(row, error):
-    found = median_seconds(error, row["rungs"])
-    if not found:
-        return "–"
-    middle, least, most, outside = found
-    return f"{'~' if outside else ''}{amount(middle)} ({amount(least)}..{amount(most)})"
+    found = seconds_by_seed(error, row["rungs"])
+    extrapolated = sum(outside for _, outside in found) > len(found) / 2
+    return f"{'~' if extrapolated else ''}{amount(median_seconds(error, row))} ({amount(found[0][0])}..{amount(found[-1][0])})"
 
 
 def ratio_cell(rows, error):
     """limn's median seconds over those of the fastest peer that solves the same problem."""
-    found = {key: median_seconds(error, row["rungs"]) for key, row in rows.items()
-             if key != UNIFORM and row["rungs"] and not solves_another_problem(*row["agreement"])}
-    ours = found.pop("limn", None)
-    known = {key: seconds[0] for key, seconds in found.items() if seconds}
-    if not ours or not known:
-        return "–"
-    best = min(known, key=known.get)
-    return f"{ours[0] / known[best]:.2f} of {best}"
+    times = {key: median_seconds(error, rows[key]) for key in rows if key in PEERS and rows[key]["rungs"]
+             and not solves_another_problem(*rows[key]["agreement"])}
+    best = min(times, key=times.get, default=None)
+    return f"{median_seconds(error, rows['limn']) / times[best]:.2f} of {best}" if best else "–"
 
 
 def rate_cell(row, pixels):
     rung = row["rungs"][-1]
-    return f"{statistics.median(1e-6 * rung['spp'] * pixels / s for s in rung['seconds']):.2f}"
+    return f"{1e-6 * rung['spp'] * pixels / statistics.median(rung['seconds']):.2f}"
 
 
 def agreement_cell(row):
@@ -127,26 +175,24 @@ def agreement_cell(row):
 def page(scenes, a, plot):
     keys = ["limn", *a.peer]
 
-    def cells(cell, rows):
-        return [cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys]
+    def part(heading, cell, of_scene={}):
+        """A table with a cell for each renderer, and with columns for the whole scene."""
+        rows = [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys),
+                 *(f(rows) for f in of_scene.values())] for scene, rows in scenes.items()]
+        return f"\n## {heading}\n\n{table(['scene', *keys, *of_scene], rows)}"
 
     about = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
     text = f"{a.seeds} seeds.\n\n" + "".join(f"- {key}: {said}\n" for key, said in about.items())
     for error in (1e-3, 1e-4):
-        text += (f"\n## Seconds to relMSE {error:g} on one thread\n\n"
-                 "The median over the seeds, with the least and the largest. A `~` marks what is extrapolated.\n\n")
-        text += table(["scene", *keys, "limn / fastest peer"],
-                      [[scene, *cells(lambda row: seconds_cell(row, error), rows), ratio_cell(rows, error)]
-                       for scene, rows in scenes.items()])
-    text += f"\n![error over seconds]({plot})\n\n## Million samples a second on one thread\n\n"
-    text += table(["scene", *keys], [[scene, *cells(lambda row: rate_cell(row, a.size**2), rows)]
-                                     for scene, rows in scenes.items()])
-    text += ("\n## Difference from limn's picture\n\nRoot mean square of the relative differences of 10x10 blocks beyond "
-             "noise, ± the noise. If it is bold, the renderer solves another problem and is not compared.\n\n")
-    text += table(["scene", *keys], [[scene, *cells(agreement_cell, rows)] for scene, rows in scenes.items()])
-    failed = [f"- {scene}, {key}: {row['failed']}\n" for scene, rows in scenes.items() for key, row in rows.items()
-              if "failed" in row]
-    return text + ("\n## What failed\n\n" + "".join(failed) if failed else "")
+        text += part(f"Seconds to relMSE {error:g} on one thread", lambda row: seconds_cell(row, error),
+                     {"limn / fastest peer": lambda rows: ratio_cell(rows, error)})
+    text += f"\nMedians over the seeds, with the least and the largest. A `~` marks what is extrapolated.\n\n![curves]({plot})\n"
+    text += part("Million samples a second on one thread", lambda row: rate_cell(row, a.size**2))
+    text += part("Difference from limn's picture", agreement_cell)
+    text += ("\nRoot mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the "
+             "renderer solves another problem and is not compared.\n\n")
+    return text + "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
+                          if "failed" in row)
 
 
 def draw(scenes, path):
@@ -182,8 +228,6 @@ def main():
         else:
             renderers = [Limn("limn"), *(Limn(key) if key == UNIFORM else Peer(key) for key in a.peer)]
             raw = {scene: kept(scene, lambda: measure(scene, renderers, a)) for scene in a.scene}
-            for renderer in renderers:
-                renderer.close()
             draw(raw, RESULTS / f"{name}.png")
             write(name, f"Seconds to an error, {a.size}x{a.size} pixels", head, raw, page(raw, a, f"{name}.png"))
     except Failed as problem:

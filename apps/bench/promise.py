@@ -4,13 +4,14 @@ import math
 import os
 import statistics
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
-import renderers
-from convergence_numbers import corrected_relmse
+from renderers import SCENES, SCENES_OF_LIMN, compare, limn
 from results import table
 
-SCENES = renderers.SCENES[:10] + renderers.SCENES_OF_LIMN
+SCENES = SCENES[:10] + SCENES_OF_LIMN
 SIZE = 64
 SAMPLES = (8, 16, 32, 64, 256)
 TARGETS = (3e-2, 1e-2, 1e-3, 1e-4)
@@ -20,15 +21,19 @@ def measure(scene, seeds):
     """Renders with given numbers of samples, and to given errors, each beside a reference in halves."""
     print(f"promise: {scene}", file=sys.stderr, flush=True)
     finest = 1e-2 if scene == "glass-mesh" else TARGETS[-1]  # a smaller error takes hours there
-    halves = [renderers.limn(scene, SIZE, f"--error={finest / 8}", f"--seed={seed}")[0] for seed in (1_000_001, 1_000_002)]
-
-    def render(option, value, seed):
-        picture, report = renderers.limn(scene, SIZE, f"--{option}={value}", f"--seed={seed}", "--threads=1")
-        return {option: value, "samples": report["spp"], "true": corrected_relmse(picture, halves), "known": report["error"]}
-
     tasks = [("spp", samples, seed) for samples in SAMPLES for seed in range(1, seeds + 1)]
     tasks += [("error", target, seed) for target in TARGETS if target >= finest for seed in range(1, seeds + 1)]
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+    with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        halves = [Path(name) / "a.exr", Path(name) / "b.exr"]
+        for seed, half in enumerate(halves, 1_000_001):
+            limn(scene, half, SIZE, f"--error={finest / 8}", f"--seed={seed}")
+
+        def render(option, value, seed):
+            picture = Path(name) / f"{option}-{value}-{seed}.exr"
+            report = limn(scene, picture, SIZE, f"--{option}={value}", f"--seed={seed}", "--threads=1")
+            return {option: value, "samples": report["spp"], "known": report["error"],
+                    "true": compare(picture, *halves)["corrected_relmse"]}
+
         return list(pool.map(render, *zip(*tasks)))
 
 
@@ -68,8 +73,8 @@ def page(scenes, seeds):
 
 ## How good the estimate is
 
-Each cell has the estimate over the true relMSE, both as means over the seeds that have an estimate. Then it says how often
-the 95 % interval holds the true error, of the renders that have an estimate.
+Each cell has the estimate over the true relMSE, both as means over the seeds that have an estimate. Then it says how
+often the 95 % interval holds the true error, of the renders that have an estimate.
 
 {table(["scene", *(f"{samples} samples" for samples in SAMPLES)], list(coverage_rows(scenes)))}
 

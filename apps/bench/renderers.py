@@ -1,18 +1,13 @@
 """Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
 
-Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(size, spp, seed, threads)
-returns the picture, its seconds and the samples a pixel that it has.
+Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp, seed,
+threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
 """
 
 import json
 import multiprocessing
 import subprocess
 import sys
-import tempfile
-from pathlib import Path
-
-import numpy as np
-import OpenImageIO
 
 from results import BIN, ROOT
 
@@ -37,15 +32,16 @@ def checked(*command):
     return done.stdout
 
 
-def limn(scene, size, *options):
-    """Renders with limn. Returns the picture and the report."""
-    with tempfile.TemporaryDirectory() as folder:
-        exr, report = Path(folder) / "a.exr", Path(folder) / "a.json"
-        checked(PROGRAM, scene, "--quiet", f"--size={size}x{size}", *options, "-o", exr, "--report", report)
-        file = OpenImageIO.ImageInput.open(str(exr))
-        picture = np.array(file.read_image("float"), dtype=np.float64)[:, :, :3]
-        file.close()
-        return picture, json.loads(report.read_text())
+def limn(scene, picture, size, *options):
+    """Renders with limn and returns the report."""
+    report = picture.with_suffix(".json")
+    checked(PROGRAM, scene, "--quiet", f"--size={size}x{size}", *options, "-o", picture, "--report", report)
+    return json.loads(report.read_text())
+
+
+def compare(*pictures):
+    """Compares a picture with a reference, or with its two halves."""
+    return json.loads(checked(BIN / "limn", "compare", *pictures, "--json", "-"))
 
 
 class Limn:
@@ -57,48 +53,37 @@ class Limn:
         self.scene = scene
         return " ".join([checked(BIN / "limn", "--version").strip(), *self.options])
 
-    def render(self, size, spp, seed, threads):
-        picture, report = limn(self.scene, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
-        return picture, report["seconds"]["render"], report["spp"]
-
-    def close(self):
-        pass
+    def render(self, picture, size, spp, seed, threads):
+        report = limn(self.scene, picture, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
+        return report["seconds"]["render"], report["spp"]
 
 
 class Peer:
-    """Runs peers/worker.py, in the environment of the peers. A new process for each scene."""
+    """Runs peers/worker.py in the environment of the peers, a process for each scene."""
 
     def __init__(self, key):
-        self.key, self.process = key, None
+        self.key = key
         checked(sys.executable, "-m", "venv", VENV)
         checked(VENV / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
                 "--only-binary=:all:", PEERS[key], "numpy")
 
     def open(self, scene):
-        self.close()
-        self.pipe, theirs = multiprocessing.Pipe()
+        self.pipe, theirs = multiprocessing.Pipe()  # the worker of the scene before ends
+        worker = [VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", self.key, str(theirs.fileno())]
         with open(VENV / f"{self.key}.log", "w") as log:
-            self.process = subprocess.Popen(
-                [VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", self.key, str(theirs.fileno())],
-                pass_fds=[theirs.fileno()], stdout=log, stderr=log)
+            subprocess.Popen(worker, pass_fds=[theirs.fileno()], stdout=log, stderr=log)
         theirs.close()
-        return self.ask("open", checked(PROGRAM, scene, "--describe"))
+        return self.ask(checked(PROGRAM, scene, "--describe"))
 
-    def ask(self, *request):
+    def ask(self, request):
         try:
             self.pipe.send(request)
             fine, answer = self.pipe.recv()
         except (EOFError, OSError):
-            fine, answer = False, f"ended with status {self.process.wait()}"
+            fine, answer = False, "it crashed"
         if not fine:
-            raise Failed(f"{answer} (see build/peers/{self.key}.log)")
+            raise Failed(f"{self.key}: {answer} (see build/peers/{self.key}.log)")
         return answer
 
-    def render(self, size, spp, seed, threads):
-        picture, seconds, taken = self.ask("render", size, spp, seed, threads)
-        return np.frombuffer(picture).reshape(size, size, 3), seconds, taken
-
-    def close(self):
-        if self.process:
-            self.pipe.close()
-            self.process.wait()
+    def render(self, picture, *arguments):
+        return self.ask((str(picture), *arguments))

@@ -24,14 +24,16 @@ NODES = {"n1": 17001, "n2": 17002}  # and their ports
 
 def configuration(folder):
     host = socket.gethostname()
-    nodes = [f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1" for name, port in NODES.items()]
-    return "\n".join(["ClusterName=limn", f"SlurmctldHost={host}(127.0.0.1)", "SlurmctldPort=16817", "SlurmUser=root",
-                      "SlurmdUser=root", "AuthType=auth/none", "CredType=cred/none", "ProctrackType=proctrack/linuxproc",
-                      "TaskPlugin=task/none", "JobAcctGatherType=jobacct_gather/none", "MpiDefault=none",
-                      "ReturnToService=2", "SlurmdTimeout=20", "SelectType=select/cons_tres",
-                      "SelectTypeParameters=CR_Core", f"StateSaveLocation={folder}", f"SlurmdSpoolDir={folder}/spool-%n",
-                      f"SlurmctldPidFile={folder}/slurmctld.pid", f"SlurmdPidFile={folder}/slurmd-%n.pid", *nodes,
-                      "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n"])
+    nodes = [f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1" for name, port in
+             NODES.items()]
+    return "\n".join([
+        "ClusterName=limn", f"SlurmctldHost={host}(127.0.0.1)", "SlurmctldPort=16817", "SlurmUser=root",
+        "SlurmdUser=root", "AuthType=auth/none", "CredType=cred/none", "ProctrackType=proctrack/linuxproc",
+        "TaskPlugin=task/none", "JobAcctGatherType=jobacct_gather/none", "MpiDefault=none", "ReturnToService=2",
+        "SlurmdTimeout=20", "SelectType=select/cons_tres", "SelectTypeParameters=CR_Core",
+        f"StateSaveLocation={folder}", f"SlurmdSpoolDir={folder}/spool-%n",
+        f"SlurmctldPidFile={folder}/slurmctld.pid", f"SlurmdPidFile={folder}/slurmd-%n.pid", *nodes,
+        "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n"])
 
 
 def output(*command):
@@ -51,9 +53,10 @@ def slurm(folder):
     """The daemons, by name, as long as the `with` lasts."""
     (folder / "slurm.conf").write_text(configuration(folder))
     os.environ["SLURM_CONF"] = str(folder / "slurm.conf")
+    commands = {"slurmctld": ["slurmctld", "-D"], **{node: ["slurmd", "-D", "-N", node] for node in NODES}}
     daemons = {}
     try:
-        for name, command in {"slurmctld": ["slurmctld", "-D"], **{n: ["slurmd", "-D", "-N", n] for n in NODES}}.items():
+        for name, command in commands.items():
             with open(folder / f"{name}.log", "w") as log:
                 daemons[name] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         wait_for(lambda: output("sinfo", "-h", "-t", "idle", "-o", "%D") == str(len(NODES)), 60, "the nodes")
@@ -73,7 +76,8 @@ def kill(node, daemon):
     daemon.kill()
     for process in Path("/proc").glob("[0-9]*"):
         try:
-            title, variables = ((process / file).read_bytes().decode(errors="replace") for file in ("cmdline", "environ"))
+            title, variables = ((process / name).read_bytes().decode(errors="replace")
+                                for name in ("cmdline", "environ"))
         except OSError:
             continue
         if (any(title.startswith(f"slurmstepd: [{job}.") for job in jobs)
@@ -83,7 +87,7 @@ def kill(node, daemon):
 
 
 def measure():
-    """Returns 1 if something was lost, else 0, and what happened."""
+    """Yields what was tried, how often, how often it went wrong, and what happened."""
     (RESULTS / "cluster").mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="limn-slurm-") as name:
         folder = Path(name)
@@ -103,7 +107,5 @@ def measure():
             seconds = time.monotonic() - begin
         picture = folder / "cluster.exr"
         same = picture.exists() and pixels(picture) == pixels(folder / "one.exr")
-    return int(not same or not jobs), (
-        f"Figure 15, 160x160 pixels, in {PARTS} parts on two nodes of one processor each. The node n1 was killed with all that ran "
-        f"on it (jobs: {', '.join(jobs)}). After {seconds:.0f} s, most of them Slurm's, the merged picture was "
-        f"{'the same' if same else 'NOT the same'} as that of one render, in every bit.")
+    said = f"the same picture after {seconds:.0f} s, most of them Slurm's; lost were jobs {' '.join(jobs)}"
+    yield [f"a node of two is lost, figure 15 in {PARTS} parts", 1, int(not same or not jobs), said]

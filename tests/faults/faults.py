@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy
 import OpenImageIO
 
-from results import BIN, table
+from results import BIN
 
 KILLS = 200
 DAMAGES = 40
@@ -25,9 +25,9 @@ BOX = "fig15_cornell_box"
 RENDERS = {"fig13_dielectric": ["--error", "2e-4"], BOX: ["--spp", "150"], "fig18_with_dof": ["--error", "3e-4"]}
 
 
-def command(figure, *more):
-    """A render of a few seconds."""
-    return [str(word) for word in (BIN / figure, "--size", "112x112", "--quiet", *RENDERS[figure], *more)]
+def command(figure, *more, goal=None):
+    """A render, of a few seconds without a goal of its own."""
+    return [str(word) for word in (BIN / figure, "--size", "112x112", "--quiet", *(goal or RENDERS[figure]), *more)]
 
 
 def outputs(name):
@@ -87,7 +87,7 @@ def kills(figure, count, seed):
                         "--resume", "a.film", *outputs("resumed")),
                 cwd=folder, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             try:
-                process.wait(draw.uniform(0, seconds))
+                process.wait(draw.uniform(0, 1.5 * seconds))
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
@@ -111,15 +111,15 @@ def full_disk(kibibytes):
                 and told == (done.returncode != 0) and film.exists() == (kibibytes > 1100)
                 and not any(p.name.endswith(".tmp") for p in other.iterdir())
                 and (not film.exists() or run([BIN / "limn", "info", film], folder).returncode == 0))
-        return 1, not fine, f"exit status {done.returncode}, film {'whole' if film.exists() else 'none'}"
+        return 1, int(not fine), f"exit status {done.returncode}, film {'whole' if film.exists() else 'none'}"
 
 
 def read_only():
     """A disk that becomes read-only is told, and the render goes on. The next render is refused at once."""
     with tempfile.TemporaryDirectory() as name, disk(8192) as other:
         folder = Path(name)
-        process = subprocess.Popen(command(BOX, "--spp", 1500, "--checkpoint", other / "a.film", "--every", "0.3",
-                                           *outputs("a")), cwd=folder, stderr=subprocess.PIPE, text=True)
+        words = command(BOX, "--checkpoint", other / "a.film", "--every", "0.3", *outputs("a"), goal=["--spp", 1500])
+        process = subprocess.Popen(words, cwd=folder, stderr=subprocess.PIPE, text=True)
         wait_for(other / "a.film", process)
         # A file there is open to be written, so only a mount over the disk itself can be made read-only.
         for way in ("bind", "remount,bind,ro"):
@@ -161,18 +161,15 @@ def clock():
         process.kill()
         process.wait()
         done = run(["faketime", "-f", "-1d", *words], folder)
-        return 1, done.returncode != 0 or result(folder, "a") != whole, "resumed a day before it began"
+        return 1, int(done.returncode != 0 or result(folder, "a") != whole), "resumed a day before it began"
 
 
 def measure():
-    """Returns how many went wrong, and a table."""
-    trials = {f"kill -9, {figure}": lambda f=figure, i=i: kills(f, -(-(KILLS - i) // len(RENDERS)), i)
-              for i, figure in enumerate(RENDERS)}
-    trials |= {f"a disk of {size} KiB": lambda s=size: full_disk(s) for size in DISKS}
-    trials |= {"a read-only folder": read_only, "films cut short, flipped bits": damages, "clock set back": clock}
-    rows = []
-    for name, trial in trials.items():
-        tried, wrong, said = trial()
-        rows.append([name, tried, int(wrong), said])
-        print("faults:", *rows[-1], flush=True)
-    return sum(row[2] for row in rows), table(["fault", "times", "wrong", "what happened"], rows)
+    """Yields for each fault its name, how often it was tried, how often it went wrong, and what happened."""
+    for i, figure in enumerate(RENDERS):
+        yield [f"kill -9, {figure}", *kills(figure, -(-(KILLS - i) // len(RENDERS)), i)]
+    for size in DISKS:
+        yield [f"a disk of {size} KiB", *full_disk(size)]
+    yield ["a disk that becomes read-only", *read_only()]
+    yield ["films cut short, flipped bits", *damages()]
+    yield ["a clock set back by a day", *clock()]

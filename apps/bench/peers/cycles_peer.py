@@ -6,8 +6,6 @@ normals. A ball of light is a point light, which has a radius. Coordinates stay 
 
 import math
 import re
-import tempfile
-import time
 from pathlib import Path
 
 import bpy
@@ -243,9 +241,6 @@ def set_integrator(scene):
 class Peer:
     about = f"Cycles of Blender {bpy.app.version_string}, tabulated Sobol, light tree from {FEW_LIGHTS + 1} lights on"
 
-    def __init__(self):
-        self.folder = tempfile.TemporaryDirectory()
-
     def open(self, scene):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         add_spheres(scene.spheres)
@@ -259,29 +254,14 @@ class Peer:
         add_camera(scene.camera)
         set_integrator(scene)
 
-    def render(self, size, spp, seed, threads):
-        scene, path = bpy.context.scene, Path(self.folder.name) / "picture.exr"
+    def render(self, path, size, spp, seed, threads):
+        scene = bpy.context.scene
         scene.render.resolution_x = scene.render.resolution_y = size
         scene.render.threads = threads
         scene.cycles.samples, scene.cycles.seed = spp, seed
-        scene.render.filepath = str(path)
-        start = time.perf_counter()
+        scene.render.filepath = path
         bpy.ops.render.render(write_still=True)
-        whole = time.perf_counter() - start
-        return read_exr(path, size), seconds_in(path) or whole, spp
-
-
-def seconds_in(path):
-    """What Cycles writes into the header of its picture: how long the sampling took."""
-    found = re.search(rb"cycles\.[^\0]*\.render_time\0string\0....(\d\d):(\d\d)\.(\d\d)", path.read_bytes(), re.DOTALL)
-    minutes, seconds, hundredths = (int(x) for x in found.groups()) if found else (0, 0, 0)
-    return 60 * minutes + seconds + 0.01 * hundredths
-
-
-def read_exr(path, size):
-    image = bpy.data.images.load(str(path))
-    image.colorspace_settings.name = "Non-Color"
-    values = np.empty(4 * size * size, dtype=np.float32)
-    image.pixels.foreach_get(values)
-    bpy.data.images.remove(image)
-    return values.reshape(size, size, 4)[::-1, :, :3]
+        # The header of the picture says how long the sampling took.
+        time = re.search(rb"cycles\.[^\0]*\.render_time\0string\0....(\d\d):(\d\d\.\d\d)", Path(path).read_bytes(),
+                         re.DOTALL)
+        return 60 * int(time[1]) + float(time[2]), spp
