@@ -19,6 +19,7 @@ from results import RESULTS, Kept, origin, table, write
 
 LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights")
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
+ERROR = 1e-3
 DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
 STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-")}
 
@@ -135,8 +136,8 @@ def seconds_by_seed(error, rungs):
     return sorted(seconds_to(error, curve) for curve in curves)
 
 
-def median_seconds(error, row):
-    return statistics.median(seconds for seconds, _ in seconds_by_seed(error, row["rungs"]))
+def median_seconds(row):
+    return statistics.median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
 
 
 def solves_another_problem(difference, noise):
@@ -147,18 +148,18 @@ def amount(x):
     return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
 
 
-def seconds_cell(row, error):
-    found = seconds_by_seed(error, row["rungs"])
-    extrapolated = sum(outside for _, outside in found) > len(found) / 2
-    return f"{'~' if extrapolated else ''}{amount(median_seconds(error, row))} ({amount(found[0][0])}..{amount(found[-1][0])})"
+def seconds_cell(row):
+    found = seconds_by_seed(ERROR, row["rungs"])
+    mark = "~" if sum(outside for _, outside in found) > len(found) / 2 else ""
+    return f"{mark}{amount(median_seconds(row))} ({amount(found[0][0])}..{amount(found[-1][0])})"
 
 
-def ratio_cell(rows, error):
+def ratio_cell(rows):
     """limn's median seconds over those of the fastest peer that solves the same problem."""
-    times = {key: median_seconds(error, rows[key]) for key in rows if key in PEERS and rows[key]["rungs"]
-             and not solves_another_problem(*rows[key]["agreement"])}
+    times = {key: median_seconds(row) for key, row in rows.items()
+             if key in PEERS and row["rungs"] and not solves_another_problem(*row["agreement"])}
     best = min(times, key=times.get, default=None)
-    return f"{median_seconds(error, rows['limn']) / times[best]:.2f} of {best}" if best else "–"
+    return f"{median_seconds(rows['limn']) / times[best]:.2f} of {best}" if best else "–"
 
 
 def rate_cell(row, pixels):
@@ -175,24 +176,35 @@ def agreement_cell(row):
 def page(scenes, a, plot):
     keys = ["limn", *a.peer]
 
-    def part(heading, cell, of_scene={}):
-        """A table with a cell for each renderer, and with columns for the whole scene."""
-        rows = [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys),
-                 *(f(rows) for f in of_scene.values())] for scene, rows in scenes.items()]
-        return f"\n## {heading}\n\n{table(['scene', *keys, *of_scene], rows)}"
+    def rows_of(cell):
+        return [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys)]
+                for scene, rows in scenes.items()]
 
-    about = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
-    text = f"{a.seeds} seeds.\n\n" + "".join(f"- {key}: {said}\n" for key, said in about.items())
-    for error in (1e-3, 1e-4):
-        text += part(f"Seconds to relMSE {error:g} on one thread", lambda row: seconds_cell(row, error),
-                     {"limn / fastest peer": lambda rows: ratio_cell(rows, error)})
-    text += f"\nMedians over the seeds, with the least and the largest. A `~` marks what is extrapolated.\n\n![curves]({plot})\n"
-    text += part("Million samples a second on one thread", lambda row: rate_cell(row, a.size**2))
-    text += part("Difference from limn's picture", agreement_cell)
-    text += ("\nRoot mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the "
-             "renderer solves another problem and is not compared.\n\n")
-    return text + "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
-                          if "failed" in row)
+    known = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
+    about = "".join(f"- {key}: {said}\n" for key, said in known.items())
+    seconds = [[*row, ratio_cell(rows)] for row, rows in zip(rows_of(seconds_cell), scenes.values())]
+    failed = "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
+                     if "failed" in row)
+    return f"""{a.seeds} seeds.
+
+{about}
+## Seconds to relMSE {ERROR:g} on one thread
+
+Medians over the seeds, with the least and the largest. A `~` marks what is extrapolated.
+
+{table(["scene", *keys, "limn / fastest peer"], seconds)}
+![curves]({plot})
+
+## Million samples a second on one thread
+
+{table(["scene", *keys], rows_of(lambda row: rate_cell(row, a.size**2)))}
+## Difference from limn's picture
+
+Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer solves
+another problem and is not compared.
+
+{table(["scene", *keys], rows_of(agreement_cell))}
+{failed}"""
 
 
 def draw(scenes, path):

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "limn/core/error.h"
-#include "limn/material/rough_conductor.h"
 #include "limn/record_sink.h"
 
 namespace limn::bench {
@@ -24,26 +23,20 @@ void require(bool told, const char* what) {
 Json triple(const Point3& p) { return {p.x, p.y, p.z}; }
 Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json triple(const Color& c) { return {c.r, c.g, c.b}; }
+Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
+Json pair(const Float2& uv) { return {uv.u, uv.v}; }
+
+template <class Elements, class ToJson>
+Json list(const Elements& elements, const ToJson& to_json) {
+    Json all = Json::array();
+    for (const auto& element : elements) all.push_back(to_json(element));
+    return all;
+}
 
 // Row by row from the top, linear.
 Json picture(const Image& image, double scale = 1) {
-    std::vector<double> values;
-    for (const float v : image.values()) values.push_back(scale * static_cast<double>(v));
-    return {{"width", image.width()}, {"height", image.height()}, {"values", values}};
-}
-
-// The index of refraction that a RoughConductor was made of: see its constructor.
-ComplexIndex index_of(const Color& reflectance, const MaterialDetails& details) {
-    ComplexIndex index;
-    const auto component = [](double r, double tint, double& eta, double& k) {
-        const double root = std::sqrt(r);
-        eta = tint * (1 - r) / (1 + r) + (1 - tint) * (1 + root) / (1 - root);
-        k = std::sqrt(std::max(0.0, (r * (eta + 1) * (eta + 1) - (eta - 1) * (eta - 1)) / (1 - r)));
-    };
-    component(reflectance.r, details.numbers[0], index.eta.r, index.k.r);
-    component(reflectance.g, details.numbers[1], index.eta.g, index.k.g);
-    component(reflectance.b, details.numbers[2], index.eta.b, index.k.b);
-    return index;
+    const auto scaled = [scale](float v) { return Json(scale * static_cast<double>(v)); };
+    return {{"width", image.width()}, {"height", image.height()}, {"values", list(image.values(), scaled)}};
 }
 
 // Turns records to JSON, everything in the space of the world.
@@ -105,18 +98,15 @@ private:
     Json mesh(const MeshRecord& m, const Transform& place) const {
         const auto& slots = m.arrays.material_slots;
         require(std::ranges::adjacent_find(slots, std::not_equal_to()) == slots.end(), "meshes of several materials");
-        Json told = {{"vertices", Json::array()}, {"triangles", Json::array()}};
-        told["material"] = material(m.materials.at(slots.empty() ? 0 : slots[0]));
-        const Transform object_from_world = limn::inverse(place);
-        for (const Float3& v : m.arrays.vertices)
-            told["vertices"].push_back(triple(transform_point(place, {v.x, v.y, v.z})));
-        for (const Index3& t : m.arrays.triangles) told["triangles"].push_back({t.a, t.b, t.c});
-        if (!m.arrays.normals.empty()) told["normals"] = Json::array();
-        for (const Float3& n : m.arrays.normals)
-            told["normals"].push_back(triple(normalize(Vec3(transform_normal(object_from_world, {n.x, n.y, n.z})))));
-        if (!m.arrays.uvs.empty()) told["uvs"] = Json::array();
-        for (const Float2& uv : m.arrays.uvs) told["uvs"].push_back({uv.u, uv.v});
-        return told;
+        const auto point = [&](const Float3& v) { return triple(transform_point(place, {v.x, v.y, v.z})); };
+        const auto normal = [back = limn::inverse(place)](const Float3& n) {
+            return triple(normalize(Vec3(transform_normal(back, {n.x, n.y, n.z}))));
+        };
+        return {{"vertices", list(m.arrays.vertices, point)},
+                {"triangles", list(m.arrays.triangles, [](const Index3& t) { return triple(t); })},
+                {"normals", list(m.arrays.normals, normal)},
+                {"uvs", list(m.arrays.uvs, pair)},
+                {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
     }
 
     Json material(MaterialId id) const {
@@ -149,8 +139,11 @@ private:
         if (m.kind == "rough-dielectric") return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", alpha}};
         const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
         require(reflectance.kind == TextureKind::solid, "metals that are not of one colour");
-        const ComplexIndex index = index_of(reflectance.color, *m.details);
-        return {{"kind", "rough-conductor"}, {"eta", triple(index.eta)}, {"k", triple(index.k)}, {"alpha", alpha}};
+        const auto& tint = m.details->numbers;
+        return {{"kind", "rough-conductor"},
+                {"reflectance", triple(reflectance.color)},
+                {"edge_tint", {tint[0], tint[1], tint[2]}},
+                {"alpha", alpha}};
     }
 
     // A colour, the two of a checker, or a picture.
@@ -167,16 +160,12 @@ private:
     const SceneRecords& records_;
 };
 
-Json describe_suns(const Scene& scene) {
-    Json suns = Json::array();
-    for (const LightSource& light : scene.lights()) {
-        const auto* sun = std::get_if<SunLight>(&light);
-        require(sun, "lights that are neither shapes nor suns");
-        suns.push_back({{"direction", triple(sun->direction)},
-                        {"irradiance", triple(sun->irradiance)},
-                        {"angular_radius", sun->angular_radius}});
-    }
-    return suns;
+Json describe_light(const LightSource& light) {
+    const auto* sun = std::get_if<SunLight>(&light);
+    require(sun, "lights that are neither shapes nor suns");
+    return {{"direction", triple(sun->direction)},
+            {"irradiance", triple(sun->irradiance)},
+            {"angular_radius", sun->angular_radius}};
 }
 
 Json describe_environment(const Scene& scene) {
@@ -206,7 +195,7 @@ Json describe_scene(const Figure& figure) {
                  {"camera", describe_camera(figure.camera)},
                  {"background", {{"bottom", triple(scene.background.bottom)}, {"top", triple(scene.background.top)}}},
                  {"environment", describe_environment(scene)},
-                 {"suns", describe_suns(scene)}};
+                 {"suns", list(scene.lights(), describe_light)}};
     json.update(Description(sink.records()).shapes(BlasId::root, Transform{}));
     return json;
 }

@@ -1,6 +1,5 @@
 """How good limn's estimate of its own error is, and how often --error is kept. Run by convergence.py --promise."""
 
-import math
 import os
 import statistics
 import sys
@@ -50,7 +49,7 @@ def coverage_rows(scenes):
             held = [r["known"]["ci95_low"] <= r["true"] <= r["known"]["ci95_high"] for r in known]
             together[samples] += held
             estimate, true = sum(r["known"]["estimate"] for r in known), sum(r["true"] for r in known)
-            cells.append(f"{estimate / true if known else math.nan:.2f}; {sum(held)} of {len(held)}")
+            cells.append(f"{estimate / true:.2f}; {sum(held)} of {len(held)}" if known else "–")
         yield [scene, *cells]
     yield ["together", *(share(held) for held in together.values())]
 

@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
     using namespace limn;
-    const std::vector<std::string>& names = bench::transport_scene_names();
+    const std::vector<std::string> names = bench::transport_scene_names();
     const std::string scene = argc > 1 ? argv[1] : "";
     if (std::ranges::find(names, scene) == names.end()) {
         std::cerr << "usage: limn_transport SCENE [--describe | OPTION ...]\nscenes:";

@@ -1,7 +1,6 @@
 #include "bench/transport_scenes.h"
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -150,49 +149,38 @@ Figure fireflies() {
     return figure_of(std::move(scene), {.look_from = {0, 3, 6}, .look_at = {0, .8, -1}, .vertical_fov = 45});
 }
 
-struct Entry {
-    std::string name;
-    std::function<Figure()> make;
+constexpr std::pair<const char*, Figure (*)()> kScenes[] = {
+    {"cornell-empty", cornell_empty},
+    {"cornell", [] { return figures::fig15_cornell_box(); }},
+    {"lamps", lamps},
+    {"three-spheres", [] { return with_mirror(figures::fig13_dielectric()); }},
+    {"depth-of-field", [] { return with_mirror(figures::fig18_with_dof()); }},
+    {"still-spheres", still_spheres},
+    {"smoke", [] { return figures::fig16_volume_cornell_box(); }},
+    {"mesh", [] { return ball_in_room(matte(kLightGrey)); }},
+    {"glass-mesh", [] { return ball_in_room(glass()); }},
+    {"many-lights", many_lights},
+    {"rough-copper", rough_copper},
+    {"rough-glass", rough_glass},
+    {"still-life", still_life},
+    {"window", gallery::sunlit_room},
+    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }},
+    {"glass", [] { return figures::fig13_dielectric(); }},
+    {"fireflies", fireflies},
 };
-
-const std::vector<Entry>& entries() {
-    static const std::vector<Entry> all{
-        {"cornell-empty", cornell_empty},
-        {"cornell", [] { return figures::fig15_cornell_box(); }},
-        {"lamps", lamps},
-        {"three-spheres", [] { return with_mirror(figures::fig13_dielectric()); }},
-        {"depth-of-field", [] { return with_mirror(figures::fig18_with_dof()); }},
-        {"still-spheres", still_spheres},
-        {"smoke", [] { return figures::fig16_volume_cornell_box(); }},
-        {"mesh", [] { return ball_in_room(matte(kLightGrey)); }},
-        {"glass-mesh", [] { return ball_in_room(glass()); }},
-        {"many-lights", many_lights},
-        {"rough-copper", rough_copper},
-        {"rough-glass", rough_glass},
-        {"still-life", still_life},
-        {"window", gallery::sunlit_room},
-        {"bouncing", [] { return figures::fig01_bouncing_spheres(); }},
-        {"glass", [] { return figures::fig13_dielectric(); }},
-        {"fireflies", fireflies},
-    };
-    return all;
-}
 
 }  // namespace
 
-const std::vector<std::string>& transport_scene_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const Entry& entry : entries()) all.push_back(entry.name);
-        return all;
-    }();
+std::vector<std::string> transport_scene_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, make] : kScenes) names.emplace_back(name);
     return names;
 }
 
 Figure make_transport_scene(const std::string& name) {
-    for (const Entry& entry : entries()) {
-        if (entry.name != name) continue;
-        Figure figure = entry.make();
+    for (const auto& [known, make] : kScenes) {
+        if (name != known) continue;
+        Figure figure = make();
         figure.name = name;
         return figure;
     }

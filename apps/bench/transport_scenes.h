@@ -11,7 +11,7 @@ namespace limn::bench {
 
 // Metal and glass of the first fourteen follow Fresnel's equations, smooth or with the same microfacets: limn and its
 // peers can all express these scenes. The others are for limn alone.
-const std::vector<std::string>& transport_scene_names();
+std::vector<std::string> transport_scene_names();
 
 // \throws ArgumentError for another name, FileError if the figures' data cannot be read
 Figure make_transport_scene(const std::string& name);

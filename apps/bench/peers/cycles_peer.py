@@ -13,7 +13,7 @@ import bmesh  # part of bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from geometry import is_checker, is_picture, pixels
+from geometry import index_of, is_checker, is_picture, pixels
 
 FEW_LIGHTS = 16  # up to here the light tree costs more than it gains
 
@@ -76,8 +76,8 @@ def material_of(told, tinted=False):
         surface = shader.node("BsdfAnisotropic", inputs)
     elif told["kind"] == "rough-conductor":
         del inputs["Color"]
-        surface = shader.node("BsdfMetallic", {**inputs, "IOR": told["eta"], "Extinction": told["k"]},
-                              fresnel_type="PHYSICAL_CONDUCTOR", distribution="GGX")
+        inputs["IOR"], inputs["Extinction"] = index_of(told)
+        surface = shader.node("BsdfMetallic", inputs, fresnel_type="PHYSICAL_CONDUCTOR", distribution="GGX")
     elif told["kind"] in ("glass", "rough-glass"):
         surface = shader.node("BsdfGlass", {**inputs, "IOR": told["index"]}, distribution="GGX")
     else:
@@ -122,7 +122,7 @@ def add_mesh(told, material):
 def add_ball(sphere, material):
     """Adds a ball as a mesh with its exact normals."""
     data, ball = bpy.data.meshes.new("ball"), bmesh.new()
-    bmesh.ops.create_uvsphere(ball, u_segments=256, v_segments=128, radius=abs(sphere["radius"]))
+    bmesh.ops.create_uvsphere(ball, u_segments=128, v_segments=64, radius=abs(sphere["radius"]))
     ball.to_mesh(data)
     if sphere["radius"] < 0:
         data.flip_normals()

@@ -24,7 +24,7 @@ class Scene:
             mesh["vertices"] = np.array(mesh["vertices"], dtype=np.float32)
             mesh["triangles"] = np.array(mesh["triangles"], dtype=np.uint32)
             for name in ("normals", "uvs"):
-                mesh[name] = np.array(mesh[name], dtype=np.float32) if name in mesh else None
+                mesh[name] = np.array(mesh[name], dtype=np.float32) if mesh.get(name) else None
         for medium in self.media:
             medium["boundary"]["vertices"][:, 1] += LIFT
         bottom, top = told["background"]["bottom"], told["background"]["top"]
@@ -55,6 +55,13 @@ class Scene:
 
 def pixels(picture):
     return np.array(picture["values"], dtype=np.float32).reshape(picture["height"], picture["width"], 3)
+
+
+def index_of(metal):
+    """The index of refraction, eta and k, that a RoughConductor makes of reflectance and edge tint."""
+    r, tint = np.array(metal["reflectance"]), np.array(metal["edge_tint"])
+    eta = tint * (1 - r) / (1 + r) + (1 - tint) * (1 + np.sqrt(r)) / (1 - np.sqrt(r))
+    return eta, np.sqrt(np.maximum(0, (r * (eta + 1) ** 2 - (eta - 1) ** 2) / (1 - r)))
 
 
 def is_checker(color):

@@ -4,7 +4,6 @@ Its area lights shine to one side. It has no solid textures: the checker is a pl
 """
 
 import os
-import time
 from pathlib import Path
 
 # The packages libllvm18 and newer have this name. LLVM 15 and 16 crash on some processors.
@@ -14,7 +13,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from geometry import is_checker, is_picture, pixels
+from geometry import index_of, is_checker, is_picture, pixels
 
 LANES = 1 << 24  # paths at once: more take more memory, and are not faster
 FAR = 1e4  # distance of the discs that stand for suns
@@ -61,8 +60,8 @@ def bsdf(material):
     elif kind == "glass":
         told = {"type": "dielectric", "int_ior": float(material["index"]), "ext_ior": 1.0}
     elif kind == "rough-conductor":
-        told = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": rgb(material["eta"]),
-                "k": rgb(material["k"])}
+        eta, k = index_of(material)
+        told = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": rgb(eta), "k": rgb(k)}
     elif kind == "rough-glass":
         told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, "int_ior": float(material["index"]),
                 "ext_ior": 1.0}
