@@ -16,7 +16,7 @@ usage: ./build.sh COMMAND [OPTION ...]
   bench [--full] [MODEL ...]      rays a second beside Embree, building, threads, growth; queries beside Open3D, CGAL and others
   accuracy [--full]               how often intersections are wrong, in limn and in others
   convergence [--size 400] [--scene NAME ...] [--peer NAME ...]
-                                  seconds to an error beside Mitsuba, Cycles and LuxCore
+                                  seconds to an error beside Mitsuba and Cycles
   convergence --promise           how good limn's estimate of its error is, and how often --error is kept
   reliability [films|faults|cluster ...]
                                   what checkpoints cost; killed renders, full disks, damaged films; a lost node of a Slurm

@@ -1,118 +1,250 @@
-"""Speed against error, limn beside its peers: generated parts of docs/speed-against-error.md, and their plots.
+"""Seconds to an error, limn beside its peers: build/results/convergence.html, with --size 400 convergence-400.html.
 
-Fourteen scenes, described once (transport_scenes.cpp) and written for each renderer that can express them (peers/).
-Everybody renders a converged reference in two halves, then a ladder of growing sample counts on one thread, with
-several seeds, all taking turns. Raw numbers go to build/convergence/results-SIZE.json, from which --again writes the
-report anew. Interrupted, it goes on with the scene where it was. References are kept as long as scene and renderer stay
-the same.
-
-Needs limn's programs in build/release/bin, matplotlib, numpy and OpenImageIO for Python; Mitsuba, Blender and LuxCore
-come from PyPI into build/peers where they can. Run through ./build.sh convergence [--size 400] [--scene NAME ...]
-[--peer NAME ...] [--again]. On a machine that does something else meanwhile its times say little.
+transport_scenes.cpp describes the scenes once, and peers/ writes them for each renderer that can express them. Each
+renderer renders a converged reference in two halves. Then all of them take turns at growing numbers of samples on one
+thread, with several seeds. On a machine that does something else meanwhile the seconds say little.
 """
 
 import argparse
-import datetime
-import json
+import math
+import os
+import statistics
 import sys
-from dataclasses import dataclass, replace
+import tempfile
+from pathlib import Path
 
-import convergence_plots
-import convergence_tables
-from convergence_measure import Plan, measure
-from convergence_renderers import PEERS, RAW, Failed, limn_ladder, say, start_peers
-from machine import ROOT
-from reports import Kept, origin, write
+import promise
+from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer, compare
+from results import RESULTS, Kept, origin, table, write
 
-
-@dataclass(frozen=True)
-class Form:
-    """A part of the report."""
-    name: str
-    plan: Plan
-    scenes: tuple
-    peers: tuple
-    steps: bool  # limn without this and that, too
-
-    def results(self):
-        return RAW / f"results-{self.plan.size}.json"
-
-
-FORMS = {form.plan.size: form for form in (
-    Form("convergence", Plan(size=100, seeds=4, growth=4, cap=5, reference=6), tuple(convergence_tables.SCENES),
-         tuple(PEERS), True),
-    Form("convergence-400", Plan(size=400, seeds=4, growth=4, cap=40, reference=30),
-         ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights"), ("mitsuba", "cycles"), False))}
+LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights")
+PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
+ERROR = 1e-3
+DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
+STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-")}
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--size", type=int, choices=list(FORMS), default=100,
-                        help="pixels a side; 400: five scenes, fewer peers")
-    parser.add_argument("--scene", action="append", choices=list(convergence_tables.SCENES), metavar="NAME",
-                        help="only these: " + ", ".join(convergence_tables.SCENES))
-    parser.add_argument("--peer", action="append", choices=[*PEERS, "none"], metavar="NAME",
-                        help="only these: " + ", ".join(PEERS) + "; none: limn alone")
-    parser.add_argument("--again", action="store_true", help="write the report from what was measured last")
-    for name, kind in (("seeds", int), ("cap", float), ("reference", float)):
-        parser.add_argument(f"--{name}", type=kind, metavar="X", help="instead of what the form has: see its Plan")
-    return parser.parse_args()
+    parser = argparse.ArgumentParser(prog="./build.sh convergence", description=__doc__.splitlines()[0])
+    parser.add_argument("--promise", action="store_true", help="measure limn's estimate of its error instead")
+    parser.add_argument("--size", type=int, choices=(100, 400), default=100, help="pixels a side (100)")
+    parser.add_argument("--scene", action="append", choices=SCENES + SCENES_OF_LIMN, metavar="NAME",
+                        help="only these (all; at size 400 five): " + ", ".join(SCENES))
+    parser.add_argument("--peer", action="append", choices=[*PEERS, UNIFORM, "none"], metavar="NAME",
+                        help=f"only these: {', '.join(PEERS)}, {UNIFORM} (limn with the same number of samples in every "
+                             "pixel), none")
+    parser.add_argument("--seeds", type=int, metavar="N", help="renders of each kind (4; with --promise 50)")
+    parser.add_argument("--cap", type=float, metavar="SECONDS",
+                        help="of the longest render, and of half a reference (5; at size 400 40)")
+    a = parser.parse_args()
+    large = a.size == 400
+    a.seeds = a.seeds or (50 if a.promise else 4)
+    a.cap = a.cap or (40 if large else 5)
+    a.scene = a.scene or (promise.SCENES if a.promise else LARGE_SCENES if large else SCENES)
+    a.peer = [key for key in a.peer or PEERS if key != "none"]
+    return a
 
 
-def form_of(arguments):
-    form = FORMS[arguments.size]
-    given = {name: value for name in ("seeds", "cap", "reference") if (value := getattr(arguments, name)) is not None}
-    return replace(form, plan=replace(form.plan, **given))
+def reference(renderer, folder, a):
+    """Two independent halves."""
+    threads, spp = len(os.sched_getaffinity(0)), PILOT_SPP
+    for seed in (1, 2):  # the first one compiles if there is a compiler
+        seconds, _ = renderer.render(folder / "pilot.exr", a.size, spp, seed, threads)
+    while spp < LARGEST_SPP and 1.5 * spp * seconds / PILOT_SPP < a.cap:
+        spp *= 2
+    halves = [folder / f"{renderer.key}-{half}.exr" for half in "ab"]
+    for seed, half in enumerate(halves, 1001):
+        renderer.render(half, a.size, spp, seed, threads)
+    return halves
 
 
-def earlier(form):
-    """What was measured with the same plan."""
-    if form.results().exists():
-        raw = json.loads(form.results().read_text())
-        if raw["plan"] == vars(form.plan):
-            return raw
-    return {"plan": vars(form.plan), "scenes": {}}
+def agreement(ours, theirs):
+    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+    from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
+
+    def blocks(picture):
+        image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
+        size = image.spec().width // 10
+        ImageBufAlgo.resize(image, "box", 10, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
+        return small
+
+    (a, b), (c, d) = map(blocks, ours), map(blocks, theirs)
+    against_ours, variance = compare(c, a, b), compare(c, d)["relmse"] / 2
+    difference = max(0, against_ours["corrected_relmse"] - variance)
+    return math.sqrt(difference), math.sqrt(variance + against_ours["reference_relmse"])
 
 
-def measure_all(form, arguments):
-    plan, wanted = form.plan, [p for p in arguments.peer or form.peers if p != "none"]
-    head = {**origin(form.name, " ".join(["./build.sh convergence", *sys.argv[1:]])), "size": plan.size,
-            "seeds": plan.seeds, "session": datetime.datetime.now().isoformat("T", "minutes")}
-    raw = earlier(form)
-    peers, raw["missing"] = start_peers(wanted)
-    kept = Kept(RAW / f"kept-{plan.size}.json", sources=head["sources"], plan=vars(plan),
-                peers=[[peer.key, peer.about["version"]] for peer in peers])
-    head = kept("head", lambda: head)
-    limn = [limn for limn in limn_ladder() if form.steps or limn.key == "limn"]
-    for scene in arguments.scene or form.scenes:
-        say(f"{scene}, {kept.minutes():.0f} minutes so far")
-        rows = kept(scene, lambda: measure(scene, limn + peers, plan))
-        for row in rows.values():
-            row["session"], row["sources"] = head["session"], head["sources"]
-        # Limn's rows go together; peers that were not asked this time keep theirs.
-        others = {k: row for k, row in raw["scenes"].get(scene, {}).items() if k in PEERS and k not in rows}
-        raw["scenes"][scene] = {**rows, **others}
-    for peer in peers:
-        peer.close()
-    if any(rows["limn"].get("sources") != head["sources"] for rows in raw["scenes"].values()):
-        head["sources"] = "of several sessions"
-    raw["head"] = {**head, "minutes": kept.minutes()}
-    form.results().write_text(json.dumps(raw, indent=1))
-    kept.forget()
-    return raw
+def measure(scene, renderers, a):
+    """A row for each renderer. One that cannot render the scene says why."""
+    print(f"convergence: {scene}", file=sys.stderr, flush=True)
+    rows, references = {}, {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for renderer in renderers:
+            row = rows[renderer.key] = {"rungs": []}
+            try:
+                row["about"] = renderer.open(scene)
+                references[renderer.key] = reference(renderer, folder, a)
+                row["agreement"] = agreement(references["limn"], references[renderer.key])
+            except Failed as problem:
+                if renderer.key == "limn":
+                    raise
+                row["failed"] = str(problem)
+        # Climb the ladders of samples. The renderers take turns at each rung and seed.
+        active, spp = [renderer for renderer in renderers if renderer.key in references], FIRST_SPP
+        while active and spp <= LARGEST_SPP:
+            for renderer in active:
+                rows[renderer.key]["rungs"].append({"seconds": [], "errors": []})
+            for seed in range(1, a.seeds + 1):
+                for renderer in active:
+                    rung = rows[renderer.key]["rungs"][-1]
+                    seconds, rung["spp"] = renderer.render(folder / "a.exr", a.size, spp, seed, 1)
+                    compared = compare(folder / "a.exr", *references[renderer.key])
+                    rung["seconds"].append(seconds)
+                    rung["errors"].append(compared["corrected_relmse"])
+                    rung["reference_error"] = compared["reference_relmse"]
+            active = [renderer for renderer in active if goes_on(rows[renderer.key]["rungs"][-1], a.cap)]
+            spp *= GROWTH
+    return rows
+
+
+def goes_on(rung, cap):
+    """Whether the next rung is short enough, and this one not better yet than its reference."""
+    return (GROWTH * statistics.median(rung["seconds"]) <= cap
+            and statistics.mean(rung["errors"]) > rung["reference_error"])
+
+
+def seconds_to(error, curve):
+    """Seconds to an error on a curve of (seconds, error), by the line error = c / seconds^p through the three points
+    that are nearest to it, and whether the error is outside of what was measured."""
+    known = [(math.log(s), math.log(e)) for s, e in curve if s > 0 and e > 0]
+    if not known:
+        return math.inf, True
+    goal = math.log(error)
+    near = sorted(known, key=lambda point: abs(point[1] - goal))[:3]
+    x, y = (statistics.mean(axis) for axis in zip(*near))
+    spread = sum((p[0] - x) ** 2 for p in near)
+    slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
+    if not -3 < slope < -0.3:  # noise hides the convergence: take that of independent samples
+        slope = -1.0
+    return math.exp(x + (goal - y) / slope), not min(e for _, e in known) <= goal <= max(e for _, e in known)
+
+
+def seconds_by_seed(error, rungs):
+    """In ascending order. A rung has the lists "seconds" and "errors" with an entry for each seed."""
+    curves = zip(*([(statistics.median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
+    return sorted(seconds_to(error, curve) for curve in curves)
+
+
+def median_seconds(row):
+    return statistics.median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
+
+
+def solves_another_problem(difference, noise):
+    return difference > max(DIFFERENT, 2 * noise)
+
+
+def amount(x):
+    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
+
+
+def seconds_cell(row):
+    found = seconds_by_seed(ERROR, row["rungs"])
+    mark = "~" if sum(outside for _, outside in found) > len(found) / 2 else ""
+    return f"{mark}{amount(median_seconds(row))} ({amount(found[0][0])}..{amount(found[-1][0])})"
+
+
+def ratio_cell(rows):
+    """limn's median seconds over those of the fastest peer that solves the same problem."""
+    times = {key: median_seconds(row) for key, row in rows.items()
+             if key in PEERS and row["rungs"] and not solves_another_problem(*row["agreement"])}
+    best = min(times, key=times.get, default=None)
+    return f"{median_seconds(rows['limn']) / times[best]:.2f} of {best}" if best else "–"
+
+
+def rate_cell(row, pixels):
+    rung = row["rungs"][-1]
+    return f"{1e-6 * rung['spp'] * pixels / statistics.median(rung['seconds']):.2f}"
+
+
+def agreement_cell(row):
+    difference, noise = row["agreement"]
+    text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
+    return f"**{text}**" if solves_another_problem(difference, noise) else text
+
+
+def page(scenes, a, plot):
+    keys = ["limn", *a.peer]
+
+    def rows_of(cell):
+        return [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys)]
+                for scene, rows in scenes.items()]
+
+    known = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
+    about = "".join(f"- {key}: {said}\n" for key, said in known.items())
+    seconds = [[*row, ratio_cell(rows)] for row, rows in zip(rows_of(seconds_cell), scenes.values())]
+    failed = "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
+                     if "failed" in row)
+    return f"""{a.seeds} seeds.
+
+{about}
+## Seconds to relMSE {ERROR:g} on one thread
+
+Medians over the seeds, with the least and the largest. A `~` marks what is extrapolated.
+
+{table(["scene", *keys, "limn / fastest peer"], seconds)}
+![curves]({plot})
+
+## Million samples a second on one thread
+
+{table(["scene", *keys], rows_of(lambda row: rate_cell(row, a.size**2)))}
+## Difference from limn's picture
+
+Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer solves
+another problem and is not compared.
+
+{table(["scene", *keys], rows_of(agreement_cell))}
+{failed}"""
+
+
+def draw(scenes, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    lines = -(-len(scenes) // 2)
+    figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False)
+    for axis in axes.flat[len(scenes):]:
+        axis.set_axis_off()
+    for axis, (scene, rows) in zip(axes.flat, scenes.items()):
+        for key, row in rows.items():
+            color, style = STYLES[key]
+            axis.loglog([statistics.median(rung["seconds"]) for rung in row["rungs"]],
+                        [statistics.mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
+        axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
+        axis.grid(True, alpha=0.3)
+        axis.legend()
+    figure.tight_layout()
+    figure.savefig(path)
 
 
 def main():
-    arguments = parse_arguments()
-    form = form_of(arguments)
-    RAW.mkdir(parents=True, exist_ok=True)
+    a = parse_arguments()
+    head = origin(" ".join(["./build.sh convergence", *sys.argv[1:]]))
+    name = "promise" if a.promise else "convergence" if a.size == 100 else f"convergence-{a.size}"
+    kept = Kept(name, head=head, program=PROGRAM.stat().st_mtime)
     try:
-        raw = json.loads(form.results().read_text()) if arguments.again else measure_all(form, arguments)
-    except (Failed, FileNotFoundError) as problem:
+        if a.promise:
+            raw = {scene: kept(scene, lambda: promise.measure(scene, a.seeds)) for scene in a.scene}
+            write(name, "limn's estimate of its own error", head, raw, promise.page(raw, a.seeds))
+        else:
+            renderers = [Limn("limn"), *(Limn(key) if key == UNIFORM else Peer(key) for key in a.peer)]
+            raw = {scene: kept(scene, lambda: measure(scene, renderers, a)) for scene in a.scene}
+            draw(raw, RESULTS / f"{name}.png")
+            write(name, f"Seconds to an error, {a.size}x{a.size} pixels", head, raw, page(raw, a, f"{name}.png"))
+    except Failed as problem:
         sys.exit(f"convergence: {problem}")
-    convergence_plots.draw(raw["scenes"], ROOT / "docs" / convergence_tables.plot(raw["head"]))
-    write(form.name, convergence_tables.report(raw))
-    say("docs/speed-against-error.md")
+    kept.forget()
 
 
 if __name__ == "__main__":

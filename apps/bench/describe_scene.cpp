@@ -1,13 +1,12 @@
 #include "bench/describe_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 
 #include "limn/core/error.h"
-#include "limn/material/rough_conductor.h"
 #include "limn/record_sink.h"
 
 namespace limn::bench {
@@ -16,102 +15,98 @@ namespace {
 
 using app::Json;
 
-[[noreturn]] void refuse(const char* what) { throw Error(std::string("describe: the peers are not told of ") + what); }
+// \throws Error if the scene has something that no file of peers/ writes
+void require(bool told, const char* what) {
+    if (!told) throw Error(std::string("describe: the peers are not told of ") + what);
+}
 
 Json triple(const Point3& p) { return {p.x, p.y, p.z}; }
 Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json triple(const Color& c) { return {c.r, c.g, c.b}; }
+Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
+Json pair(const Float2& uv) { return {uv.u, uv.v}; }
+
+template <class Elements, class ToJson>
+Json list(const Elements& elements, const ToJson& to_json) {
+    Json all = Json::array();
+    for (const auto& element : elements) all.push_back(to_json(element));
+    return all;
+}
 
 // Row by row from the top, linear.
 Json picture(const Image& image, double scale = 1) {
-    std::vector<double> values;
-    for (const float v : image.values()) values.push_back(scale * static_cast<double>(v));
-    return {{"width", image.width()}, {"height", image.height()}, {"values", values}};
+    const auto scaled = [scale](float v) { return Json(scale * static_cast<double>(v)); };
+    return {{"width", image.width()}, {"height", image.height()}, {"values", list(image.values(), scaled)}};
 }
 
-// The index of refraction whose reflectance and edge tint a RoughConductor keeps: see there.
-ComplexIndex index_of(const Color& reflectance, const std::array<double, MaterialDetails::kNumbers>& tint) {
-    ComplexIndex index;
-    const auto component = [](double r, double g, double& eta, double& k) {
-        const double root = std::sqrt(r);
-        eta = g * (1 - r) / (1 + r) + (1 - g) * (1 + root) / (1 - root);
-        k = std::sqrt(std::max(0.0, (r * (eta + 1) * (eta + 1) - (eta - 1) * (eta - 1)) / (1 - r)));
-    };
-    component(reflectance.r, tint[0], index.eta.r, index.k.r);
-    component(reflectance.g, tint[1], index.eta.g, index.k.g);
-    component(reflectance.b, tint[2], index.eta.b, index.k.b);
-    return index;
-}
-
+// Turns records to JSON, everything in the space of the world.
 class Description {
 public:
     explicit Description(const SceneRecords& records) : records_(records) {}
 
-    Json blas(BlasId id, const Transform& place) const {
-        Json shapes = {
-            {"spheres", Json::array()}, {"quads", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}};
-        add_blas(id, place, shapes);
-        return shapes;
+    // Returns the spheres, meshes and media of a BLAS.
+    Json shapes(BlasId id, const Transform& place) const {
+        Json all = {{"spheres", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}};
+        add_shapes(id, place, all);
+        return all;
     }
 
 private:
-    void add_blas(BlasId id, const Transform& place, Json& shapes) const {
+    void add_shapes(BlasId id, const Transform& place, Json& all) const {
         for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
-            // One row is one primitive or, of a mesh, instance or medium, many.
-            const std::uint64_t rows =
-                range.kind == PrimitiveKind::sphere || range.kind == PrimitiveKind::quad ? range.count : 1;
-            for (std::uint64_t i = 0; i < rows; ++i) add_row(range.kind, range.first_row + i, place, shapes);
-        }
-    }
-
-    void add_row(PrimitiveKind kind, std::size_t row, const Transform& place, Json& shapes) const {
-        switch (kind) {
-            case PrimitiveKind::sphere: return shapes["spheres"].push_back(sphere(records_.spheres[row], place));
-            case PrimitiveKind::quad: return shapes["quads"].push_back(quad(records_.quads[row], place));
-            case PrimitiveKind::mesh: return shapes["meshes"].push_back(mesh(records_.meshes[row], place));
-            case PrimitiveKind::medium: return shapes["media"].push_back(medium(records_.media[row], place));
-            case PrimitiveKind::instance: {
-                const InstanceRecord& instance = records_.instances[row];
-                if (instance.moving) refuse("moving instances");
-                return add_blas(instance.blas, place * instance.world_from_object0, shapes);
+            if (range.kind == PrimitiveKind::instance) {
+                const InstanceRecord& instance = records_.instances[range.first_row];
+                require(!instance.moving, "moving instances");
+                add_shapes(instance.blas, place * instance.world_from_object0, all);
+            } else if (range.kind == PrimitiveKind::sphere) {
+                require(place == Transform{}, "spheres within instances");
+                for (const SphereRecord& s : std::span(records_.spheres).subspan(range.first_row, range.count))
+                    all["spheres"].push_back(
+                        {{"center", triple(s.center0)}, {"radius", s.radius}, {"material", material(s.material)}});
+            } else if (range.kind == PrimitiveKind::quad) {
+                add_quads(std::span(records_.quads).subspan(range.first_row, range.count), place, all);
+            } else if (range.kind == PrimitiveKind::mesh) {
+                all["meshes"].push_back(mesh(records_.meshes[range.first_row], place));
+            } else {
+                require(range.kind == PrimitiveKind::medium, "shapes of other kinds");
+                const MediumRecord& m = records_.media[range.first_row];
+                const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
+                require(phase.kind == "isotropic", "other phase functions");
+                all["media"].push_back({{"boundary", shapes(m.boundary, place)},
+                                        {"density", m.density},
+                                        {"albedo", texture(phase.texture)}});
             }
-            default: refuse("shapes of other kinds");
         }
     }
 
-    Json sphere(const SphereRecord& s, const Transform& place) const {
-        if (!(place == Transform{})) refuse("spheres within instances");
-        return {{"center", triple(s.center0)}, {"radius", s.radius}, {"material", material(s.material)}};
-    }
-
-    Json quad(const QuadRecord& q, const Transform& place) const {
-        return {{"corner", triple(transform_point(place, q.corner))},
-                {"edge_u", triple(transform_vector(place, q.edge_u))},
-                {"edge_v", triple(transform_vector(place, q.edge_v))},
-                {"material", material(q.material)}};
+    // Neighbours of one material become one mesh: a box is closed.
+    void add_quads(std::span<const QuadRecord> quads, const Transform& place, Json& all) const {
+        while (!quads.empty()) {
+            const MaterialId id = quads.front().material;
+            Json vertices = Json::array(), triangles = Json::array();
+            for (int n = 0; !quads.empty() && quads.front().material == id; n += 4, quads = quads.subspan(1)) {
+                const auto& [corner, u, v, _] = quads.front();
+                for (const Point3& p : {corner, corner + u, corner + u + v, corner + v})
+                    vertices.push_back(triple(transform_point(place, p)));
+                triangles.push_back({n, n + 1, n + 2});
+                triangles.push_back({n, n + 2, n + 3});
+            }
+            all["meshes"].push_back({{"vertices", vertices}, {"triangles", triangles}, {"material", material(id)}});
+        }
     }
 
     Json mesh(const MeshRecord& m, const Transform& place) const {
         const auto& slots = m.arrays.material_slots;
-        if (std::ranges::adjacent_find(slots, std::not_equal_to()) != slots.end()) refuse("many-coloured meshes");
-        Json vertices = Json::array(), triangles = Json::array(), normals = Json::array(), uvs = Json::array();
-        const Transform object_from_world = limn::inverse(place);
-        for (const Float3& n : m.arrays.normals)
-            normals.push_back(triple(normalize(Vec3(transform_normal(object_from_world, {n.x, n.y, n.z})))));
-        for (const Float2& uv : m.arrays.uvs) uvs.push_back({uv.u, uv.v});
-        for (const Float3& v : m.arrays.vertices) vertices.push_back(triple(transform_point(place, {v.x, v.y, v.z})));
-        for (const Index3& t : m.arrays.triangles) triangles.push_back({t.a, t.b, t.c});
-        return {{"vertices", vertices},
-                {"triangles", triangles},
-                {"normals", normals},
-                {"uvs", uvs},
+        require(std::ranges::adjacent_find(slots, std::not_equal_to()) == slots.end(), "meshes of several materials");
+        const auto point = [&](const Float3& v) { return triple(transform_point(place, {v.x, v.y, v.z})); };
+        const auto normal = [back = limn::inverse(place)](const Float3& n) {
+            return triple(normalize(Vec3(transform_normal(back, {n.x, n.y, n.z}))));
+        };
+        return {{"vertices", list(m.arrays.vertices, point)},
+                {"triangles", list(m.arrays.triangles, [](const Index3& t) { return triple(t); })},
+                {"normals", list(m.arrays.normals, normal)},
+                {"uvs", list(m.arrays.uvs, pair)},
                 {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
-    }
-
-    Json medium(const MediumRecord& m, const Transform& place) const {
-        const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
-        if (phase.kind != "isotropic") refuse("phase functions of other classes");
-        return {{"boundary", blas(m.boundary, place)}, {"density", m.density}, {"albedo", texture(phase.texture)}};
     }
 
     Json material(MaterialId id) const {
@@ -119,68 +114,63 @@ private:
         Json told = lobe(m);
         if (!m.details) return told;
         if (m.details->normal_map != TextureId::none) told["normal_map"] = texture(m.details->normal_map);
-        if (m.details->opacity != TextureId::none) {
-            if (m.details->opacity_cutoff != 0) refuse("a cutoff of opacities");
-            told["opacity"] = texture(m.details->opacity);
-        }
+        if (m.details->opacity != TextureId::none) told["opacity"] = texture(m.details->opacity);
+        require(m.details->opacity_cutoff == 0, "a cutoff of opacities");
         return told;
     }
 
     Json lobe(const MaterialRecord& m) const {
         if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
         if (m.kind == "diffuse-light") {
-            if (m.sides != Sides::both) refuse("one-sided lamps");
+            require(m.sides == Sides::both, "one-sided lamps");
             return {{"kind", "light"}, {"color", texture(m.emission)}};
         }
         if (m.kind == "metal") {
-            if (m.parameter != 0) refuse("metal that is not a mirror");
+            require(m.parameter == 0, "metal that is not a mirror");
             return {{"kind", "mirror"}, {"color", texture(m.texture)}};
         }
         if (m.kind == "dielectric") {
-            if (m.fresnel != Fresnel::exact) refuse("Schlick's approximation");
+            require(m.fresnel == Fresnel::exact, "Schlick's approximation");
             return {{"kind", "glass"}, {"index", m.parameter}};
         }
-        if (m.kind != "rough-conductor" && m.kind != "rough-dielectric") refuse("materials of other classes");
-        const auto& numbers = m.details->numbers;
-        if (numbers[3] != numbers[4] || numbers[3] == 0) refuse("brushed or smooth microfacets");
-        if (m.kind == "rough-dielectric")
-            return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", numbers[3]}};
+        require(m.kind == "rough-conductor" || m.kind == "rough-dielectric", "materials of other classes");
+        const double alpha = m.details->numbers[3];
+        require(alpha != 0 && alpha == m.details->numbers[4], "brushed or smooth microfacets");
+        if (m.kind == "rough-dielectric") return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", alpha}};
         const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
-        if (reflectance.kind != TextureKind::solid) refuse("metals that are not of one colour");
-        const ComplexIndex index = index_of(reflectance.color, numbers);
-        return {{"kind", "rough-conductor"}, {"eta", triple(index.eta)}, {"k", triple(index.k)}, {"alpha", numbers[3]}};
+        require(reflectance.kind == TextureKind::solid, "metals that are not of one colour");
+        const auto& tint = m.details->numbers;
+        return {{"kind", "rough-conductor"},
+                {"reflectance", triple(reflectance.color)},
+                {"edge_tint", {tint[0], tint[1], tint[2]}},
+                {"alpha", alpha}};
     }
 
     // A colour, the two of a checker, or a picture.
     Json texture(TextureId id) const {
         const TextureRecord& t = records_.textures.at(static_cast<std::size_t>(id));
         if (t.kind == TextureKind::solid) return triple(t.color);
-        if (t.kind == TextureKind::image) {
-            if (t.filter != Filter::bilinear || t.wrap != Wrap::repeat) refuse("other filters and wraps");
-            return {{"picture", picture(*records_.images.at(t.data))}};
-        }
-        if (t.kind != TextureKind::checker) refuse("noise");
-        return {{"cell", t.scale}, {"even", texture(t.even)}, {"odd", texture(t.odd)}};
+        if (t.kind == TextureKind::checker)
+            return {{"cell", t.scale}, {"even", texture(t.even)}, {"odd", texture(t.odd)}};
+        require(t.kind == TextureKind::image, "noise");
+        require(t.filter == Filter::bilinear && t.wrap == Wrap::repeat, "other filters and wraps");
+        return {{"picture", picture(*records_.images.at(t.data))}};
     }
 
     const SceneRecords& records_;
 };
 
-Json describe_suns(const Scene& scene) {
-    Json suns = Json::array();
-    for (const LightSource& light : scene.lights()) {
-        const auto* sun = std::get_if<SunLight>(&light);
-        if (!sun) refuse("lights that are no shapes, but for suns");
-        suns.push_back({{"direction", triple(sun->direction)},
-                        {"irradiance", triple(sun->irradiance)},
-                        {"angular_radius", sun->angular_radius}});
-    }
-    return suns;
+Json describe_light(const LightSource& light) {
+    const auto* sun = std::get_if<SunLight>(&light);
+    require(sun, "lights that are neither shapes nor suns");
+    return {{"direction", triple(sun->direction)},
+            {"irradiance", triple(sun->irradiance)},
+            {"angular_radius", sun->angular_radius}};
 }
 
 Json describe_environment(const Scene& scene) {
     if (!scene.environment) return {};
-    if (!(scene.environment->world_from_map() == Transform{})) refuse("turned environment maps");
+    require(scene.environment->world_from_map() == Transform{}, "turned environment maps");
     return picture(*scene.environment->image(), scene.environment->scale());
 }
 
@@ -198,16 +188,15 @@ Json describe_camera(const Camera& c) {
 }  // namespace
 
 Json describe_scene(const Figure& figure) {
+    const Scene& scene = figure.scene;
     RecordSink sink;
-    for (const auto& object : figure.scene.objects()) object->lower(sink);
-    Json json = {{"name", figure.name},
-                 {"max_depth", figure.settings.max_depth},
+    for (const auto& object : scene.objects()) object->lower(sink);
+    Json json = {{"max_depth", figure.settings.max_depth},
                  {"camera", describe_camera(figure.camera)},
-                 {"background",
-                  {{"bottom", triple(figure.scene.background.bottom)}, {"top", triple(figure.scene.background.top)}}}};
-    json["suns"] = describe_suns(figure.scene);
-    json["environment"] = describe_environment(figure.scene);
-    json.update(Description(sink.records()).blas(BlasId::root, Transform{}));
+                 {"background", {{"bottom", triple(scene.background.bottom)}, {"top", triple(scene.background.top)}}},
+                 {"environment", describe_environment(scene)},
+                 {"suns", list(scene.lights(), describe_light)}};
+    json.update(Description(sink.records()).shapes(BlasId::root, Transform{}));
     return json;
 }
 

@@ -1,58 +1,29 @@
-#!/usr/bin/env python3
-"""Runs the commands of docs/gallery.md and `./build.sh figures`; puts the pictures into docs/gallery, and their seconds
-and errors under them in that page."""
+"""Renders the pictures of docs/gallery.md, the commands on that page and the figures, with their seconds and errors:
+build/results/gallery.html. The page shows the copies in docs/gallery."""
 
 import json
 import re
 import shlex
-import shutil
 import subprocess
-import sys
 
-from machine import ROOT
-from reports import origin, part, report_of, stamp, write
+from results import BIN, RESULTS, ROOT, origin, table, write
 
-MADE = ROOT / "build/gallery"
-FIGURES = ROOT / "build/figures"
-GALLERY = ROOT / "docs/gallery"
-COMMAND = re.compile(r"^build/release/bin/.* -o (\w+)\.png$", re.MULTILINE)
-
-# A cell of a table: picture, title, and what an earlier run wrote under it.
-CELL = re.compile(r"\(gallery/(?P<name>\w+)\.png\)<br>(?P<title>[^|<]*?)(?:<br>[^|]*?)? \|")
-
-
-def render(page):
-    """Returns the names of the pictures."""
-    MADE.mkdir(parents=True, exist_ok=True)
-    names = []
-    for command in COMMAND.finditer(page):
-        names.append(command[1])
-        program, *words = shlex.split(command[0])
-        words[words.index("-o") + 1] = str(MADE / f"{command[1]}.png")
-        subprocess.run([ROOT / program, *words, "--report", MADE / f"{command[1]}.json"], cwd=ROOT, check=True)
-    subprocess.run([ROOT / "build.sh", "figures"], check=True)
-    for report in FIGURES.glob("fig*.json"):
-        names.append(report.stem)
-        for suffix in (".json", ".png"):
-            shutil.copyfile(report.with_suffix(suffix), (MADE / report.stem).with_suffix(suffix))
-    return names
-
-
-def cell(match):
-    report = json.loads((MADE / f"{match['name']}.json").read_text())
-    shutil.copyfile(MADE / f"{match['name']}.png", GALLERY / f"{match['name']}.png")
-    return (f"(gallery/{match['name']}.png)<br>{match['title']}<br>"
-            f"{report['seconds']['render']:.1f} s, relMSE {report['error']['estimate']:.1e} |")
+COMMAND = re.compile(r"^(build/release/bin/.*) -o (\w+)\.png$", re.MULTILINE)
 
 
 def main():
-    head, gallery = origin("gallery"), report_of("gallery")
-    names = render((ROOT / gallery.paper).read_text())
-    tables = part(gallery)
-    tables = tables[tables.index("| | |"):]
-    if sorted(m["name"] for m in CELL.finditer(tables)) != sorted(names):
-        sys.exit(f"gallery: the tables of {gallery.paper} do not show what was rendered")
-    write("gallery", f"{stamp(head)}.\n\n{CELL.sub(cell, tables)}")
+    head = origin("./build.sh gallery")
+    commands = {m[2]: shlex.split(m[1]) for m in COMMAND.finditer((ROOT / "docs/gallery.md").read_text())}
+    commands |= {program.name: [program, "--error", "2e-3"] for program in sorted(BIN.glob("fig[0-9][0-9]_*"))}
+    (RESULTS / "gallery").mkdir(parents=True, exist_ok=True)
+    raw = {}
+    for name, command in commands.items():
+        picture, report = (RESULTS / f"gallery/{name}.{suffix}" for suffix in ("png", "json"))
+        subprocess.run([*command, "-o", picture, "--report", report], cwd=ROOT, check=True)
+        raw[name] = json.loads(report.read_text())
+    rows = [[f"![{name}](gallery/{name}.png)", name, f"{r['seconds']['render']:.1f}", f"{r['error']['estimate']:.1e}"]
+            for name, r in raw.items()]
+    write("gallery", "Gallery", head, raw, table(["picture", "name", "seconds", "relMSE, as limn estimates it"], rows))
 
 
 if __name__ == "__main__":

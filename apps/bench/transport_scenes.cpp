@@ -1,14 +1,15 @@
 #include "bench/transport_scenes.h"
 
-#include <array>
-#include <functional>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "bench/material_scenes.h"
 #include "bench/random.h"
+#include "bench/scenes.h"
 #include "figures.h"
 #include "gallery.h"
 #include "limn/limn.h"
+#include "parts.h"
 #include "scene_parts.h"
 
 namespace limn::bench {
@@ -17,16 +18,18 @@ namespace {
 
 using figures::matte;
 
+const Color kLightGrey{.73, .73, .73};
+
 std::shared_ptr<const Material> glass() { return std::make_shared<Dielectric>(1.5, Fresnel::exact); }
 
-Figure cornell_empty() {
-    return {.name = {},
-            .scene = figures::cornell_room(figures::cornell_lamp()),
-            .camera = figures::cornell_camera(),
-            .settings = {}};
+Figure figure_of(Scene scene, const Camera& camera) {
+    return {.name = {}, .scene = std::move(scene), .camera = camera, .settings = {}};
 }
 
-Figure lamps_on_grey() {
+Figure cornell_empty() { return figure_of(figures::cornell_room(figures::cornell_lamp()), figures::cornell_camera()); }
+
+// Figure 12 on grey stone.
+Figure lamps() {
     Figure figure = figures::fig12_emissive();
     figure.scene = figures::stone_under_lamps(matte({.5, .5, .5}));
     return figure;
@@ -37,6 +40,7 @@ Figure with_mirror(Figure figure) {
     return figure;
 }
 
+// Figure 1 without motion and fuzz.
 Figure still_spheres() {
     auto balls = figures::read_bouncing_spheres(figures::data_file("bounce_spheres.csv"));
     for (figures::BouncingSphere& ball : balls) {
@@ -48,14 +52,23 @@ Figure still_spheres() {
     return figure;
 }
 
-// Hung into the empty box.
+// A ball with hills, of 69312 triangles.
+std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
+    MeshData data = make_scene("sphere", 0.035).mesh->data();
+    const auto place = [radius](float coordinate, double middle) {
+        return static_cast<float>(middle + radius * static_cast<double>(coordinate));
+    };
+    for (Float3& v : data.vertices) v = {place(v.x, center.x), place(v.y, center.y), place(v.z, center.z)};
+    return std::make_shared<Mesh>(std::move(data), std::move(material));
+}
+
 Figure ball_in_room(std::shared_ptr<const Material> material) {
     Figure figure = cornell_empty();
     figure.scene.add(hilly_ball({278, 200, 278}, 150, std::move(material)));
     return figure;
 }
 
-// Square leaves of light, turned any way, in the upper half of the room.
+// 200 small square lamps, turned any way, in the upper half of the Cornell box.
 Figure many_lights() {
     constexpr std::uint64_t kCount = 200;
     constexpr double kSide = 6;
@@ -68,64 +81,105 @@ Figure many_lights() {
         lamps->add(std::make_shared<Quad>(corner, turned.to_world({kSide, 0, 0}), turned.to_world({0, kSide, 0}),
                                           std::make_shared<DiffuseLight>(color)));
     }
+    Scene scene = figures::cornell_room(lamps);
+    scene.add(figures::tall_box(matte(kLightGrey)));
+    scene.add(figures::short_box(matte(kLightGrey)));
+    return figure_of(std::move(scene), figures::cornell_camera());
+}
+
+// A sky whose sun is in its map, in the pixels within two degrees of it, with the same irradiance.
+EnvironmentMap sky_with_sun() {
+    const SkySettings settings;
+    const Sky sky = make_sky(settings);
+    Image map = *sky.environment->image();
+    const double row = std::numbers::pi / map.height(), column = 2 * std::numbers::pi / map.width();
+    // Find the pixels by the directions of their middles.
+    std::vector<std::pair<int, int>> disc;
+    double solid_angle = 0;
+    for (int y = 0; y < map.height(); ++y) {
+        for (int x = 0; x < map.width(); ++x) {
+            const double theta = row * (y + 0.5), phi = column * (x + 0.5);
+            const Vec3 direction{-std::sin(phi) * std::sin(theta), std::cos(theta), std::cos(phi) * std::sin(theta)};
+            if (dot(direction, normalize(settings.to_sun)) <= std::cos(radians(2))) continue;
+            disc.emplace_back(x, y);
+            solid_angle += (std::cos(row * y) - std::cos(row * (y + 1))) * column;
+        }
+    }
+    // Give them the sun's light.
+    const Color radiance = sky.sun.irradiance / (solid_angle * sky.environment->scale());
+    for (const auto& [x, y] : disc) map.set(x, y, map.at(x, y) + radiance);
+    return EnvironmentMap(std::move(map), {}, sky.environment->scale());
+}
+
+Figure rough_copper() {
+    Scene scene;
+    scene.add(std::make_shared<Quad>(Point3{-20, -1, -20}, Vec3{0, 0, 40}, Vec3{40, 0, 0}, matte({.4, .4, .4})));
+    scene.add(hilly_ball({0, 0, 0}, 1, std::make_shared<RoughConductor>(gallery::kCopper, 0.2)));
+    scene.environment = std::make_shared<EnvironmentMap>(sky_with_sun());
+    return figure_of(std::move(scene), {.look_from = {0, 1.5, 5}, .look_at = {0, -.1, 0}, .vertical_fov = 30});
+}
+
+// A ball of ground glass in the Cornell box.
+Figure rough_glass() {
     Figure figure = cornell_empty();
-    figure.scene = figures::cornell_room(lamps);
-    figure.scene.add(figures::tall_box(matte({.73, .73, .73})));
-    figure.scene.add(figures::short_box(matte({.73, .73, .73})));
+    figure.scene.add(figures::tall_box(matte(kLightGrey)));
+    figure.scene.add(std::make_shared<Sphere>(Point3{190, 110, 170}, 100, std::make_shared<RoughDielectric>(1.5, 0.5)));
     return figure;
 }
 
-constexpr std::ptrdiff_t kPromised = 10;  // of the entries, the first
-
-struct Entry {
-    std::string name;
-    std::function<Figure()> make;
-};
-
-const std::vector<Entry>& entries() {
-    static const std::vector<Entry> all{
-        {"cornell-empty", cornell_empty},
-        {"cornell", [] { return figures::fig15_cornell_box(); }},
-        {"lamps", lamps_on_grey},
-        {"three-spheres", [] { return with_mirror(figures::fig13_dielectric()); }},
-        {"depth-of-field", [] { return with_mirror(figures::fig18_with_dof()); }},
-        {"still-spheres", still_spheres},
-        {"smoke", [] { return figures::fig16_volume_cornell_box(); }},
-        {"mesh",
-         [] {
-             return ball_in_room(matte({.73, .73, .73}));
-         }},
-        {"glass-mesh", [] { return ball_in_room(glass()); }},
-        {"many-lights", many_lights},
-        {"rough-copper", rough_copper},
-        {"rough-glass", rough_glass},
-        {"still-life", still_life},
-        {"window", gallery::sunlit_room},
-    };
-    return all;
+// The glTF model of the gallery: normal maps, alpha and rough metal.
+Figure still_life() {
+    const Model model = gallery::load("still_life.glb");
+    Scene scene;
+    scene.add(model);
+    scene.background = Background::constant({.05, .06, .08});
+    return figure_of(std::move(scene), model.cameras.front().camera);
 }
+
+// A small bright lamp behind a screen: the floor gets its light by way of a fuzzy mirror alone, in rare bright samples.
+Figure fireflies() {
+    Scene scene;
+    scene.background = Background::constant({.05, .06, .08});
+    scene.add(std::make_shared<Quad>(Point3{-4, 0, -4}, Vec3{0, 0, 8}, Vec3{8, 0, 0}, matte({.6, .6, .6})));
+    scene.add(std::make_shared<Quad>(Point3{-4, 0, -2}, Vec3{8, 0, 0}, Vec3{0, 4, 0},
+                                     std::make_shared<Metal>(Color{.9, .9, .9}, .15)));
+    scene.add(std::make_shared<Sphere>(Point3{0, 1.5, 2}, .05, std::make_shared<DiffuseLight>(Color{800, 700, 600})));
+    scene.add(std::make_shared<Quad>(Point3{-1, 1.2, 1}, Vec3{2, 0, 0}, Vec3{0, 0, 2}, matte({.6, .6, .6})));
+    return figure_of(std::move(scene), {.look_from = {0, 3, 6}, .look_at = {0, .8, -1}, .vertical_fov = 45});
+}
+
+constexpr std::pair<const char*, Figure (*)()> kScenes[] = {
+    {"cornell-empty", cornell_empty},
+    {"cornell", [] { return figures::fig15_cornell_box(); }},
+    {"lamps", lamps},
+    {"three-spheres", [] { return with_mirror(figures::fig13_dielectric()); }},
+    {"depth-of-field", [] { return with_mirror(figures::fig18_with_dof()); }},
+    {"still-spheres", still_spheres},
+    {"smoke", [] { return figures::fig16_volume_cornell_box(); }},
+    {"mesh", [] { return ball_in_room(matte(kLightGrey)); }},
+    {"glass-mesh", [] { return ball_in_room(glass()); }},
+    {"many-lights", many_lights},
+    {"rough-copper", rough_copper},
+    {"rough-glass", rough_glass},
+    {"still-life", still_life},
+    {"window", gallery::sunlit_room},
+    {"bouncing", [] { return figures::fig01_bouncing_spheres(); }},
+    {"glass", [] { return figures::fig13_dielectric(); }},
+    {"fireflies", fireflies},
+};
 
 }  // namespace
 
-const std::vector<std::string>& transport_scene_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const Entry& entry : entries()) all.push_back(entry.name);
-        return all;
-    }();
-    return names;
-}
-
-const std::vector<std::string>& promised_scene_names() {
-    static const std::vector<std::string> names(transport_scene_names().begin(),
-                                                transport_scene_names().begin() + kPromised);
+std::vector<std::string> transport_scene_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, make] : kScenes) names.emplace_back(name);
     return names;
 }
 
 Figure make_transport_scene(const std::string& name) {
-    for (const Entry& entry : entries()) {
-        if (entry.name != name) continue;
-        Figure figure = entry.make();
+    for (const auto& [known, make] : kScenes) {
+        if (name != known) continue;
+        Figure figure = make();
         figure.name = name;
         return figure;
     }

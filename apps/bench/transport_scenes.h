@@ -1,6 +1,5 @@
 /// \file
-/// The scenes of the convergence report: what limn and its peers can all express. Metal and glass follow Fresnel's
-/// equations, smooth or with the same microfacets.
+/// The scenes of `./build.sh convergence`. Only public headers of limn, the figures and the gallery are needed.
 #pragma once
 
 #include <string>
@@ -10,11 +9,9 @@
 
 namespace limn::bench {
 
-// The names that make_transport_scene knows.
-const std::vector<std::string>& transport_scene_names();
-
-// The first of them, with which limn's estimate of its error is measured too (promise.h).
-const std::vector<std::string>& promised_scene_names();
+// Metal and glass of the first fourteen follow Fresnel's equations, smooth or with the same microfacets: limn and its
+// peers can all express these scenes. The others are for limn alone.
+std::vector<std::string> transport_scene_names();
 
 // \throws ArgumentError for another name, FileError if the figures' data cannot be read
 Figure make_transport_scene(const std::string& name);

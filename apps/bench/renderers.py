@@ -1,0 +1,89 @@
+"""Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
+
+Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp, seed,
+threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
+"""
+
+import json
+import multiprocessing
+import subprocess
+import sys
+
+from results import BIN, ROOT
+
+SCENES = ("cornell-empty", "cornell", "lamps", "three-spheres", "depth-of-field", "still-spheres", "smoke", "mesh",
+          "glass-mesh", "many-lights", "rough-copper", "rough-glass", "still-life", "window")
+SCENES_OF_LIMN = ("bouncing", "glass", "fireflies")  # no peer can express them
+PROGRAM = BIN / "limn_transport"
+VENV = ROOT / "build/peers"
+PEERS = {"mitsuba": "mitsuba", "cycles": "bpy"}  # and their packages on PyPI
+UNIFORM = "uniform"  # limn with the same number of samples in every pixel
+
+
+class Failed(Exception):
+    """A renderer failed."""
+
+
+def checked(*command):
+    """Runs a command and returns what it prints. Raises Failed with its last message."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Failed((done.stderr.strip() or done.stdout.strip() or str(done.returncode)).splitlines()[-1])
+    return done.stdout
+
+
+def limn(scene, picture, size, *options):
+    """Renders with limn and returns the report."""
+    report = picture.with_suffix(".json")
+    checked(PROGRAM, scene, "--quiet", f"--size={size}x{size}", *options, "-o", picture, "--report", report)
+    return json.loads(report.read_text())
+
+
+def compare(*pictures):
+    """Compares a picture with a reference, or with its two halves."""
+    return json.loads(checked(BIN / "limn", "compare", *pictures, "--json", "-"))
+
+
+class Limn:
+    def __init__(self, key):
+        # An error that is never reached: the given number of samples on average, but more where a pixel is noisier.
+        self.key, self.options = key, [] if key == UNIFORM else ["--error=1e-300"]
+
+    def open(self, scene):
+        self.scene = scene
+        return " ".join([checked(BIN / "limn", "--version").strip(), *self.options])
+
+    def render(self, picture, size, spp, seed, threads):
+        report = limn(self.scene, picture, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
+        return report["seconds"]["render"], report["spp"]
+
+
+class Peer:
+    """Runs peers/worker.py in the environment of the peers, a process for each scene."""
+
+    def __init__(self, key):
+        self.key = key
+        checked(sys.executable, "-m", "venv", VENV)
+        checked(VENV / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
+                "--only-binary=:all:", PEERS[key], "numpy")
+
+    def open(self, scene):
+        self.pipe, theirs = multiprocessing.Pipe()  # the worker of the scene before ends
+        worker = [VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", self.key, str(theirs.fileno())]
+        with open(VENV / f"{self.key}.log", "w") as log:
+            subprocess.Popen(worker, pass_fds=[theirs.fileno()], stdout=log, stderr=log)
+        theirs.close()
+        return self.ask(checked(PROGRAM, scene, "--describe"))
+
+    def ask(self, request):
+        try:
+            self.pipe.send(request)
+            fine, answer = self.pipe.recv()
+        except (EOFError, OSError):
+            fine, answer = False, "it crashed"
+        if not fine:
+            raise Failed(f"{self.key}: {answer} (see build/peers/{self.key}.log)")
+        return answer
+
+    def render(self, picture, *arguments):
+        return self.ask((str(picture), *arguments))
