@@ -21,9 +21,7 @@ using namespace test;
 using bsdf::Vertices;
 using flat::Light;
 using flat::LightKind;
-using sampling::kShaded;
-using sampling::Row;
-using sampling::Rows3;
+using sampling::kShaded, sampling::Row, sampling::Rows3;
 using transport::Sampler;
 
 namespace {
