@@ -76,8 +76,8 @@ class Described(unittest.TestCase):
     def scene(self, *meshes, background=((0, 0, 0), (0, 0, 0))):
         bottom, top = background
         return geometry.Scene(json.dumps({
-            "max_depth": 10, "camera": {}, "suns": [], "environment": None, "spheres": [], "media": [], "meshes": meshes,
-            "background": {"bottom": bottom, "top": top}}))
+            "max_depth": 10, "camera": {}, "suns": [], "environment": None, "spheres": [], "media": [],
+            "meshes": meshes, "background": {"bottom": bottom, "top": top}}))
 
     def test_the_back_of_a_lamp_is_sampled_rarely_where_it_hangs_under_the_ceiling(self):
         for lamp_height, x, share in ((9.9, 1, geometry.RARELY), (5, 1, 1), (9.9, -1, 1)):
