@@ -56,17 +56,19 @@ def reference(renderer, folder, a):
     return halves
 
 
-def agreement(ours, theirs):
-    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+def block_means(picture):
+    """A picture of the means of 10x10 pixels."""
     from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
 
-    def blocks(picture):
-        image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
-        size = image.spec().width // 10
-        ImageBufAlgo.resize(image, "box", 10, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
-        return small
+    image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
+    size = image.spec().width // 10
+    ImageBufAlgo.resize(image, "box", 1, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
+    return small
 
-    (a, b), (c, d) = map(blocks, ours), map(blocks, theirs)
+
+def agreement(ours, theirs):
+    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+    (a, b), (c, d) = map(block_means, ours), map(block_means, theirs)
     against_ours, variance = compare(c, a, b), compare(c, d)["relmse"] / 2
     difference = max(0, against_ours["corrected_relmse"] - variance)
     return math.sqrt(difference), math.sqrt(variance + against_ours["reference_relmse"])
