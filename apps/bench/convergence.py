@@ -19,9 +19,8 @@ from results import RESULTS, Kept, origin, table, write
 
 LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights")
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
-ERROR = 1e-3
+ERROR = 1e-3  # relMSE whose seconds are stated
 DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
-STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-")}
 
 
 def parse_arguments():
@@ -29,10 +28,9 @@ def parse_arguments():
     parser.add_argument("--promise", action="store_true", help="measure limn's estimate of its error instead")
     parser.add_argument("--size", type=int, choices=(100, 400), default=100, help="pixels a side (100)")
     parser.add_argument("--scene", action="append", choices=SCENES + SCENES_OF_LIMN, metavar="NAME",
-                        help="only these (all; at size 400 five): " + ", ".join(SCENES))
+                        help="only these (all, at size 400 five): " + ", ".join(SCENES))
     parser.add_argument("--peer", action="append", choices=[*PEERS, UNIFORM, "none"], metavar="NAME",
-                        help=f"only these: {', '.join(PEERS)}, {UNIFORM} (limn with the same number of samples in every "
-                             "pixel), none")
+                        help=f"only these: {', '.join(PEERS)}, {UNIFORM} (limn, every pixel sampled alike), none")
     parser.add_argument("--seeds", type=int, metavar="N", help="renders of each kind (4; with --promise 50)")
     parser.add_argument("--cap", type=float, metavar="SECONDS",
                         help="of the longest render, and of half a reference (5; at size 400 40)")
@@ -58,17 +56,19 @@ def reference(renderer, folder, a):
     return halves
 
 
-def agreement(ours, theirs):
-    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+def block_means(picture):
+    """A picture of the means of 10x10 pixels."""
     from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
 
-    def blocks(picture):
-        image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
-        size = image.spec().width // 10
-        ImageBufAlgo.resize(image, "box", 10, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
-        return small
+    image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
+    size = image.spec().width // 10
+    ImageBufAlgo.resize(image, "box", 1, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
+    return small
 
-    (a, b), (c, d) = map(blocks, ours), map(blocks, theirs)
+
+def agreement(ours, theirs):
+    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+    (a, b), (c, d) = map(block_means, ours), map(block_means, theirs)
     against_ours, variance = compare(c, a, b), compare(c, d)["relmse"] / 2
     difference = max(0, against_ours["corrected_relmse"] - variance)
     return math.sqrt(difference), math.sqrt(variance + against_ours["reference_relmse"])
@@ -144,14 +144,10 @@ def solves_another_problem(difference, noise):
     return difference > max(DIFFERENT, 2 * noise)
 
 
-def amount(x):
-    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"
-
-
 def seconds_cell(row):
     found = seconds_by_seed(ERROR, row["rungs"])
     mark = "~" if sum(outside for _, outside in found) > len(found) / 2 else ""
-    return f"{mark}{amount(median_seconds(row))} ({amount(found[0][0])}..{amount(found[-1][0])})"
+    return f"{mark}{median_seconds(row):.3g} ({found[0][0]:.3g}..{found[-1][0]:.3g})"
 
 
 def ratio_cell(rows):
@@ -200,8 +196,8 @@ Medians over the seeds, with the least and the largest. A `~` marks what is extr
 {table(["scene", *keys], rows_of(lambda row: rate_cell(row, a.size**2)))}
 ## Difference from limn's picture
 
-Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer solves
-another problem and is not compared.
+Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer
+solves another problem and is not compared.
 
 {table(["scene", *keys], rows_of(agreement_cell))}
 {failed}"""
@@ -218,9 +214,8 @@ def draw(scenes, path):
         axis.set_axis_off()
     for axis, (scene, rows) in zip(axes.flat, scenes.items()):
         for key, row in rows.items():
-            color, style = STYLES[key]
             axis.loglog([statistics.median(rung["seconds"]) for rung in row["rungs"]],
-                        [statistics.mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
+                        [statistics.mean(rung["errors"]) for rung in row["rungs"]], "o-", label=key)
         axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
         axis.grid(True, alpha=0.3)
         axis.legend()

@@ -168,12 +168,6 @@ Json describe_light(const LightSource& light) {
             {"angular_radius", sun->angular_radius}};
 }
 
-Json describe_environment(const Scene& scene) {
-    if (!scene.environment) return {};
-    require(scene.environment->world_from_map() == Transform{}, "turned environment maps");
-    return picture(*scene.environment->image(), scene.environment->scale());
-}
-
 Json describe_camera(const Camera& c) {
     const double focus = c.focus_distance.value_or(length(c.look_at - c.look_from));
     const double half_angle = c.aperture_angle * std::numbers::pi / 360;
@@ -189,12 +183,14 @@ Json describe_camera(const Camera& c) {
 
 Json describe_scene(const Figure& figure) {
     const Scene& scene = figure.scene;
+    const auto& map = scene.environment;
+    require(!map || map->world_from_map() == Transform{}, "turned environment maps");
     RecordSink sink;
     for (const auto& object : scene.objects()) object->lower(sink);
     Json json = {{"max_depth", figure.settings.max_depth},
                  {"camera", describe_camera(figure.camera)},
                  {"background", {{"bottom", triple(scene.background.bottom)}, {"top", triple(scene.background.top)}}},
-                 {"environment", describe_environment(scene)},
+                 {"environment", map ? picture(*map->image(), map->scale()) : Json()},
                  {"suns", list(scene.lights(), describe_light)}};
     json.update(Description(sink.records()).shapes(BlasId::root, Transform{}));
     return json;

@@ -1,7 +1,7 @@
 """Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
 
-Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp, seed,
-threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
+Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp,
+seed, threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
 """
 
 import json
@@ -54,7 +54,8 @@ class Limn:
         return " ".join([checked(BIN / "limn", "--version").strip(), *self.options])
 
     def render(self, picture, size, spp, seed, threads):
-        report = limn(self.scene, picture, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
+        options = [f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options]
+        report = limn(self.scene, picture, size, *options)
         return report["seconds"]["render"], report["spp"]
 
 

@@ -3,6 +3,7 @@
 import json
 import math
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -14,7 +15,8 @@ import convergence
 try:
     import geometry
     import numpy as np
-except ImportError:  # only whoever measures needs numpy
+    from OpenImageIO import ROI, ImageBuf, ImageSpec
+except ImportError:  # only whoever measures needs them
     np = None
 
 
@@ -66,7 +68,20 @@ class SecondsToAnError(unittest.TestCase):
         self.assertEqual(convergence.ratio_cell(rows), "–")
 
 
-@unittest.skipIf(np is None, "needs numpy")
+@unittest.skipIf(np is None, "needs numpy and OpenImageIO")
+class Blocks(unittest.TestCase):
+    def test_are_means(self):
+        values = np.random.default_rng(1).random((100, 100, 3)).astype(np.float32)
+        image = ImageBuf(ImageSpec(100, 100, 3, "float"))
+        image.set_pixels(ROI(0, 100, 0, 100), values)
+        with tempfile.TemporaryDirectory() as folder:
+            picture = Path(folder) / "a.exr"
+            image.write(str(picture))
+            means = ImageBuf(str(convergence.block_means(picture))).get_pixels("float")
+        np.testing.assert_allclose(means, values.reshape(10, 10, 10, 10, 3).mean(axis=(1, 3)), rtol=1e-5)
+
+
+@unittest.skipIf(np is None, "needs numpy and OpenImageIO")
 class Described(unittest.TestCase):
     def quad(self, height, kind, x=1):
         """Looks down if x is positive."""
@@ -76,8 +91,8 @@ class Described(unittest.TestCase):
     def scene(self, *meshes, background=((0, 0, 0), (0, 0, 0))):
         bottom, top = background
         return geometry.Scene(json.dumps({
-            "max_depth": 10, "camera": {}, "suns": [], "environment": None, "spheres": [], "media": [], "meshes": meshes,
-            "background": {"bottom": bottom, "top": top}}))
+            "max_depth": 10, "camera": {}, "suns": [], "environment": None, "spheres": [], "media": [],
+            "meshes": meshes, "background": {"bottom": bottom, "top": top}}))
 
     def test_the_back_of_a_lamp_is_sampled_rarely_where_it_hangs_under_the_ceiling(self):
         for lamp_height, x, share in ((9.9, 1, geometry.RARELY), (5, 1, 1), (9.9, -1, 1)):
