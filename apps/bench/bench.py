@@ -50,10 +50,8 @@ def ask_peers(*arguments):
                      "--config-settings=cmake.define.LIMN_INSTALLED=ON",
                      f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={raw}/limn", ROOT]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    for command in (*([*pip, package] for package in PACKAGES),
-                    ["g++", "-O3", "-DNDEBUG", "-std=c++17", ROOT / "apps/bench/peers/cgal_queries.cpp", "-o",
-                     raw / "cgal_queries", "-lgmp", "-lmpfr"]):
-        subprocess.run(command)  # what can't be had has no answers
+    for package in PACKAGES:
+        subprocess.run([*pip, package])  # a library that can't be installed has no answers
     return run_json(python, "-B", ROOT / "apps/bench/queries.py", *arguments)
 
 

@@ -8,7 +8,6 @@ import importlib
 import json
 import multiprocessing
 import os
-import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -19,26 +18,22 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: it
 import numpy as np  # noqa: E402
 
 from query_truth import KINDS, floats, make_rays, meshes, truth  # noqa: E402
-from results import ROOT  # noqa: E402
 
 ROUNDS, LONG = 3, 10  # the least of some rounds, of which none begins after so many seconds
 TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther away
 # The most rays or points of slow libraries and questions.
-MOST = {"trimesh": 200, "cgal": 200000, "compute_closest_points": 20000, "compute_signed_distance": 20000}
+MOST = {"trimesh": 200, "compute_closest_points": 20000, "compute_signed_distance": 20000}
 ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")
 OPEN3D = ("cast_rays", "test_occlusions", "list_intersections", "count_intersections", *ON_POINTS[:3])
 TRIMESH = ("intersects_first", "intersects_location", "contains_points")
 MODULES = {"limn.open3d": "limn.open3d", "open3d": "open3d", "limn.trimesh": "limn.trimesh",
            "embreex": "trimesh.ray.ray_pyembree", "trimesh": "trimesh.ray.ray_triangle"}
-QUESTIONS = {"limn.open3d": OPEN3D, "open3d": OPEN3D, "limn.trimesh": TRIMESH, "embreex": TRIMESH, "trimesh": TRIMESH,
-             "cgal": ("cast_rays",)}
+QUESTIONS = {library: OPEN3D if library.endswith("open3d") else TRIMESH for library in MODULES}
 THREADED = ("limn.open3d", "open3d", "limn.trimesh")
 
 
 def tracer(library, vertices, faces, threads):
     """Returns a function that answers a question."""
-    if library == "cgal":
-        return lambda question, rays: ask_cgal(vertices, faces, rays)
     module = importlib.import_module(MODULES[library])
     if library.endswith("open3d"):
         scene = module.t.geometry.RaycastingScene(threads)
@@ -54,23 +49,12 @@ def given(library, question, rays):
     """Returns the arguments of a question. Points are those that the rays aim at."""
     if question in ON_POINTS:
         return [rays[:, :3] + rays[:, 3:]]
-    return np.split(rays.astype(float), 2, axis=1) if "trimesh" in MODULES.get(library, "") else [rays]
-
-
-def ask_cgal(vertices, faces, rays):
-    """Returns t, counts, and the seconds that CGAL's program took for t."""
-    source, sizes = ROOT / "build/queries/input", [len(vertices), len(faces), len(rays)]
-    np.concatenate([sizes, vertices.ravel(), faces.ravel(), rays.ravel()]).tofile(source, sep=" ", format="%.9g")
-    done = subprocess.run([ROOT / "build/queries/cgal_queries", source], stdout=subprocess.PIPE, check=True, text=True)
-    seconds, *found = np.array(done.stdout.split(), float)
-    return np.array(found[::2]), np.array(found[1::2]), seconds
+    return [rays] if library.endswith("open3d") else np.split(rays.astype(float), 2, axis=1)
 
 
 def answers(library, mesh, rays):
     """Returns t of the nearest hits, inf for none, and counts of hits."""
     ask = tracer(library, *mesh, 0)
-    if library == "cgal":
-        return ask("", rays)[:2]
     if library.endswith("open3d"):
         return ask("cast_rays", rays)["t_hit"].numpy(), ask("count_intersections", rays).numpy()
     origins, ways = given(library, "intersects_location", rays)
@@ -98,8 +82,8 @@ def rate(library, mesh, question, threads, rays):
     arguments, seconds, started = given(library, question, rays), [], time.perf_counter()
     while len(seconds) < ROUNDS and time.perf_counter() - started < LONG:
         begin = time.perf_counter()
-        answer = ask(question, *arguments)
-        seconds.append(answer[2] if library == "cgal" else time.perf_counter() - begin)
+        ask(question, *arguments)
+        seconds.append(time.perf_counter() - begin)
     return len(rays) / min(seconds) / 1e6
 
 
