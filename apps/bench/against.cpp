@@ -4,9 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "bench/rays.h"
-#include "bench/scenes.h"
-#include "bench/stopwatch.h"
+#include "bench/contender.h"
 #include "bench/transport_scenes.h"
 #include "figures.h"
 

@@ -15,7 +15,7 @@ FOLDERS = ("apps", "apps/common", "examples/figures", "examples/gallery")
 SOURCES = [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
            if path.name not in ("main.cpp", "figure_program.cpp")]
 SOURCES += [ROOT / f"apps/bench/{name}.cpp" for name in
-            ("against", "rays", "scenes", "transport_scenes", "material_scenes")]
+            ("against", "rays", "scenes", "transport_scenes")]
 CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
 
 

@@ -21,7 +21,8 @@ LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-ligh
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
 ERROR = 1e-3
 DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
-STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-")}
+STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"),
+          "luxcore": ("C2", "v-")}
 
 
 def parse_arguments():

@@ -1,11 +1,11 @@
-#include "bench/describe_scene.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <span>
 
+#include "bench/transport_scenes.h"
+#include "json_output.h"
 #include "limn/core/error.h"
 #include "limn/record_sink.h"
 

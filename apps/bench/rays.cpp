@@ -1,12 +1,10 @@
-#include "bench/rays.h"
-
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "bench/random.h"
+#include "bench/scenes.h"
 #include "limn/core/frame.h"
 #include "limn/core/warp.h"
 

@@ -16,7 +16,7 @@ SCENES = ("cornell-empty", "cornell", "lamps", "three-spheres", "depth-of-field"
 SCENES_OF_LIMN = ("bouncing", "glass", "fireflies")  # no peer can express them
 PROGRAM = BIN / "limn_transport"
 VENV = ROOT / "build/peers"
-PEERS = {"mitsuba": "mitsuba", "cycles": "bpy"}  # and their packages on PyPI
+PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and their packages on PyPI
 UNIFORM = "uniform"  # limn with the same number of samples in every pixel
 
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <numbers>
 
-#include "bench/random.h"
 #include "limn/core/error.h"
 #include "limn/core/warp.h"
 #include "limn/io/obj.h"
@@ -17,8 +16,6 @@
 namespace limn::bench {
 
 namespace {
-
-Float3 to_float3(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
 
@@ -154,7 +151,7 @@ MeshData tree(std::size_t count) {
     data.vertices.push_back({0, 1, 0});
     for (std::uint32_t i = 0; i < kSides; ++i) {
         const double angle = 2 * std::numbers::pi * i / kSides;
-        data.vertices.push_back(to_float3({0.03 * std::cos(angle), 0, 0.03 * std::sin(angle)}));
+        data.vertices.push_back(to_float3(Vec3{0.03 * std::cos(angle), 0, 0.03 * std::sin(angle)}));
         data.triangles.push_back({0, 1 + (i + 1) % kSides, 1 + i});
     }
     for (std::size_t i = kSides; i < count; ++i) {

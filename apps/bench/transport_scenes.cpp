@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "bench/random.h"
 #include "bench/scenes.h"
 #include "figures.h"
 #include "gallery.h"

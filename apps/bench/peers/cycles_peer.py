@@ -9,11 +9,10 @@ import re
 from pathlib import Path
 
 import bpy
-import bmesh  # part of bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from geometry import index_of, is_checker, is_picture, pixels
+from geometry import index_of, is_checker, is_picture, pixels, sphere_mesh
 
 FEW_LIGHTS = 16  # up to here the light tree costs more than it gains
 
@@ -119,18 +118,6 @@ def add_mesh(told, material):
     add(data, material)
 
 
-def add_ball(sphere, material):
-    """Adds a ball as a mesh with its exact normals."""
-    data, ball = bpy.data.meshes.new("ball"), bmesh.new()
-    bmesh.ops.create_uvsphere(ball, u_segments=128, v_segments=64, radius=abs(sphere["radius"]))
-    ball.to_mesh(data)
-    if sphere["radius"] < 0:
-        data.flip_normals()
-    data.shade_smooth()
-    data.normals_split_custom_set_from_vertices([(v.co / sphere["radius"]).normalized() for v in data.vertices])
-    add(data, material).location = sphere["center"]
-
-
 def add_points(spheres, tinted):
     """Adds balls of one kind as a point cloud, which Blender makes from a mesh of their centres."""
     data = bpy.data.meshes.new("centres")
@@ -153,7 +140,7 @@ def add_spheres(spheres):
         if material["kind"] == "light":
             add_ball_of_light(sphere)
         elif material["kind"] in ("glass", "rough-glass"):
-            add_ball(sphere, material_of(material))
+            add_mesh(sphere_mesh(sphere, 64), material_of(material))
         else:
             clouds.setdefault((is_checker(material["color"]), material["kind"]), []).append(sphere)
     for (checkered, _), balls in sorted(clouds.items()):  # Cycles loses the tints unless their cloud is the first
