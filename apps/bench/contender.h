@@ -16,21 +16,12 @@ namespace limn::bench {
 // several threads do is measured by the time that passes.
 enum class Clock { wall = CLOCK_MONOTONIC, process = CLOCK_PROCESS_CPUTIME_ID, thread = CLOCK_THREAD_CPUTIME_ID };
 
-class Stopwatch {
-public:
-    explicit Stopwatch(Clock clock) : clock_(clock), begin_(now()) {}
-    double seconds() const { return now() - begin_; }
-
-private:
-    double now() const {
-        timespec time{};
-        clock_gettime(static_cast<clockid_t>(clock_), &time);
-        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    }
-
-    Clock clock_;
-    double begin_;
-};
+// Returns the time of a clock.
+inline double seconds(Clock clock) {
+    timespec time{};
+    clock_gettime(static_cast<clockid_t>(clock), &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 // The result of a ray. A ray that only asks whether there is a hit has t = 0 for a hit, and nothing else.
 struct Answer {

@@ -2,16 +2,15 @@
 
 transport_scenes.cpp describes the scenes once, and peers/ writes them for each renderer that can express them. Each
 renderer renders a converged reference in two halves. Then all of them take turns at growing numbers of samples on one
-thread, with several seeds. On a machine that does something else meanwhile the seconds say little.
-"""
+thread, with several seeds. On a machine that does something else meanwhile the seconds say little."""
 
 import argparse
 import math
 import os
-import statistics
 import sys
 import tempfile
 from pathlib import Path
+from statistics import mean, median
 
 import promise
 from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer, compare
@@ -31,9 +30,8 @@ def parse_arguments():
     parser.add_argument("--size", type=int, choices=(100, 400), default=100, help="pixels a side (100)")
     parser.add_argument("--scene", action="append", choices=SCENES + SCENES_OF_LIMN, metavar="NAME",
                         help="only these (all; at size 400 five): " + ", ".join(SCENES))
-    parser.add_argument("--peer", action="append", choices=[*PEERS, UNIFORM, "none"], metavar="NAME",
-                        help=f"only these: {', '.join(PEERS)}, {UNIFORM} (limn with the same number of samples in every "
-                             "pixel), none")
+    parser.add_argument("--peer", action="append", choices=[*PEERS, UNIFORM, "none"],
+                        help=f"only this; {UNIFORM} is limn with the same number of samples in every pixel")
     parser.add_argument("--seeds", type=int, metavar="N", help="renders of each kind (4; with --promise 50)")
     parser.add_argument("--cap", type=float, metavar="SECONDS",
                         help="of the longest render, and of half a reference (5; at size 400 40)")
@@ -104,15 +102,12 @@ def measure(scene, renderers, a):
                     rung["seconds"].append(seconds)
                     rung["errors"].append(compared["corrected_relmse"])
                     rung["reference_error"] = compared["reference_relmse"]
-            active = [renderer for renderer in active if goes_on(rows[renderer.key]["rungs"][-1], a.cap)]
+            # Go on where the next rung is short enough, and this one is not better yet than its reference.
+            rungs = ((renderer, rows[renderer.key]["rungs"][-1]) for renderer in active)
+            active = [renderer for renderer, rung in rungs if GROWTH * median(rung["seconds"]) <= a.cap
+                      and mean(rung["errors"]) > rung["reference_error"]]
             spp *= GROWTH
     return rows
-
-
-def goes_on(rung, cap):
-    """Whether the next rung is short enough, and this one not better yet than its reference."""
-    return (GROWTH * statistics.median(rung["seconds"]) <= cap
-            and statistics.mean(rung["errors"]) > rung["reference_error"])
 
 
 def seconds_to(error, curve):
@@ -123,7 +118,7 @@ def seconds_to(error, curve):
         return math.inf, True
     goal = math.log(error)
     near = sorted(known, key=lambda point: abs(point[1] - goal))[:3]
-    x, y = (statistics.mean(axis) for axis in zip(*near))
+    x, y = (mean(axis) for axis in zip(*near))
     spread = sum((p[0] - x) ** 2 for p in near)
     slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
     if not -3 < slope < -0.3:  # noise hides the convergence: take that of independent samples
@@ -133,12 +128,12 @@ def seconds_to(error, curve):
 
 def seconds_by_seed(error, rungs):
     """In ascending order. A rung has the lists "seconds" and "errors" with an entry for each seed."""
-    curves = zip(*([(statistics.median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
+    curves = zip(*([(median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
     return sorted(seconds_to(error, curve) for curve in curves)
 
 
 def median_seconds(row):
-    return statistics.median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
+    return median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
 
 
 def solves_another_problem(difference, noise):
@@ -163,54 +158,51 @@ def ratio_cell(rows):
     return f"{median_seconds(rows['limn']) / times[best]:.2f} of {best}" if best else "–"
 
 
-def rate_cell(row, pixels):
-    rung = row["rungs"][-1]
-    return f"{1e-6 * rung['spp'] * pixels / statistics.median(rung['seconds']):.2f}"
-
-
-def agreement_cell(row):
-    difference, noise = row["agreement"]
-    text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
-    return f"**{text}**" if solves_another_problem(difference, noise) else text
-
-
 def page(scenes, a, plot):
     keys = ["limn", *a.peer]
 
-    def rows_of(cell):
-        return [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys)]
-                for scene, rows in scenes.items()]
+    def table_of(cell, *more):
+        rows = [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys),
+                 *(of_all(rows) for _, of_all in more)] for scene, rows in scenes.items()]
+        return table(["scene", *keys, *(name for name, _ in more)], rows)
+
+    def rate_cell(row):
+        rung = row["rungs"][-1]
+        return f"{1e-6 * rung['spp'] * a.size**2 / median(rung['seconds']):.2f}"
+
+    def agreement_cell(row):
+        difference, noise = row["agreement"]
+        text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
+        return f"**{text}**" if solves_another_problem(difference, noise) else text
 
     known = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
-    about = "".join(f"- {key}: {said}\n" for key, said in known.items())
-    seconds = [[*row, ratio_cell(rows)] for row, rows in zip(rows_of(seconds_cell), scenes.values())]
-    failed = "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
-                     if "failed" in row)
+    about = "\n".join(f"- {key}: {said}" for key, said in known.items())
+    failed = "\n".join(f"- {scene}: {row['failed']}" for scene, rows in scenes.items() for row in rows.values()
+                       if "failed" in row)
     return f"""{a.seeds} seeds.
 
 {about}
+
 ## Seconds to relMSE {ERROR:g} on one thread
 
 Medians over the seeds, with the least and the largest. A `~` marks what is extrapolated.
 
-{table(["scene", *keys, "limn / fastest peer"], seconds)}
+{table_of(seconds_cell, ("limn / fastest peer", ratio_cell))}
 ![curves]({plot})
 
 ## Million samples a second on one thread
 
-{table(["scene", *keys], rows_of(lambda row: rate_cell(row, a.size**2)))}
+{table_of(rate_cell)}
 ## Difference from limn's picture
 
 Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer solves
 another problem and is not compared.
 
-{table(["scene", *keys], rows_of(agreement_cell))}
+{table_of(agreement_cell)}
 {failed}"""
 
 
 def draw(scenes, path):
-    import matplotlib
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     lines = -(-len(scenes) // 2)
@@ -220,8 +212,8 @@ def draw(scenes, path):
     for axis, (scene, rows) in zip(axes.flat, scenes.items()):
         for key, row in rows.items():
             color, style = STYLES[key]
-            axis.loglog([statistics.median(rung["seconds"]) for rung in row["rungs"]],
-                        [statistics.mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
+            axis.loglog([median(rung["seconds"]) for rung in row["rungs"]],
+                        [mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
         axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
         axis.grid(True, alpha=0.3)
         axis.legend()

@@ -12,7 +12,6 @@
 #include "module.h"
 
 namespace limn::bench {
-
 namespace {
 
 alignas(64) constexpr int kAllLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
@@ -153,11 +152,23 @@ void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, cons
                 values.size() * sizeof(T));
 }
 
-void attach_mesh(const ScenePointer& scene, const MeshData& mesh) {
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
-    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+void attach_faces(const ScenePointer& scene, RTCGeometryType type, const std::vector<Float3>& vertices,
+                  RTCFormat face_format, const auto& faces) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), type);
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, vertices);
+    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, face_format, faces);
     attach(scene, geometry);
+}
+
+void attach_quads(const ScenePointer& scene, const std::vector<Parallelogram>& quads) {
+    std::vector<Float3> corners;
+    std::vector<std::array<unsigned, 4>> faces;
+    for (unsigned i = 0; const auto& [p, u, v] : quads) {
+        for (const Point3& corner : {p, p + u, p + u + v, p + v}) corners.push_back(to_float3(corner));
+        faces.push_back({i, i + 1, i + 2, i + 3});
+        i += 4;
+    }
+    attach_faces(scene, RTC_GEOMETRY_TYPE_QUAD, corners, RTC_FORMAT_UINT4, faces);
 }
 
 void attach_balls(const ScenePointer& scene, const std::vector<Ball>& balls) {
@@ -168,18 +179,6 @@ void attach_balls(const ScenePointer& scene, const std::vector<Ball>& balls) {
     }
     const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
     set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, points);
-    attach(scene, geometry);
-}
-
-void attach_quads(const ScenePointer& scene, const std::vector<Parallelogram>& quads) {
-    std::vector<Float3> corners;
-    for (const auto& [p, u, v] : quads)
-        for (const Point3& corner : {p, p + u, p + u + v, p + v}) corners.push_back(to_float3(corner));
-    std::vector<std::array<unsigned, 4>> indices;
-    for (unsigned i = 0; i < corners.size(); i += 4) indices.push_back({i, i + 1, i + 2, i + 3});
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_QUAD);
-    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, corners);
-    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, indices);
     attach(scene, geometry);
 }
 
@@ -197,14 +196,17 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
     constexpr RTCSceneFlags kFlags = kRobust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     const std::ptrdiff_t before = bytes_held;
     const ScenePointer scene = new_scene(kFlags), inner = geometry.places.empty() ? scene : new_scene(kFlags);
-    if (geometry.mesh) attach_mesh(inner, geometry.mesh->data());
+    if (geometry.mesh) {
+        const MeshData& mesh = geometry.mesh->data();
+        attach_faces(inner, RTC_GEOMETRY_TYPE_TRIANGLE, mesh.vertices, RTC_FORMAT_UINT3, mesh.triangles);
+    }
     if (!geometry.balls.empty()) attach_balls(scene, geometry.balls);
     if (!geometry.quads.empty()) attach_quads(scene, geometry.quads);
     for (const Transform& place : geometry.places) attach_instance(scene, inner, place);
-    const Stopwatch watch(clock);  // only Embree's own work is timed
+    const double begin = seconds(clock);  // only Embree's own work is timed
     if (inner != scene) rtcCommitScene(inner.get());
     rtcCommitScene(scene.get());
-    BuiltScene built{.seconds = watch.seconds(), .bytes = 0, .subjects = {}};
+    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = 0, .subjects = {}};
     if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw Error("Embree does not build " + geometry.name);
     built.bytes = static_cast<std::size_t>(bytes_held - before);
     built.subjects.push_back(std::make_unique<EmbreeSubject<1, false>>(kRobust ? "Embree robust" : "Embree", scene));
@@ -218,7 +220,6 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
 }
 
 }  // namespace
-
 }  // namespace limn::bench
 
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;

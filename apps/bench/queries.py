@@ -1,8 +1,7 @@
 """queries.py RAYS TIMED MODEL ...: wrong answers and speeds of limn and of other libraries, as JSON.
 
 Is run by bench.py in an environment with these libraries. Judges the answers to RAYS rays of each kind. Takes the time
-of TIMED rays or points. A library that fails or isn't installed has null.
-"""
+of TIMED rays or points. A library that fails or isn't installed has null."""
 
 import importlib
 import json

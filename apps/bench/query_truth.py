@@ -1,8 +1,7 @@
 """Meshes, rays that are hard on them, and what is true of these in exact arithmetic.
 
 All coordinates are whole multiples of 2^-GRID, so that float32 holds the meshes and the rays exactly and all libraries
-get the same ones.
-"""
+get the same ones."""
 
 import importlib
 import sys

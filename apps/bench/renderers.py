@@ -1,8 +1,7 @@
 """Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
 
-Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp, seed,
-threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
-"""
+Each has a `key`. open(scene) makes it ready and returns its name, version and settings. Its render(picture, size, spp,
+seed, threads) writes an EXR file and returns the seconds of rendering and the samples a pixel."""
 
 import json
 import multiprocessing

@@ -14,7 +14,6 @@
 #include "limn/shape/sphere.h"
 
 namespace limn::bench {
-
 namespace {
 
 std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
@@ -68,10 +67,9 @@ Geometry displaced_sphere(double scale) {
         for (std::uint32_t j = 0; j < cuts; ++j) {
             for (std::uint32_t i = 0; i < cuts; ++i) {
                 const std::uint32_t a = first + j * (cuts + 1) + i, b = a + 1, c = a + cuts + 1, d = c + 1;
-                if (side == 1)
-                    data.triangles.insert(data.triangles.end(), {{a, b, d}, {a, d, c}});
-                else
-                    data.triangles.insert(data.triangles.end(), {{a, d, b}, {a, c, d}});
+                const bool turned = side == 0;
+                data.triangles.push_back(turned ? Index3{a, d, b} : Index3{a, b, d});
+                data.triangles.push_back(turned ? Index3{a, c, d} : Index3{a, d, c});
             }
         }
     }

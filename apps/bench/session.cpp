@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 namespace limn::bench {
-
 namespace {
 
 using app::Json;
@@ -19,13 +17,6 @@ constexpr double kSameT = 1e-3;  // relative: a larger difference is another sur
 
 // A measurement lasts at least this long, so that starting threads and reading clocks do not count.
 constexpr double kLeastSeconds = 0.004;
-
-double quantile(const std::vector<double>& sorted, double q) {
-    const double place = q * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
 
 void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     // Every thread gets several parts.
@@ -39,10 +30,11 @@ void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
 
 // Returns the time of one pass over the rays.
 double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
-    const Stopwatch watch(arena.max_concurrency() == 1 ? Clock::thread : Clock::wall);
+    const Clock clock = arena.max_concurrency() == 1 ? Clock::thread : Clock::wall;
+    const double begin = seconds(clock);
     for (int passes = 1;; ++passes) {
         trace_all(subject, rays, arena);
-        if (const double seconds = watch.seconds(); seconds >= kLeastSeconds) return seconds / passes;
+        if (const double spent = seconds(clock) - begin; spent >= kLeastSeconds) return spent / passes;
     }
 }
 
@@ -55,8 +47,14 @@ bool agrees(const Answer& a, const Answer& b) {
 
 Spread spread_of(std::vector<double> values) {
     if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
-    return {.median = quantile(values, 0.5), .low = quantile(values, 0.25), .high = quantile(values, 0.75)};
+    std::ranges::sort(values);
+    const auto quantile = [&](double q) {
+        const double place = q * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, values.size() - 1);
+        return std::lerp(values[below], values[above], place - static_cast<double>(below));
+    };
+    return {.median = quantile(0.5), .low = quantile(0.25), .high = quantile(0.75)};
 }
 
 Spread ratio(const Timing& a, const Timing& b) {
@@ -100,15 +98,14 @@ constexpr int kMostBuilds = 200;
 
 constexpr char kLine[] = "  {:<10} {:>2} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}  {:<18} {:<18} {:<18} {:>8}\n";
 
-// Returns the fastest subject that fits, or null.
+// Returns the fastest subject whose name fits, or null.
 template <class Fits>
 const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
-    const Timing* best = nullptr;
-    for (const Timing& t : timings)
-        if (fits(t.subject) && !t.seconds.empty() &&
-            (best == nullptr || spread_of(t.seconds).median < spread_of(best->seconds).median))
-            best = &t;
-    return best;
+    const auto median = [&](const Timing& t) {
+        return fits(t.subject) && !t.seconds.empty() ? spread_of(t.seconds).median : kInfinity;
+    };
+    const auto best = std::ranges::min_element(timings, {}, median);
+    return best != timings.end() && median(*best) < kInfinity ? &*best : nullptr;
 }
 
 std::string ratio_text(const Timing* a, const Timing* b) {
@@ -117,9 +114,7 @@ std::string ratio_text(const Timing* a, const Timing* b) {
     return fmt::format("{:.2f} ({:.2f}..{:.2f})", r.median, r.low, r.high);
 }
 
-double million_a_second(const Timing& timing, std::size_t rays) {
-    return static_cast<double>(rays) / spread_of(timing.seconds).median * 1e-6;
-}
+double million_a_second(const Timing& timing, double rays) { return 1e-6 * rays / spread_of(timing.seconds).median; }
 
 std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& timings) {
     const auto find = [&](const char* name) { return fastest(timings, [&](const auto& s) { return s == name; }); };
@@ -127,12 +122,10 @@ std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& 
     const Timing* batch = fastest(timings, [](const std::string& s) { return s.starts_with("limn batch"); });
     const Timing* best =
         fastest(timings, [](const std::string& s) { return s.starts_with("Embree") && s != "Embree robust"; });
-    const auto rate = [&](const Timing* t) {
-        return t == nullptr ? "-" : fmt::format("{:.2f}", million_a_second(*t, set.rays.size()));
-    };
+    const auto rays = static_cast<double>(set.rays.size());
+    const auto rate = [&](const Timing* t) { return t ? fmt::format("{:.2f}", million_a_second(*t, rays)) : "-"; };
     const auto differ = [&](const Timing* t) {
-        const auto rays = static_cast<double>(set.rays.size());
-        return t == nullptr ? "-" : fmt::format("{:.1f}", 1e6 * static_cast<double>(t->mismatches) / rays);
+        return t ? fmt::format("{:.1f}", 1e6 * static_cast<double>(t->mismatches) / rays) : "-";
     };
     return fmt::format(kLine, set.name, threads, rate(single), rate(batch), rate(plain), rate(robust), rate(best),
                        best == nullptr || best == plain ? "1" : best->subject.substr(7), ratio_text(single, plain),
@@ -151,11 +144,7 @@ public:
             if (goes_on()) measure_scene(load_scene(path));
         Json versions = Json::object();
         for (const Contender& contender : contenders_) versions[contender.name] = contender.version;
-        results_.json = {{"complete", going_},
-                         {"versions", versions},
-                         {"rounds", plan_.rounds},
-                         {"cores", std::thread::hardware_concurrency()},
-                         {"scenes", scenes_}};
+        results_.json = {{"complete", going_}, {"versions", versions}, {"rounds", plan_.rounds}, {"scenes", scenes_}};
         return std::move(results_);
     }
 
@@ -199,12 +188,11 @@ private:
         const Clock clock = threads == 1 ? Clock::process : Clock::wall;
         const int most = plan_.build_rounds == 0 ? 0 : std::max(plan_.build_rounds, kMostBuilds);
         double spent = 0;
-        for (int round = 0; round < most && (round < plan_.build_rounds || spent < kLeastBuilding); ++round) {
+        for (int round = 0; going_ && round < most && (round < plan_.build_rounds || spent < kLeastBuilding); ++round) {
             for (std::size_t i = 0; i < contenders_.size() && goes_on(); ++i) {
                 timings[i].seconds.push_back(contenders_[i].build(geometry, clock).seconds);
                 spent += timings[i].seconds.back();
             }
-            if (!going_) break;
         }
         Json seconds = Json::object();
         std::string text;
@@ -247,7 +235,7 @@ private:
             if (!t.subject.starts_with("Embree")) differences += t.differences;
             if (t.seconds.empty()) continue;
             subjects.push_back({{"name", t.subject},
-                                {"million_a_second", million_a_second(t, set.rays.size())},
+                                {"million_a_second", million_a_second(t, static_cast<double>(set.rays.size()))},
                                 {"mismatches", t.mismatches},
                                 {"seconds", t.seconds}});
         }

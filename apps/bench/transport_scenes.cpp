@@ -1,5 +1,6 @@
 #include "bench/transport_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,7 +13,6 @@
 #include "scene_parts.h"
 
 namespace limn::bench {
-
 namespace {
 
 using figures::matte;
@@ -176,13 +176,11 @@ std::vector<std::string> transport_scene_names() {
 }
 
 Figure make_transport_scene(const std::string& name) {
-    for (const auto& [known, make] : kScenes) {
-        if (name != known) continue;
-        Figure figure = make();
-        figure.name = name;
-        return figure;
-    }
-    throw ArgumentError("'" + name + "' is not the name of a scene");
+    const auto* found = std::ranges::find(kScenes, name, [](const auto& scene) { return scene.first; });
+    if (found == std::end(kScenes)) throw ArgumentError("'" + name + "' is not the name of a scene");
+    Figure figure = found->second();
+    figure.name = name;
+    return figure;
 }
 
 }  // namespace limn::bench

@@ -1,8 +1,7 @@
 """Cycles, through Blender's Python module.
 
 Opaque balls are points of a point cloud, the only exact spheres of Cycles. Balls of glass are meshes with exact
-normals. A ball of light is a point light, which has a radius. Coordinates stay as they are, with y up.
-"""
+normals. A ball of light is a point light, which has a radius. Coordinates stay as they are, with y up."""
 
 import math
 import re
@@ -65,6 +64,12 @@ def material_of(told, tinted=False):
     """A Blender material. If `tinted`, the colour is an attribute of the points."""
     made = bpy.data.materials.new(told["kind"])
     shader = Shader(made)
+    if told["kind"] == "medium":
+        scattering = told["density"] * np.array(told["albedo"])
+        shader.node("OutputMaterial", {"Volume": shader.node("VolumeCoefficients", {
+            "Absorption Coefficients": told["density"] - scattering, "Scatter Coefficients": scattering,
+            "Anisotropy": 0.0})})
+        return made
     color = shader.node("Attribute", attribute_name="tint") if tinted else shader.color(told.get("color", (1, 1, 1)))
     inputs = {"Color": color, "Roughness": math.sqrt(told.get("alpha", 0))}
     if "normal_map" in told:
@@ -87,15 +92,6 @@ def material_of(told, tinted=False):
         share = shader.color(opacity, "Non-Color") if is_picture(opacity) else opacity[0]
         surface = shader.node("MixShader", {0: share, 1: shader.node("BsdfTransparent"), 2: surface})
     shader.node("OutputMaterial", {"Surface": surface})
-    return made
-
-
-def medium_material(medium):
-    made = bpy.data.materials.new("medium")
-    shader, albedo = Shader(made), np.array(medium["albedo"])
-    shader.node("OutputMaterial", {"Volume": shader.node("VolumeCoefficients", {
-        "Absorption Coefficients": medium["density"] * (1 - albedo), "Scatter Coefficients": medium["density"] * albedo,
-        "Anisotropy": 0.0})})
     return made
 
 
@@ -147,24 +143,23 @@ def add_spheres(spheres):
         add_points(balls, tinted=not checkered)
 
 
+def add_light(kind, power):
+    light = bpy.data.lights.new("light", kind)
+    light.color, light.energy = np.array(power) / max(power), max(power)
+    return light, add(light)
+
+
 def add_ball_of_light(sphere):
-    light = bpy.data.lights.new("ball", "POINT")
+    light, made = add_light("POINT", 4 * math.pi**2 * sphere["radius"] ** 2 * np.array(sphere["material"]["color"]))
     light.shadow_soft_size = sphere["radius"]
     light.use_soft_falloff = False
-    radiance = np.array(sphere["material"]["color"])
-    light.color = radiance / radiance.max()
-    light.energy = 4 * math.pi**2 * sphere["radius"] ** 2 * radiance.max()
-    made = add(light)
     made.location = sphere["center"]
     made.visible_camera = True
 
 
 def add_sun(sun):
-    light = bpy.data.lights.new("sun", "SUN")
+    light, made = add_light("SUN", sun["irradiance"])
     light.angle = math.radians(2 * sun["angular_radius"])
-    irradiance = np.array(sun["irradiance"])
-    light.color, light.energy = irradiance / irradiance.max(), irradiance.max()
-    made = add(light)
     made.rotation_mode = "QUATERNION"
     made.rotation_quaternion = Vector(sun["direction"]).to_track_quat("-Z", "Y")
 
@@ -206,8 +201,7 @@ def set_integrator(scene):
     render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
     render.engine, cycles.device = "CYCLES", "CPU"
     render.use_persistent_data = True
-    render.threads_mode = "FIXED"
-    render.resolution_percentage = 100
+    render.threads_mode, render.resolution_percentage = "FIXED", 100
     images = render.image_settings
     images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
     for name in ("max", "diffuse", "glossy", "transmission", "volume"):
@@ -215,14 +209,12 @@ def set_integrator(scene):
         setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
     cycles.transparent_max_bounces = 64
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.blur_glossy = 0
+    cycles.blur_glossy = cycles.light_sampling_threshold = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.light_sampling_threshold = 0
-    cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = False
+    cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = cycles.use_auto_tile = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     cycles.sampling_pattern = "TABULATED_SOBOL"
     cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.shapes()) > FEW_LIGHTS
-    cycles.use_auto_tile = False
 
 
 class Peer:
@@ -234,7 +226,7 @@ class Peer:
         for mesh in scene.meshes:
             add_mesh(mesh, material_of(mesh["material"]))
         for medium in scene.media:
-            add_mesh(medium["boundary"], medium_material(medium))
+            add_mesh(medium["boundary"], material_of({**medium, "kind": "medium"}))
         for sun in scene.suns:
             add_sun(sun)
         add_sky(scene)

@@ -7,7 +7,7 @@ import numpy as np
 RARELY = 0.02  # how often the back of a lamp is sampled if a wall is right behind it, over other sides of lamps
 NEAR = 2  # distance of such a wall
 GAP = 1e-3  # between the two sides of a lamp
-LARGE = 50  # radius of a ball that is the ground
+LARGE = 50  # radius of a ball
 LIFT = 0.2  # of media: Mitsuba misses a boundary that touches the floor
 
 
@@ -55,15 +55,15 @@ class Scene:
 
 
 def sphere_mesh(sphere, rings):
-    """Returns a ball of triangles with exact normals, which point inward if the radius is negative. The rings of a large
-    ball are the closer, the nearer they are to its top, where the scene is."""
+    """A ball of triangles with exact normals, which point inward if the radius is negative. A large ball is the ground,
+    and has more rings towards its top."""
     segments, polar = 2 * rings, np.linspace(0, np.pi, rings + 1)
     if abs(sphere["radius"]) >= LARGE:
         segments, polar = 512, np.concatenate([[0], np.geomspace(1e-4, np.pi, 400)])
     around = 2 * np.pi * np.arange(segments) / segments
     sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
     normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), axis=-1)
-    # a and b are neighbours in a ring, c and d are below them. The first a and b are the top, the last c and d the bottom.
+    # a and b are neighbours in a ring, c and d are below them. The first ring is the top, the last the bottom.
     rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
     a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
     c, d = a + segments, b + segments
@@ -85,11 +85,11 @@ def index_of(metal):
 
 
 def is_checker(color):
-    return isinstance(color, dict) and "cell" in color
+    return "cell" in color
 
 
 def is_picture(color):
-    return isinstance(color, dict) and "picture" in color
+    return "picture" in color
 
 
 def sky_image(bottom, top, height=512):

@@ -1,8 +1,6 @@
 """LuxCore: path tracing on the processor, independent samples.
 
-It knows triangles alone: balls are meshes with exact normals. Its lamps shine to one side. In its sky z is up. Maps, suns
-and materials that few scenes need are not written for it.
-"""
+It knows triangles alone: balls are meshes with exact normals. Its lamps shine to one side. In its sky z is up."""
 
 import time
 
@@ -11,16 +9,12 @@ import pyluxcore
 
 from geometry import is_checker, sphere_mesh
 
-Y_UP = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: the sky's z becomes the scene's y
-FEW_BALLS = 16  # up to here their meshes may be fine
+Y_UP = [1.0, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: the sky's z becomes the scene's y
+FEW_BALLS = 16  # up to here their meshes are fine
 
 
 def floats(values):
     return [float(value) for value in values]
-
-
-def tuples(array):
-    return None if array is None else [tuple(row) for row in array.tolist()]
 
 
 class Peer:
@@ -32,7 +26,7 @@ class Peer:
     def open(self, scene):
         if scene.has_map or scene.suns:
             raise ValueError("no maps and suns are written for LuxCore")
-        self.scene, self.properties, self.count = pyluxcore.Scene(), pyluxcore.Properties(), 0
+        self.scene, self.told = pyluxcore.Scene(), {}
         self.camera, self.depth = scene.camera, scene.max_depth
         self.add_sky(scene.sky)
         rings = 128 if len(scene.spheres) <= FEW_BALLS else 32
@@ -45,32 +39,34 @@ class Peer:
         for medium in scene.media:
             self.add(medium["boundary"], self.medium(medium))
 
-    def tell(self, prefix, settings):
-        for name, value in settings.items():
-            self.properties.Set(pyluxcore.Property(f"{prefix}.{name}", value))
-
     def define(self, kind, settings):
-        """Defines a light, material, object, texture or volume, and returns its name."""
-        self.count += 1
-        name = f"{kind}{self.count}"
-        self.tell(f"scene.{kind}.{name}", settings)
+        """Defines one of the lights, materials, objects, textures or volumes, and returns its name."""
+        name = f"{kind}{len(self.told)}"
+        self.told.update({f"scene.{kind}.{name}.{key}": value for key, value in settings.items()})
         return name
 
+    def properties(self, more):
+        """Returns what was defined since the last call, and more."""
+        properties = pyluxcore.Properties()
+        for name, value in {**self.told, **more}.items():
+            properties.Set(pyluxcore.Property(name, value))
+        self.told = {}
+        return properties
+
     def add(self, mesh, material):
-        arrays = (tuples(mesh[part]) for part in ("vertices", "triangles", "normals"))
-        shape = f"mesh{self.count}"
-        self.scene.DefineMesh(shape, *arrays, None, None, None)
-        self.define("objects", {"material": material, "shape": shape})
+        arrays = (None if mesh[part] is None else [*map(tuple, mesh[part].tolist())]
+                  for part in ("vertices", "triangles", "normals"))
+        self.scene.DefineMesh(f"mesh of {material}", *arrays, None, None, None)
+        self.define("objects", {"material": material, "shape": f"mesh of {material}"})
 
     def add_sky(self, sky):
-        told = {"visibilitymapcache.enable": False}
         if np.ndim(sky) == 3:
             height, width, channels = sky.shape
-            self.scene.DefineImageMap("sky", sky[::-1].ravel().tolist(), 1.0, channels, width, height)
-            self.define("lights", {**told, "type": "infinite", "file": "sky", "gamma": 1.0,
-                                   "transformation": floats(Y_UP)})
+            self.scene.DefineImageMap("sky", np.ascontiguousarray(sky[::-1]), 1.0, channels, width, height)
+            self.define("lights", {"type": "infinite", "file": "sky", "gamma": 1.0, "transformation": floats(Y_UP),
+                                   "visibilitymapcache.enable": False})
         elif sky is not None:
-            self.define("lights", {**told, "type": "constantinfinite", "color": floats(sky)})
+            self.define("lights", {"type": "constantinfinite", "color": floats(sky)})
 
     def texture(self, color):
         if not is_checker(color):
@@ -83,7 +79,7 @@ class Peer:
     def material(self, told, settings={}):
         kind = told["kind"]
         if kind not in ("lambertian", "mirror", "glass", "light") or "normal_map" in told or "opacity" in told:
-            raise ValueError(f"no {kind} with its settings is written for LuxCore")
+            raise ValueError(f"no {kind} with such settings is written for LuxCore")
         if kind == "lambertian":
             made = {"type": "matte", "kd": self.texture(told["color"])}
         elif kind == "mirror":
@@ -95,35 +91,26 @@ class Peer:
         return self.define("materials", {**made, **settings})
 
     def medium(self, told):
-        albedo = np.array(told["albedo"])
+        scattering = np.array(told["albedo"]) * told["density"]
         volume = self.define("volumes", {
             "type": "homogeneous", "asymmetry": [0.0] * 3, "multiscattering": True,
-            "absorption": floats((1 - albedo) * told["density"]), "scattering": floats(albedo * told["density"])})
+            "absorption": floats(told["density"] - scattering), "scattering": floats(scattering)})
         return self.define("materials", {"type": "null", "volume.interior": volume})
 
-    def aim(self, size):
-        c, low = self.camera, 2 / size  # LuxCore's pixel (x, y) is the (x, y + 1) of others
-        self.tell("scene.camera", {
-            "type": "perspective", "lookat.orig": floats(c["look_from"]), "lookat.target": floats(c["look_at"]),
-            "up": floats(c["up"]), "fieldofview": float(c["vertical_fov"]), "lensradius": float(c["lens_radius"]),
-            "screenwindow": [-1.0, 1.0, -1.0 - low, 1.0 - low], "focaldistance": float(c["focus_distance"]),
-            "autofocus.enable": False, "cliphither": 1e-3, "clipyon": 1e5})
-
     def render(self, path, size, spp, seed, threads):
-        self.aim(size)
-        self.scene.Parse(self.properties)
-        self.properties = pyluxcore.Properties()
-        self.tell("film", {"width": size, "height": size, "filter.type": "NONE", "outputs.0.type": "RGB",
-                           "outputs.0.filename": path})
-        self.tell("path", {**{f"pathdepth.{kind}": self.depth for kind in ("total", "diffuse", "glossy", "specular")},
-                           "clamping.variance.maxvalue": 0.0, "hybridbackforward.enable": False,
-                           "forceblackbackground.enable": False})
-        self.tell("sampler", {"type": "RANDOM", "random.adaptive.strength": 0.0})
-        self.tell("renderengine", {"type": "PATHCPU", "seed": 1000 * seed})  # thread i has seed + i
-        self.tell("native", {"threads.count": threads})
-        self.tell("batch", {"haltspp": spp})
-        session = pyluxcore.RenderSession(pyluxcore.RenderConfig(self.properties, self.scene))
-        self.properties = pyluxcore.Properties()
+        c, low = self.camera, 2 / size  # LuxCore's pixel (x, y) is the (x, y + 1) of others
+        camera = {"type": "perspective", "lookat.orig": floats(c["look_from"]), "lookat.target": floats(c["look_at"]),
+                  "up": floats(c["up"]), "fieldofview": c["vertical_fov"], "lensradius": c["lens_radius"],
+                  "focaldistance": c["focus_distance"], "screenwindow": [-1, 1, -1 - low, 1 - low],
+                  "autofocus.enable": False, "cliphither": 1e-3, "clipyon": 1e5}
+        self.scene.Parse(self.properties({f"scene.camera.{name}": value for name, value in camera.items()}))
+        session = pyluxcore.RenderSession(pyluxcore.RenderConfig(self.properties({
+            "renderengine.type": "PATHCPU", "sampler.type": "RANDOM", "sampler.random.adaptive.strength": 0.0,
+            "renderengine.seed": 1000 * seed,  # thread i has seed + i
+            "native.threads.count": threads, "batch.haltspp": spp, "film.width": size, "film.height": size,
+            "film.filter.type": "NONE", "film.outputs.0.type": "RGB", "film.outputs.0.filename": path,
+            **{f"path.pathdepth.{kind}": self.depth for kind in ("total", "diffuse", "glossy", "specular")},
+            "path.clamping.variance.maxvalue": 0.0, "path.hybridbackforward.enable": False}), self.scene))
         session.Start()
         start = time.perf_counter()
         while not session.HasDone():

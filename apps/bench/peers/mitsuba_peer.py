@@ -1,7 +1,6 @@
 """Mitsuba 3: path tracing with the multijitter sampler, compiled by LLVM.
 
-Its area lights shine to one side. It has no solid textures: the checker is a plug-in.
-"""
+Its area lights shine to one side. It has no solid textures: the checker is a plug-in."""
 
 import os
 from pathlib import Path
@@ -53,18 +52,18 @@ def texture(color, raw=False):
 
 def bsdf(material):
     kind, alpha = material["kind"], float(material.get("alpha", 0))
+    glass = {"int_ior": float(material.get("index", 1)), "ext_ior": 1.0}
     if kind == "lambertian":
         told = {"type": "diffuse", "reflectance": texture(material["color"])}
     elif kind == "mirror":
         told = {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])}
     elif kind == "glass":
-        told = {"type": "dielectric", "int_ior": float(material["index"]), "ext_ior": 1.0}
+        told = {"type": "dielectric", **glass}
     elif kind == "rough-conductor":
         eta, k = index_of(material)
         told = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": rgb(eta), "k": rgb(k)}
     elif kind == "rough-glass":
-        told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, "int_ior": float(material["index"]),
-                "ext_ior": 1.0}
+        told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, **glass}
     else:
         told = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}  # a lamp
     if "normal_map" in material:
@@ -105,10 +104,9 @@ def mesh(told, properties):
     made = mi.Mesh("mesh", len(told["vertices"]), len(told["triangles"]), props=props,
                    has_vertex_normals=told["normals"] is not None, has_vertex_texcoords=told["uvs"] is not None)
     parameters = mi.traverse(made)
-    parameters["vertex_positions"] = told["vertices"].ravel()
-    parameters["faces"] = told["triangles"].ravel()
-    if told["normals"] is not None:
-        parameters["vertex_normals"] = told["normals"].ravel()
+    for name, values in (("vertex_positions", "vertices"), ("faces", "triangles"), ("vertex_normals", "normals")):
+        if told[values] is not None:
+            parameters[name] = told[values].ravel()
     if told["uvs"] is not None:
         parameters["vertex_texcoords"] = (told["uvs"] * [1, -1] + [0, 1]).ravel()  # its pictures begin at the top
     parameters.update()

@@ -3,8 +3,7 @@
 A peer is a module NAME_peer with a class Peer, which has an `about` (name, version and settings), open(Scene), and
 render(picture, size, spp, seed, threads). That writes an EXR file, and returns the seconds of rendering alone and the
 samples a pixel. A worker receives a description of a scene and then the arguments of renders. It answers with (True,
-result) or (False, message).
-"""
+result) or (False, message)."""
 
 import importlib
 import os
