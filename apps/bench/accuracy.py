@@ -4,13 +4,11 @@ Run through ./build.sh accuracy. Writes build/results/accuracy.json and accuracy
 wrong anywhere. An interrupted run goes on where it was. docs/accuracy.md says what the groups ask."""
 
 import argparse
-import json
-import subprocess
 import sys
 
 import matplotlib.pyplot as plt
 
-from results import BIN, RESULTS, Kept, origin, table, write
+from results import BIN, RESULTS, Kept, origin, run_json, table, write
 
 GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "instances", "leaving", "far-origins",
           "bad-rays", "furnace", "queries")
@@ -18,16 +16,9 @@ LIMIT_ULPS = 1
 LIMIT_FURNACE = 1e-3
 DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut and nothing ends by chance
 WRONG = ("false_hits", "false_misses", "self_hits", "lost", "aborts")
-# Rays a row, and rays a row of leaks. 1e8 in each row of leaks would take two hours of two cores.
-USUAL, FULL = ("250000", "1000000"), ("1000000", "10000000")
-
-
-def measure(group, rays, leak_rays):
-    run = subprocess.run([BIN / "limn_accuracy", group, "--rays", rays, "--leak-rays", leak_rays],
-                         stdout=subprocess.PIPE)
-    if run.returncode != 0:
-        sys.exit(f"accuracy: limn_accuracy {group} ended with status {run.returncode}")
-    return json.loads(run.stdout)
+# 1e8 rays in each row of leaks would take two hours of two cores.
+USUAL = ("--rays", "250000", "--leak-rays", "1000000")
+FULL = ("--rays", "1000000", "--leak-rays", "10000000")
 
 
 def is_wrong(measure, column, cell):
@@ -96,7 +87,8 @@ def main():
         parser.error(f"there is no group {', '.join(unknown)}")
     head = origin(" ".join(["./build.sh accuracy", *sys.argv[1:]]))
     kept = Kept("accuracy", **head)
-    measured = [kept(name, lambda: measure(name, *options.rays)) for name in options.groups or GROUPS]
+    measured = [kept(name, lambda: run_json(BIN / "limn_accuracy", name, *options.rays))
+                for name in options.groups or GROUPS]
     groups = [one["groups"][0] for one in measured]
     found = faults(groups)
     rays = sum(row["rays"] for group in groups for row in group["rows"])
@@ -113,10 +105,8 @@ def main():
             parts.append(draw_leaks(group))
     write("accuracy", "Accuracy", head, groups, "\n\n".join(parts))
     kept.forget()
-    for fault in found:
-        print(f"accuracy: {fault}", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(f"accuracy: {fault}" for fault in found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -38,16 +38,15 @@ int main(int argc, char** argv) {
         const bench::Geometry geometry = bench::make_scene(argv[2], 1);
         const CompiledScene scene = compile(bench::describe(geometry));
         for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) {
-            const std::vector<Ray>& rays = set.rays;
-            std::vector<RayHit> hits(rays.size());
-            std::vector<std::uint8_t> occluded(rays.size());
+            std::vector<RayHit> hits(set.rays.size());
+            std::vector<std::uint8_t> occluded(set.rays.size());
             print_seconds(set.name + ",single", [&] {
-                for (std::size_t i = 0; i < rays.size(); ++i)
-                    if (set.any) occluded[i] = scene.any_hit(rays[i]);
-                    else hits[i] = scene.closest_hit(rays[i]).value_or(RayHit{});
+                for (std::size_t i = 0; i < set.rays.size(); ++i)
+                    if (set.any) occluded[i] = scene.any_hit(set.rays[i]);
+                    else hits[i] = scene.closest_hit(set.rays[i]).value_or(RayHit{});
             });
             print_seconds(set.name + ",batch",
-                          [&] { set.any ? scene.any_hit(rays, occluded) : scene.closest_hit(rays, hits); });
+                          [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
         }
     } else {
         Figure figure = pictures().at(argv[2])();

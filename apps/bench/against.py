@@ -1,7 +1,7 @@
 """Compares this tree with another commit: samples a second, rays a second, and instructions a sample of each scene.
 
-Builds the scenes of this tree against both libraries; names and leaves out what one of them can't build. A ratio over
-1 means that this tree is faster; it is the median of nine interleaved rounds. Run through ./build.sh against."""
+Builds the scenes of this tree against both libraries, and leaves out what one of them can't build. A ratio over 1 means
+that this tree is faster. It is the median of nine interleaved rounds."""
 
 import re
 import subprocess
@@ -12,9 +12,9 @@ from results import ROOT, git, origin, table, write
 
 FOLDERS = ("apps", "apps/common", "examples/figures", "examples/gallery")
 SOURCES = [ROOT / f"apps/bench/{name}.cpp" for name in ("against", "rays", "scenes", "transport_scenes")]
-SOURCES += [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
-            if path.name not in ("main.cpp", "figure_program.cpp")]
-CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
+SOURCES += [path for folder in FOLDERS[2:] for path in (ROOT / folder).glob("*.cpp")
+            if path.stem not in ("main", "figure_program")]
+CALLGRIND = "valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=measured_render".split()
 
 
 def run(*command, check=True):
@@ -33,13 +33,14 @@ def build(source, folder):
     package = next((folder / "installed").glob("lib/**/limn.pc"))
     compiler = ["ccache", "g++", "-O3", "-no-pie", "-ffp-contract=off", *(f"-I{ROOT / f}" for f in FOLDERS),
                 f'-DLIMN_FIGURE_DATA_DIR="{ROOT}/examples/figures/data"',
-                f'-DLIMN_GALLERY_MODELS="{ROOT}/examples/models"', *run("pkg-config", "--cflags", package).stdout.split()]
+                f'-DLIMN_GALLERY_MODELS="{ROOT}/examples/models"',
+                *run("pkg-config", "--cflags", package).stdout.split()]
     failed = [path.name for path in SOURCES
               if run(*compiler, "-c", path, "-o", folder / f"{path.name}.o", check=False).returncode != 0]
     # A scene whose source is missing ends the program when it is made.
-    objects = [folder / f"{path.name}.o" for path in SOURCES if path.name not in failed]
-    run(*compiler, *objects, "-o", folder / "against",
-        *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy")
+    run(*compiler, *(folder / f"{path.name}.o" for path in SOURCES if path.name not in failed),
+        *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy",
+        "-o", folder / "against")
     return folder / "against", failed
 
 
@@ -54,8 +55,7 @@ def numbers(program, what, name, spp):
 def measure(programs, kind, name):
     """Returns the ratios of each number, round by round."""
     print(f"against: {name}", file=sys.stderr, flush=True)
-    seconds, ratios = numbers(programs[0], kind, name, 4).get("samples", 1), {}
-    spp = max(4, round(1.6 / seconds))  # makes renders of about 0.4 s
+    ratios, spp = {}, max(4, round(1.6 / numbers(programs[0], kind, name, 4).get("samples", 1)))  # about 0.4 s
     for what, count, rounds in [(kind, spp, 9)] + [("instructions", 4, 1)] * (kind == "samples"):
         for _ in range(rounds):
             ours, theirs = (numbers(program, what, name, count) for program in programs)
@@ -83,9 +83,8 @@ def main():
         rows.append([name, what, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}"])
     rows += [["geometric mean", what, f"{geometric_mean(values):.3f}", "", ""] for what, values in medians.items()]
     left_out = sorted({*failed[0], *failed[1], *(name for name, each in found.items() if not each)})
-    text = (table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows)
-            + f"\nLeft out, as one of the two can't build them: {', '.join(left_out) or 'nothing'}.\n")
-    print(text)
+    rows.append(["can't be built by both: " + (", ".join(left_out) or "nothing"), "", "", "", ""])
+    print(text := table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows))
     write("against", f"This tree against {commit}", head, found, text)
 
 

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from statistics import geometric_mean, median, quantiles
 
-from results import BIN, ROOT, Kept, origin, table, write
+from results import BIN, ROOT, Kept, origin, run_json, table, write
 
 SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
 PARTS = (*SCENES, "growth", "queries")
@@ -20,18 +20,9 @@ BATCHES = {"limn batch 1": 1, "limn batch 8": 8, "limn batch 64": 64, "limn batc
 LIMN_BENCH = (BIN / "limn", "bench", "--quiet", "--json", "-")
 RATIOS = (("limn", "Embree"), ("limn", "Embree robust"), ("batch", "best mode"))
 PACKAGES = ("numpy", "scipy", "rtree", "pillow", "trimesh", "embreex", "open3d")
-HEAD = """A ratio over 1 says that limn is faster or smaller. Ratios are medians of interleaved rounds, with quartiles.
+HEAD = """A ratio over 1 says that limn is faster. Ratios are medians of interleaved rounds, with quartiles.
 In the first table they are geometric means over the kinds of rays. `batch` is the fastest of limn's batches. `best
 mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, streams (1M, 16M)."""
-
-
-def run_json(*command):
-    """Returns what a program prints. Its exit status may say that a result is wrong."""
-    print("bench:", *command, file=sys.stderr, flush=True)
-    run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
-    if run.returncode not in (0, 1) or not run.stdout:
-        sys.exit(f"bench: {command[0]} ended with status {run.returncode}")
-    return json.loads(run.stdout)
 
 
 def ask_peers(*arguments):
@@ -71,10 +62,6 @@ def rate(row, name):
     return (found := subject(row, name)) and found["million_a_second"]
 
 
-def bytes_each(scene, name):
-    return scene["bytes"][name] / scene["primitives"] if name in scene["bytes"] else None
-
-
 def number(x, digits=2):
     return "–" if x is None else f"{x:,.{digits}f}"
 
@@ -93,13 +80,8 @@ def summary(scenes):
         found = [[r[1] for _, row in rows if (r := ray_ratio(row, *pair))] for pair in RATIOS]
         return [number(geometric_mean(ratios)) if ratios else "–" for ratios in found]
 
-    rows = []
-    for scene in scenes:
-        seconds, own, theirs = scene["builds"][0]["seconds"], bytes_each(scene, "limn"), bytes_each(scene, "Embree")
-        built = ratio(seconds["limn"], seconds.get("Embree"))
-        rows.append([scene["name"], *means(rows_of([scene])), number(built and built[1]), number(theirs and theirs / own)])
-    return table(["one thread", *map(" / ".join, RATIOS), "building", "memory"],
-                 [*rows, ["all", *means(rows_of(scenes)), "", ""]])
+    rows = [[scene["name"], *means(rows_of([scene]))] for scene in scenes]
+    return table(["one thread", *map(" / ".join, RATIOS)], [*rows, ["all", *means(rows_of(scenes))]])
 
 
 def ray_tables(scenes):
@@ -131,7 +113,8 @@ def building(scenes):
             own, theirs = build["seconds"]["limn"], build["seconds"].get("Embree")
             rows.append([scene["name"], f"{scene['primitives']:,}", build["threads"], f"{median(own):.3g}",
                          f"{median(theirs):.3g}" if theirs else "–", spread(ratio(own, theirs)),
-                         *(number(bytes_each(scene, name), 1) for name in ("limn", "Embree"))])
+                         *(number(scene["bytes"].get(name, 0) / scene["primitives"], 1)
+                           for name in ("limn", "Embree"))])
     return "## Building and memory\n\n" + table(
         ["scene", "primitives", "threads", "limn, s", "Embree, s", "limn / Embree", "limn, bytes each",
          "Embree, bytes each"], rows)
@@ -192,9 +175,8 @@ def main():
     parser.add_argument("models", nargs="*", metavar="MODEL.obj", help="a model to measure too")
     options = parser.parse_args()
     models = [Path(os.environ.get("LIMN_CALLER", ".")) / model for model in options.models]
-    for model in models:
-        if not model.is_file():
-            parser.error(f"{model}: there is no such file")
+    if missing := [str(model) for model in models if not model.is_file()]:
+        parser.error(f"{', '.join(missing)}: there is no such file")
     head = origin(" ".join(["./build.sh bench", *sys.argv[1:]]))
     kept = Kept("bench", **head)
     results = measure(kept, options, models)
@@ -211,10 +193,8 @@ def main():
         parts += query_tables(results["queries"])
     write("bench", "Rays and queries", head, results, "\n\n".join(parts))
     kept.forget()
-    for fault in found:
-        print(f"bench: {fault}", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(f"bench: {fault}" for fault in found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

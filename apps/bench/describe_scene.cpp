@@ -161,9 +161,8 @@ private:
 Json describe_light(const LightSource& light) {
     const auto* sun = std::get_if<SunLight>(&light);
     require(sun, "lights that are neither shapes nor suns");
-    return {{"direction", triple(sun->direction)},
-            {"irradiance", triple(sun->irradiance)},
-            {"angular_radius", sun->angular_radius}};
+    const Json direction = triple(sun->direction), irradiance = triple(sun->irradiance);
+    return {{"direction", direction}, {"irradiance", irradiance}, {"angular_radius", sun->angular_radius}};
 }
 
 Json describe_camera(const Camera& c) {

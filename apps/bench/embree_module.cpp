@@ -52,9 +52,17 @@ public:
         for (std::size_t p = first / kWidth; p < end; p += kPackets) {
             const std::size_t packets = std::min(kPackets, end - p);
             alignas(64) Rays rays[kPackets];
-            for (std::size_t k = 0; k < packets; ++k) fill(rays[k], p + k);
+            for (std::size_t k = 0; k < packets; ++k) {
+                rays[k].ray = packets_[p + k];
+                if (set_->any) continue;
+                std::fill_n(rays[k].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
+                std::fill_n(rays[k].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
+            }
             ask(context, rays, packets);
-            for (std::size_t k = 0; k < packets; ++k) keep(rays[k], p + k);
+            for (std::size_t k = 0; k < packets; ++k) {
+                std::copy_n(rays[k].ray.tfar, kWidth, t_[p + k].data());
+                if (!set_->any) hits_[p + k] = rays[k].hit;
+            }
         }
         _mm_setcsr(before);
     }
@@ -72,13 +80,6 @@ private:
     static constexpr std::size_t kPackets = kStreams ? 64 / kWidth : 1;
 
     using Rays = RTCRayHitNt<kLanes>;
-
-    void fill(Rays& rays, std::size_t packet) const {
-        rays.ray = packets_[packet];
-        if (set_->any) return;
-        std::fill_n(rays.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(rays.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
-    }
 
     // A packet for any hits is the first part of one for closest hits.
     void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
@@ -101,11 +102,6 @@ private:
             any ? rtcOccluded16(kAllLanes, scene, &context, static_cast<RTCRay16*>(rays))
                 : rtcIntersect16(kAllLanes, scene, &context, static_cast<RTCRayHit16*>(rays));
         }
-    }
-
-    void keep(const Rays& rays, std::size_t packet) {
-        std::copy_n(rays.ray.tfar, kWidth, t_[packet].data());
-        if (!set_->any) hits_[packet] = rays.hit;
     }
 
     const std::shared_ptr<RTCSceneTy> scene_;

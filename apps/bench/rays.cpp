@@ -24,11 +24,6 @@ struct Path {
     std::optional<Surface> at{};  // where the ray before this one hit
 };
 
-// The k-th pixel of a tile in Z-order, so that any 4, 16 and 64 rays are a square.
-std::pair<std::size_t, std::size_t> place_in_tile(std::size_t k) {
-    return {(k & 1) | (k >> 1 & 2) | (k >> 2 & 4), (k >> 1 & 1) | (k >> 2 & 2) | (k >> 3 & 4)};
-}
-
 double random(std::uint64_t number, std::uint64_t dimension) { return random_number(1, number, dimension); }
 
 // Returns a path through each pixel, tile by tile.
@@ -37,7 +32,8 @@ std::vector<Path> primary_paths(const CameraRays& camera, std::size_t side, std:
     const std::size_t tiles = side / kTile;
     for (std::size_t tile = 0; tile < tiles * tiles; ++tile) {
         for (std::size_t k = 0; k < kTile * kTile; ++k) {
-            const auto [x, y] = place_in_tile(k);
+            // The k-th pixel in Z-order, so that any 4, 16 and 64 rays are a square.
+            const std::size_t x = (k & 1) | (k >> 1 & 2) | (k >> 2 & 4), y = (k >> 1 & 1) | (k >> 2 & 2) | (k >> 3 & 4);
             const std::uint64_t number = pass * side * side + paths.size();
             Ray ray = camera.ray(static_cast<double>(tile % tiles * kTile + x) + random(number, 0),
                                  static_cast<double>(tile / tiles * kTile + y) + random(number, 1), 0, 0, 0);

@@ -54,8 +54,8 @@ def main():
             rows.append(row)
             print(f"{name}:", *row, file=sys.stderr, flush=True)
     write("reliability", "Long renders", head, rows, table(["what", "times", "wrong", "what happened"], rows))
-    return 1 if any(wrong for _, _, wrong, _ in rows) else 0
+    sys.exit(any(wrong for _, _, wrong, _ in rows))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

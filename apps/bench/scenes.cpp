@@ -25,19 +25,17 @@ struct Wave {
     double phase, height;
 };
 
-std::array<Wave, 32> make_waves() {
-    std::array<Wave, 32> waves;
-    for (std::size_t i = 0; i < waves.size(); ++i) {
-        const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
-        const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
-        waves[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
-    }
-    return waves;
-}
-
 // Returns a point of a closed ball with hills: r = 1 + a sum of waves.
 Vec3 on_hills(const Vec3& direction) {
-    static const std::array<Wave, 32> waves = make_waves();
+    static const std::array<Wave, 32> waves = [] {
+        std::array<Wave, 32> made;
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
+            const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
+            made[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
+        }
+        return made;
+    }();
     double r = 1;
     for (const Wave& w : waves) r += w.height * std::sin(dot(w.frequency, direction) + w.phase);
     return r * direction;
@@ -77,8 +75,7 @@ Geometry displaced_sphere(double scale) {
 }
 
 // A triangle of any direction. `dimension` is the first of six random numbers.
-template <class Random>
-void add_triangle(MeshData& data, const Vec3& center, double size, const Random& u, std::uint64_t dimension) {
+void add_triangle(MeshData& data, const Vec3& center, double size, const auto& u, std::uint64_t dimension) {
     const auto first = static_cast<std::uint32_t>(data.vertices.size());
     for (std::uint64_t k = dimension; k < dimension + 6; k += 2)
         data.vertices.push_back(to_float3(center + size * sample_uniform_sphere(u(k), u(k + 1))));

@@ -41,16 +41,12 @@ struct Geometry {
 
 // The names that make_scene knows.
 const std::vector<std::string>& scene_names();
-
 // `scale` multiplies the number of primitives.
 Geometry make_scene(const std::string& name, double scale);
-
 // \throws FileError
 Geometry load_scene(const std::string& path);
-
 // The description that limn compiles.
 Scene describe(const Geometry& geometry);
-
 std::size_t stored_primitives(const Geometry& geometry);
 
 struct RaySet {
@@ -62,7 +58,6 @@ struct RaySet {
 
 // "primary", "diffuse1" to "diffuse3", "occlusion" and "shadow".
 const std::vector<std::string>& ray_kinds();
-
 // Returns `count` rays of each kind, the same ones each time. They are fewer where paths leave the scene too soon. A
 // kind without rays has no set. limn's exact hits say where the next rays begin.
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count);

@@ -1,6 +1,7 @@
 #include "bench/session.h"
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -8,10 +9,61 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limn/core/error.h"
+#include "limn/render/render.h"
+#include "module.h"
+
 namespace limn::bench {
 namespace {
 
 using app::Json;
+
+// limn by its public queries: ray by ray, or in batches.
+class LimnSubject final : public Subject {
+public:
+    // \param batch the rays of each query; 0 for the query of a single ray
+    // \param targets the instruction sets that limn may use
+    LimnSubject(const std::string& subject_name, std::shared_ptr<const CompiledScene> scene, std::size_t batch,
+                std::int64_t targets)
+        : Subject(subject_name), scene_(std::move(scene)), batch_(batch), targets_(targets) {}
+
+    void prepare(const RaySet& set) override {
+        set_ = &set;
+        hits_.assign(set.any ? 0 : set.rays.size(), {});
+        occluded_.assign(set.any ? set.rays.size() : 0, 0);
+    }
+
+    void trace(std::size_t first, std::size_t count) override {
+        hwy::GetChosenTarget().Update(targets_);
+        const std::vector<Ray>& rays = set_->rays;
+        const std::size_t end = first + count;
+        if (batch_ != 0)
+            for (std::size_t i = first; i < end; i += batch_) trace_batch(i, std::min(batch_, end - i));
+        else if (set_->any)
+            for (std::size_t i = first; i < end; ++i) occluded_[i] = scene_->any_hit(rays[i]) ? 1 : 0;
+        else
+            for (std::size_t i = first; i < end; ++i) hits_[i] = scene_->closest_hit(rays[i]).value_or(RayHit{});
+    }
+
+    Answer answer(std::size_t i) const override {
+        if (set_->any) return {.t = occluded_[i] != 0 ? 0 : kInfinity};
+        return {.t = hits_[i].t, .u = hits_[i].u, .v = hits_[i].v, .primitive = hits_[i].primitive};
+    }
+
+private:
+    void trace_batch(std::size_t first, std::size_t count) {
+        const std::span<const Ray> rays = std::span(set_->rays).subspan(first, count);
+        set_->any ? scene_->any_hit(rays, std::span(occluded_).subspan(first, count))
+                  : scene_->closest_hit(rays, std::span(hits_).subspan(first, count));
+    }
+
+    const std::shared_ptr<const CompiledScene> scene_;
+    const std::size_t batch_;
+    const std::int64_t targets_;
+    const RaySet* set_ = nullptr;
+    std::vector<RayHit> hits_;
+    std::vector<std::uint8_t> occluded_;
+};
 
 constexpr double kSameT = 1e-3;  // relative: a larger difference is another surface
 
@@ -38,12 +90,36 @@ double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     }
 }
 
-bool agrees(const Answer& a, const Answer& b) {
-    if ((a.t == kInfinity) != (b.t == kInfinity)) return false;
-    return a.t == b.t || std::abs(a.t - b.t) <= kSameT * std::abs(a.t);
+}  // namespace
+
+BuiltScene build_limn(const Geometry& geometry, Clock clock) {
+    const Scene description = describe(geometry);  // is not timed
+    const double begin = seconds(clock);
+    const auto scene = std::make_shared<const CompiledScene>(compile(description));
+    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = scene->stats().memory_bytes, .subjects = {}};
+    const auto add = [&](const std::string& name, std::size_t batch, std::int64_t targets) {
+        built.subjects.push_back(std::make_unique<LimnSubject>(name, scene, batch, targets));
+    };
+    const std::int64_t all = hwy::SupportedTargets(), better_than_avx2 = all & (HWY_AVX2 - 1);
+    add("limn", 0, all);
+    if (better_than_avx2 != 0) {
+        add("AVX2", 0, all & ~better_than_avx2);
+        add("AVX2 batch", 4096, all & ~better_than_avx2);
+    }
+    add("limn batch", 4096, all);
+    for (const std::size_t size : {1, 8, 64, 65536}) add("limn batch " + std::to_string(size), size, all);
+    return built;
 }
 
-}  // namespace
+std::vector<Contender> load_contenders(std::vector<std::string>& notes) {
+    std::vector<Contender> contenders{{.name = "limn", .version = version(), .build = build_limn}};
+    try {
+        reinterpret_cast<AddContenders*>(app::load_module("limn_bench_embree"))(contenders);
+    } catch (const Error& e) {
+        notes.push_back(std::string("without Embree: ") + e.what());
+    }
+    return contenders;
+}
 
 Spread spread_of(std::vector<double> values) {
     if (values.empty()) return {};
@@ -75,7 +151,8 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
         Timing& timing = timings.emplace_back(Timing{.subject = subject->name});
         for (std::size_t i = 0; i < rays; ++i) {
             const Answer expected = subjects.front()->answer(i), found = subject->answer(i);
-            timing.mismatches += agrees(expected, found) ? 0 : 1;
+            const bool agrees = expected.t == found.t || std::abs(expected.t - found.t) <= kSameT * expected.t;
+            timing.mismatches += agrees ? 0 : 1;
             timing.differences += expected == found ? 0 : 1;
         }
         if (!keep_going()) return timings;

@@ -214,7 +214,7 @@ def set_integrator(scene):
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = cycles.use_auto_tile = False
     cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
     cycles.sampling_pattern = "TABULATED_SOBOL"
-    cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.shapes()) > FEW_LIGHTS
+    cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.spheres + scene.meshes) > FEW_LIGHTS
 
 
 class Peer:

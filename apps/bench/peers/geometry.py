@@ -37,9 +37,6 @@ class Scene:
         else:
             self.sky = top if any(top) else None
 
-    def shapes(self):
-        return self.spheres + self.meshes
-
     def backs(self):
         """The other sides of lamps, for renderers whose lamps shine to one side, and how often to sample them."""
         for lamp in self.meshes:

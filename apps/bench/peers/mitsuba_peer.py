@@ -148,11 +148,12 @@ class Peer:
         self.scene = mi.load_dict({"type": "scene", **{f"part{i}": part for i, part in enumerate(parts)}})
         self.camera = scene.camera
         # Roulette pays unless light has to pass through glass.
-        glass = any("glass" in shape["material"]["kind"] for shape in scene.shapes())
+        glass = any("glass" in shape["material"]["kind"] for shape in scene.spheres + scene.meshes)
         self.integrator = {"type": "volpath" if scene.media else "path", "max_depth": scene.max_depth,
                            "rr_depth": 100 if glass else 5}
 
-    def sensor(self, size):
+    def render(self, path, size, spp, seed, threads):
+        """The seconds are those of the kernels: recording and compiling them does not count."""
         c = self.camera
         told = {"type": "perspective", "fov": c["vertical_fov"], "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e5,
                 "to_world": mi.ScalarTransform4f().look_at(c["look_from"], c["look_at"], c["up"]),
@@ -161,11 +162,7 @@ class Peer:
                 "sampler": {"type": "multijitter"}}
         if c["lens_radius"] > 0:
             told.update(type="thinlens", aperture_radius=c["lens_radius"], focus_distance=c["focus_distance"])
-        return mi.load_dict(told)
-
-    def render(self, path, size, spp, seed, threads):
-        """The seconds are those of the kernels: recording and compiling them does not count."""
-        sensor = self.sensor(size)
+        sensor = mi.load_dict(told)
         dr.set_thread_count(threads)
         sensor.sampler().set_sample_count(spp)
         spp = sensor.sampler().sample_count()  # rounded up to rows times columns of strata

@@ -14,18 +14,14 @@ from multiprocessing.connection import Connection
 from geometry import Scene
 
 
-def main(name, pipe):
-    peer = importlib.import_module(f"{name}_peer").Peer()
-    peer.open(Scene(pipe.recv()))
-    pipe.send((True, peer.about))
-    while True:
-        pipe.send((True, peer.render(*pipe.recv())))
-
-
 if __name__ == "__main__":
     pipe = Connection(int(sys.argv[2]))
     try:
-        main(sys.argv[1], pipe)
+        peer = importlib.import_module(f"{sys.argv[1]}_peer").Peer()
+        peer.open(Scene(pipe.recv()))
+        pipe.send((True, peer.about))
+        while True:
+            pipe.send((True, peer.render(*pipe.recv())))
     except EOFError:
         pass  # the other end is closed
     except Exception as problem:
