@@ -60,7 +60,7 @@ def cell_text(measure, column, cell):
 
 def draw_leaks(group):
     """Draws the leaks of the group, and returns what names the plot."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True, layout="constrained")
     for axis, kind in zip(axes, ("vertices", "edges")):
         for k, column in enumerate(group["columns"]):
             for body, style in (("icosphere", "o-"), ("bumpy ball", "s:")):
@@ -72,7 +72,6 @@ def draw_leaks(group):
         axis.grid(True, alpha=0.3)
     axes[0].set_ylabel("leaks a million rays")
     axes[0].legend(fontsize=7)
-    figure.tight_layout()
     figure.savefig(RESULTS / "accuracy-leaks.svg")
     return "![leaks over the distance from the origin](accuracy-leaks.svg)"
 

@@ -1,7 +1,6 @@
 """Compares this tree with another commit: samples a second, rays a second, and instructions a sample of each scene.
 
-Builds the scenes of this tree against both libraries, and leaves out what one of them can't build. A ratio over 1 means
-that this tree is faster. It is the median of nine interleaved rounds."""
+Builds this tree's scenes against both libraries. A ratio over 1 is faster: the median of nine interleaved rounds."""
 
 import re
 import subprocess

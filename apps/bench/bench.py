@@ -28,7 +28,6 @@ mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, str
 def ask_peers(*arguments):
     """Installs limn and the other libraries in an environment of their own, and returns what queries.py prints."""
     raw, python = ROOT / "build/queries", ROOT / "build/query-peers/bin/python"
-    raw.mkdir(parents=True, exist_ok=True)
     pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     for command in ([sys.executable, "-m", "venv", python.parents[1]],
                     ["cmake", "--install", ROOT / "build/release", "--prefix", raw / "limn"],

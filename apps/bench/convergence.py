@@ -36,10 +36,9 @@ def parse_arguments():
     parser.add_argument("--cap", type=float, metavar="SECONDS",
                         help="of the longest render, and of half a reference (5; at size 400 40)")
     a = parser.parse_args()
-    large = a.size == 400
     a.seeds = a.seeds or (50 if a.promise else 4)
-    a.cap = a.cap or (40 if large else 5)
-    a.scene = a.scene or (promise.SCENES if a.promise else LARGE_SCENES if large else SCENES)
+    a.cap = a.cap or (40 if a.size == 400 else 5)
+    a.scene = a.scene or (promise.SCENES if a.promise else LARGE_SCENES if a.size == 400 else SCENES)
     a.peer = [key for key in a.peer or PEERS if key != "none"]
     return a
 
@@ -175,13 +174,12 @@ def page(scenes, a, plot):
         text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
         return f"**{text}**" if solves_another_problem(difference, noise) else text
 
-    known = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
-    about = "\n".join(f"- {key}: {said}" for key, said in known.items())
+    known = {f"- {key}: {row['about']}\n" for rows in scenes.values() for key, row in rows.items() if "about" in row}
     failed = "\n".join(f"- {scene}: {row['failed']}" for scene, rows in scenes.items() for row in rows.values()
                        if "failed" in row)
     return f"""{a.seeds} seeds.
 
-{about}
+{"".join(sorted(known))}
 
 ## Seconds to relMSE {ERROR:g} on one thread
 
@@ -206,7 +204,7 @@ def draw(scenes, path):
     import matplotlib.pyplot as plt
 
     lines = -(-len(scenes) // 2)
-    figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False)
+    figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False, layout="constrained")
     for axis in axes.flat[len(scenes):]:
         axis.set_axis_off()
     for axis, (scene, rows) in zip(axes.flat, scenes.items()):
@@ -217,7 +215,6 @@ def draw(scenes, path):
         axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
         axis.grid(True, alpha=0.3)
         axis.legend()
-    figure.tight_layout()
     figure.savefig(path)
 
 

@@ -21,6 +21,8 @@ void require(bool told, const char* what) {
 
 Json triple(const auto& v) { return {v.x, v.y, v.z}; }
 Json triple(const Color& c) { return {c.r, c.g, c.b}; }
+Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
+Json pair(const Float2& uv) { return {uv.u, uv.v}; }
 
 Json list(const auto& elements, const auto& to_json) {
     Json all = Json::array();
@@ -95,15 +97,9 @@ private:
             return triple(normalize(Vec3(transform_normal(back, {n.x, n.y, n.z}))));
         };
         return {{"vertices", list(m.arrays.vertices, point)},
-                {"triangles", list(m.arrays.triangles,
-                                   [](const Index3& t) -> Json {
-                                       return {t.a, t.b, t.c};
-                                   })},
+                {"triangles", list(m.arrays.triangles, [](const Index3& t) { return triple(t); })},
                 {"normals", list(m.arrays.normals, normal)},
-                {"uvs", list(m.arrays.uvs,
-                             [](const Float2& uv) -> Json {
-                                 return {uv.u, uv.v};
-                             })},
+                {"uvs", list(m.arrays.uvs, pair)},
                 {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
     }
 

@@ -34,7 +34,6 @@ TRIMESH = ("intersects_first", "intersects_location", "contains_points")
 MODULES = {"limn.open3d": "limn.open3d", "open3d": "open3d", "limn.trimesh": "limn.trimesh",
            "embreex": "trimesh.ray.ray_pyembree", "trimesh": "trimesh.ray.ray_triangle"}
 QUESTIONS = {library: OPEN3D if library.endswith("open3d") else TRIMESH for library in MODULES}
-THREADED = ("limn.open3d", "open3d", "limn.trimesh")
 
 
 def floats(whole):
@@ -177,20 +176,9 @@ def measure(library, mesh, judged, timed):
         results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
     for question in QUESTIONS[library]:
         few = min(MOST.get(key, len(timed)) for key in (library, question))
-        for threads in (1, 0) if library in THREADED else (1,):
+        for threads in (1, 0) if library not in ("embreex", "trimesh") else (1,):
             results["rates"][f"{question}, {threads or 'all'}"] = rate(library, mesh, question, threads, timed[:few])
     return results
-
-
-def apart(library, *arguments):
-    """Measures in a process of its own. Returns None if that fails."""
-    print(f"bench: queries of {library}", file=sys.stderr, flush=True)
-    try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-            return pool.submit(measure, library, *arguments).result()
-    except Exception as problem:
-        print(f"bench: {library}: {problem}", file=sys.stderr, flush=True)
-        return None
 
 
 def main(count, timed, *models):
@@ -201,8 +189,14 @@ def main(count, timed, *models):
             rays = make_rays(kind, vertices, faces, count, 7)
             judged[kind] = floats(rays), *truth(vertices, faces, rays)
         rays = floats(make_rays("at random", vertices, faces, timed, 8))
-        results[f"{name}, {len(faces):,} triangles"] = {
-            library: apart(library, (floats(vertices), faces), judged, rays) for library in QUESTIONS}
+        found = results[f"{name}, {len(faces):,} triangles"] = dict.fromkeys(QUESTIONS)
+        for library in QUESTIONS:
+            print(f"bench: queries of {library}", file=sys.stderr, flush=True)
+            try:  # in a process of its own
+                with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+                    found[library] = pool.submit(measure, library, (floats(vertices), faces), judged, rays).result()
+            except Exception as problem:
+                print(f"bench: {library}: {problem}", file=sys.stderr, flush=True)
     print(json.dumps(results))
 
 

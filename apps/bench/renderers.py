@@ -52,8 +52,8 @@ class Limn:
         self.scene = scene
         return " ".join([checked(BIN / "limn", "--version").strip(), *self.options])
 
-    def render(self, picture, size, spp, seed, threads):
-        report = limn(self.scene, picture, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
+    def render(self, path, size, spp, seed, threads):
+        report = limn(self.scene, path, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
         return report["seconds"]["render"], report["spp"]
 
 

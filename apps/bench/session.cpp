@@ -168,8 +168,7 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
 
 namespace {
 
-// A few rounds of building a small scene say little. Building is repeated until it has taken kLeastBuilding seconds or
-// kMostBuilds rounds.
+// A few rounds of building a small scene say little: building is repeated until one of these is reached.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
@@ -209,65 +208,69 @@ std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& 
                        ratio_text(single, robust), ratio_text(batch, best), differ(plain) + "/" + differ(robust));
 }
 
-class Session {
-public:
-    Session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch)
-        : plan_(plan), contenders_(contenders), watch_(watch) {}
+struct Session {
+    const Plan& plan;
+    const std::vector<Contender>& contenders;
+    const Watch& watch;
+    Results results{};
+    Json scenes = Json::array();
+    double scenes_done = 0;
+    double part = 0;  // of the scene's measurements that is done
+    bool going = true;
 
     Results run() {
-        for (const std::string& name : plan_.scenes)
-            if (goes_on()) measure_scene(make_scene(name, plan_.scale));
-        for (const std::string& path : plan_.models)
+        for (const std::string& name : plan.scenes)
+            if (goes_on()) measure_scene(make_scene(name, plan.scale));
+        for (const std::string& path : plan.models)
             if (goes_on()) measure_scene(load_scene(path));
         Json versions = Json::object();
-        for (const Contender& contender : contenders_) versions[contender.name] = contender.version;
-        results_.json = {{"complete", going_}, {"versions", versions}, {"rounds", plan_.rounds}, {"scenes", scenes_}};
-        return std::move(results_);
+        for (const Contender& contender : contenders) versions[contender.name] = contender.version;
+        results.json = {{"complete", going}, {"versions", versions}, {"rounds", plan.rounds}, {"scenes", scenes}};
+        return std::move(results);
     }
 
-private:
     bool goes_on() {
-        const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
-        going_ = going_ && watch_((scenes_done_ + part_) / scenes);
-        return going_;
+        const auto count = static_cast<double>(plan.scenes.size() + plan.models.size());
+        going = going && watch((scenes_done + part) / count);
+        return going;
     }
 
     void measure_scene(const Geometry& geometry) {
         const std::size_t primitives = stored_primitives(geometry);
         Json bytes = Json::object(), builds = Json::array(), rows = Json::array();
-        results_.table += fmt::format("{}: {} primitives", geometry.name, primitives);
+        results.table += fmt::format("{}: {} primitives", geometry.name, primitives);
         std::vector<std::unique_ptr<Subject>> subjects;
-        for (const Contender& contender : contenders_) {
+        for (const Contender& contender : contenders) {
             BuiltScene built = contender.build(geometry, Clock::wall);
             bytes[contender.name] = built.bytes;
-            results_.table += fmt::format("; {} {:.1f} bytes each", contender.name,
-                                          static_cast<double>(built.bytes) / static_cast<double>(primitives));
+            results.table += fmt::format("; {} {:.1f} bytes each", contender.name,
+                                         static_cast<double>(built.bytes) / static_cast<double>(primitives));
             std::ranges::move(built.subjects, std::back_inserter(subjects));
         }
-        results_.table += '\n';
-        for (const int threads : plan_.threads) builds.push_back(measure_builds(geometry, threads));
+        results.table += '\n';
+        for (const int threads : plan.threads) builds.push_back(measure_builds(geometry, threads));
         if (goes_on()) rows = measure_rays(geometry, subjects);
-        scenes_.push_back({{"name", geometry.name},
-                           {"primitives", primitives},
-                           {"bytes", bytes},
-                           {"builds", builds},
-                           {"rows", rows}});
-        ++scenes_done_;
-        part_ = 0;
+        scenes.push_back({{"name", geometry.name},
+                          {"primitives", primitives},
+                          {"bytes", bytes},
+                          {"builds", builds},
+                          {"rows", rows}});
+        ++scenes_done;
+        part = 0;
     }
 
     Json measure_builds(const Geometry& geometry, int threads) {
         std::vector<Timing> timings;
-        for (const Contender& contender : contenders_) timings.push_back({.subject = contender.name});
+        for (const Contender& contender : contenders) timings.push_back({.subject = contender.name});
         // This limits Embree's threads too.
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         const Clock clock = threads == 1 ? Clock::process : Clock::wall;
-        const int most = plan_.build_rounds == 0 ? 0 : std::max(plan_.build_rounds, kMostBuilds);
+        const int most = plan.build_rounds == 0 ? 0 : std::max(plan.build_rounds, kMostBuilds);
         double spent = 0;
-        for (int round = 0; going_ && round < most && (round < plan_.build_rounds || spent < kLeastBuilding); ++round) {
-            for (std::size_t i = 0; i < contenders_.size() && goes_on(); ++i) {
-                timings[i].seconds.push_back(contenders_[i].build(geometry, clock).seconds);
+        for (int round = 0; going && round < most && (round < plan.build_rounds || spent < kLeastBuilding); ++round) {
+            for (std::size_t i = 0; i < contenders.size() && goes_on(); ++i) {
+                timings[i].seconds.push_back(contenders[i].build(geometry, clock).seconds);
                 spent += timings[i].seconds.back();
             }
         }
@@ -280,26 +283,24 @@ private:
             if (&t != &timings.front()) text += " x " + ratio_text(&timings.front(), &t);
         }
         if (!text.empty())
-            results_.table += fmt::format("  built by {} thread{}:{}\n", threads, threads == 1 ? "" : "s", text);
+            results.table += fmt::format("  built by {} thread{}:{}\n", threads, threads == 1 ? "" : "s", text);
         return {{"threads", threads}, {"seconds", seconds}};
     }
 
     Json measure_rays(const Geometry& geometry, const std::vector<std::unique_ptr<Subject>>& subjects) {
-        std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan_.rays);
-        if (!plan_.kinds.empty())
-            std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan_.kinds, set.name) == 0; });
-        const auto measurements =
-            static_cast<double>(sets.size() * plan_.threads.size() * subjects.size()) * (plan_.rounds + 1);
-        results_.table += fmt::format(kLine, "rays", "th", "limn", "batch", "Embree", "robust", "best", "(mode)",
-                                      "limn/Embree", "limn/robust", "batch/best", "differ/M");
+        std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan.rays);
+        if (!plan.kinds.empty())
+            std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan.kinds, set.name) == 0; });
+        const auto measurements = static_cast<double>(sets.size() * plan.threads.size());
+        results.table += fmt::format(kLine, "rays", "th", "limn", "batch", "Embree", "robust", "best", "(mode)",
+                                     "limn/Embree", "limn/robust", "batch/best", "differ/M");
         Json rows = Json::array();
         for (const RaySet& set : sets) {
-            for (const int threads : plan_.threads) {
+            for (const int threads : plan.threads) {
                 if (!goes_on()) return rows;
-                rows.push_back(row(set, threads, measure(subjects, set, threads, plan_.rounds, [&] {
-                                       part_ += 1 / measurements;
-                                       return goes_on();
-                                   })));
+                rows.push_back(
+                    row(set, threads, measure(subjects, set, threads, plan.rounds, [&] { return goes_on(); })));
+                part += 1 / measurements;
             }
         }
         return rows;
@@ -317,26 +318,17 @@ private:
                                 {"seconds", t.seconds}});
         }
         if (differences > 0)
-            results_.fault = fmt::format("{}: {} rays have other results in batches", set.name, differences);
-        results_.table += row_text(set, threads, timings);
+            results.fault = fmt::format("{}: {} rays have other results in batches", set.name, differences);
+        results.table += row_text(set, threads, timings);
         return {{"rays", set.name},   {"count", set.rays.size()},   {"any", set.any},
                 {"threads", threads}, {"differences", differences}, {"subjects", subjects}};
     }
-
-    const Plan& plan_;
-    const std::vector<Contender>& contenders_;
-    const Watch& watch_;
-    Results results_;
-    Json scenes_ = Json::array();
-    double scenes_done_ = 0;
-    double part_ = 0;  // of the scene's measurements that is done
-    bool going_ = true;
 };
 
 }  // namespace
 
 Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch) {
-    return Session(plan, contenders, watch).run();
+    return Session{plan, contenders, watch}.run();
 }
 
 }  // namespace limn::bench

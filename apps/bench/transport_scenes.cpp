@@ -54,10 +54,7 @@ Figure still_spheres() {
 // A ball with hills, of 69312 triangles.
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
     MeshData data = make_scene("sphere", 0.035).mesh->data();
-    const auto place = [radius](float coordinate, double middle) {
-        return static_cast<float>(middle + radius * static_cast<double>(coordinate));
-    };
-    for (Float3& v : data.vertices) v = {place(v.x, center.x), place(v.y, center.y), place(v.z, center.z)};
+    for (Float3& v : data.vertices) v = to_float3(center + radius * Vec3{v.x, v.y, v.z});
     return std::make_shared<Mesh>(std::move(data), std::move(material));
 }
 

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from geometry import index_of, is_checker, is_picture, pixels, sphere_mesh
+from geometry import index_of, pixels, sphere_mesh
 
 FEW_LIGHTS = 16  # up to here the light tree costs more than it gains
 
@@ -37,10 +37,10 @@ class Shader:
         return node.outputs[0] if node.outputs else None
 
     def color(self, color, space="Linear Rec.709"):
-        if is_checker(color):  # Color1 is used where the sum of the whole parts is odd
+        if "cell" in color:  # Color1 is used where the sum of the whole parts is odd
             return self.node("TexChecker", {"Vector": self.node("NewGeometry"), "Color1": rgba(color["odd"]),
                                             "Color2": rgba(color["even"]), "Scale": 1 / color["cell"]})
-        if is_picture(color):
+        if "picture" in color:
             return self.node("TexImage", image=image_of(pixels(color["picture"]), space), interpolation="Linear",
                              extension="REPEAT")
         return rgba(color)
@@ -54,8 +54,8 @@ def image_of(values, space="Linear Rec.709"):
     height, width, _ = values.shape
     made = bpy.data.images.new("picture", width, height, float_buffer=True)
     made.colorspace_settings.name = space
-    bottom_up = values[::-1]
-    made.pixels.foreach_set(np.concatenate([bottom_up, np.ones((height, width, 1), np.float32)], axis=2).ravel())
+    rows = np.concatenate([values, np.ones((height, width, 1), np.float32)], axis=2)
+    made.pixels.foreach_set(rows[::-1].ravel())
     made.pack()
     return made
 
@@ -89,7 +89,7 @@ def material_of(told, tinted=False):
         made.cycles.emission_sampling = "FRONT_BACK"
     if "opacity" in told:
         opacity = told["opacity"]
-        share = shader.color(opacity, "Non-Color") if is_picture(opacity) else opacity[0]
+        share = shader.color(opacity, "Non-Color") if "picture" in opacity else opacity[0]
         surface = shader.node("MixShader", {0: share, 1: shader.node("BsdfTransparent"), 2: surface})
     shader.node("OutputMaterial", {"Surface": surface})
     return made
@@ -138,7 +138,7 @@ def add_spheres(spheres):
         elif material["kind"] in ("glass", "rough-glass"):
             add_mesh(sphere_mesh(sphere, 64), material_of(material))
         else:
-            clouds.setdefault((is_checker(material["color"]), material["kind"]), []).append(sphere)
+            clouds.setdefault(("cell" in material["color"], material["kind"]), []).append(sphere)
     for (checkered, _), balls in sorted(clouds.items()):  # Cycles loses the tints unless their cloud is the first
         add_points(balls, tinted=not checkered)
 
@@ -197,26 +197,6 @@ def add_camera(told):
                                + [[0, 0, 0, 1]])
 
 
-def set_integrator(scene):
-    render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
-    render.engine, cycles.device = "CYCLES", "CPU"
-    render.use_persistent_data = True
-    render.threads_mode, render.resolution_percentage = "FIXED", 100
-    images = render.image_settings
-    images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
-    for name in ("max", "diffuse", "glossy", "transmission", "volume"):
-        # The segments from the camera and to a light do not count.
-        setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
-    cycles.transparent_max_bounces = 64
-    cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.blur_glossy = cycles.light_sampling_threshold = 0
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = cycles.use_auto_tile = False
-    cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
-    cycles.sampling_pattern = "TABULATED_SOBOL"
-    cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.spheres + scene.meshes) > FEW_LIGHTS
-
-
 class Peer:
     about = f"Cycles of Blender {bpy.app.version_string}, tabulated Sobol, light tree from {FEW_LIGHTS + 1} lights on"
 
@@ -231,7 +211,24 @@ class Peer:
             add_sun(sun)
         add_sky(scene)
         add_camera(scene.camera)
-        set_integrator(scene)
+        # Set the integrator.
+        render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
+        render.engine, cycles.device = "CYCLES", "CPU"
+        render.use_persistent_data = True
+        render.threads_mode, render.resolution_percentage = "FIXED", 100
+        images = render.image_settings
+        images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
+        for name in ("max", "diffuse", "glossy", "transmission", "volume"):
+            # The segments from the camera and to a light do not count.
+            setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
+        cycles.transparent_max_bounces = 64
+        cycles.caustics_reflective = cycles.caustics_refractive = True
+        cycles.blur_glossy = cycles.light_sampling_threshold = 0
+        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+        cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = cycles.use_auto_tile = False
+        cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+        cycles.sampling_pattern = "TABULATED_SOBOL"
+        cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.spheres + scene.meshes) > FEW_LIGHTS
 
     def render(self, path, size, spp, seed, threads):
         scene = bpy.context.scene

@@ -59,13 +59,12 @@ def sphere_mesh(sphere, rings):
         segments, polar = 512, np.concatenate([[0], np.geomspace(1e-4, np.pi, 400)])
     around = 2 * np.pi * np.arange(segments) / segments
     sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
-    normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), axis=-1)
+    normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), -1).reshape(-1, 3)
     # a and b are neighbours in a ring, c and d are below them. The first ring is the top, the last the bottom.
     rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
     a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
     c, d = a + segments, b + segments
     triangles = np.concatenate([np.stack([a, c, d], axis=-1)[:-segments], np.stack([a, d, b], axis=-1)[segments:]])
-    normals = normals.reshape(-1, 3)
     return {"vertices": (np.array(sphere["center"]) + sphere["radius"] * normals).astype(np.float32),
             "triangles": triangles.astype(np.uint32), "normals": normals.astype(np.float32), "uvs": None}
 
@@ -79,14 +78,6 @@ def index_of(metal):
     r, tint = np.array(metal["reflectance"]), np.array(metal["edge_tint"])
     eta = tint * (1 - r) / (1 + r) + (1 - tint) * (1 + np.sqrt(r)) / (1 - np.sqrt(r))
     return eta, np.sqrt(np.maximum(0, (r * (eta + 1) ** 2 - (eta - 1) ** 2) / (1 - r)))
-
-
-def is_checker(color):
-    return "cell" in color
-
-
-def is_picture(color):
-    return "picture" in color
 
 
 def sky_image(bottom, top, height=512):

@@ -7,10 +7,9 @@ import time
 import numpy as np
 import pyluxcore
 
-from geometry import is_checker, sphere_mesh
+from geometry import sphere_mesh
 
-Y_UP = [1.0, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: the sky's z becomes the scene's y
-FEW_BALLS = 16  # up to here their meshes are fine
+Y_UP = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: the sky's z becomes the scene's y
 
 
 def floats(values):
@@ -29,7 +28,7 @@ class Peer:
         self.scene, self.told = pyluxcore.Scene(), {}
         self.camera, self.depth = scene.camera, scene.max_depth
         self.add_sky(scene.sky)
-        rings = 128 if len(scene.spheres) <= FEW_BALLS else 32
+        rings = 128 if len(scene.spheres) <= 16 else 32
         for sphere in scene.spheres:
             self.add(sphere_mesh(sphere, rings), self.material(sphere["material"]))
         for mesh in scene.meshes:
@@ -69,7 +68,7 @@ class Peer:
             self.define("lights", {"type": "constantinfinite", "color": floats(sky)})
 
     def texture(self, color):
-        if not is_checker(color):
+        if "cell" not in color:
             return floats(color)
         return self.define("textures", {
             "type": "checkerboard3d", "texture1": floats(color["even"]), "texture2": floats(color["odd"]),

@@ -12,7 +12,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from geometry import index_of, is_checker, is_picture, pixels
+from geometry import index_of, pixels
 
 LANES = 1 << 24  # paths at once: more take more memory, and are not faster
 FAR = 1e4  # distance of the discs that stand for suns
@@ -42,9 +42,9 @@ def rgb(color):
 
 
 def texture(color, raw=False):
-    if is_picture(color):
+    if "picture" in color:
         return {"type": "bitmap", "bitmap": mi.Bitmap(pixels(color["picture"])), "raw": raw}
-    if not is_checker(color):
+    if "cell" not in color:
         return rgb(color)
     return {"type": "solid_checker", "cell": color["cell"],
             **{f"{name}_{c}": float(v) for name in ("even", "odd") for c, v in zip("rgb", color[name])}}
