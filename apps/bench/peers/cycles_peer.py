@@ -233,9 +233,8 @@ class Peer:
     def render(self, path, size, spp, seed, threads):
         scene = bpy.context.scene
         scene.render.resolution_x = scene.render.resolution_y = size
-        scene.render.threads = threads
+        scene.render.threads, scene.render.filepath = threads, path
         scene.cycles.samples, scene.cycles.seed = spp, seed
-        scene.render.filepath = path
         bpy.ops.render.render(write_still=True)
         # The header of the picture says how long the sampling took.
         time = re.search(rb"cycles\.[^\0]*\.render_time\0string\0....(\d\d):(\d\d\.\d\d)", Path(path).read_bytes(),
