@@ -13,10 +13,10 @@ usage: ./build.sh COMMAND [OPTION ...]
   gallery                         render the pictures of docs/gallery.md, with their seconds and errors
   docs                            build the API reference: build/docs/html/index.html
 
-  bench [--full] [MODEL ...]      rays a second beside Embree, building, threads, growth; queries beside Open3D, CGAL and others
+  bench [--full] [MODEL ...]      rays a second beside Embree, building, threads, growth; queries beside Open3D, trimesh and embreex
   accuracy [--full]               how often intersections are wrong, in limn and in others
   convergence [--size 400] [--scene NAME ...] [--peer NAME ...]
-                                  seconds to an error beside Mitsuba and Cycles
+                                  seconds to an error beside Mitsuba, Cycles and LuxCore
   convergence --promise           how good limn's estimate of its error is, and how often --error is kept
   reliability [films|faults|cluster ...]
                                   what checkpoints cost; killed renders, full disks, damaged films; a lost node of a Slurm
@@ -158,7 +158,7 @@ case $command in
         ;;
     docs) docs ;;
     bench)
-        install_missing libembree-dev libcgal-dev libgmp-dev libmpfr-dev python3-venv "${report_packages[@]}"
+        install_missing libembree-dev python3-venv "${report_packages[@]}"
         build
         LIMN_CALLER=$caller python apps/bench/bench.py "$@"
         ;;

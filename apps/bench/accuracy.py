@@ -1,20 +1,14 @@
 """How often intersections are wrong, in limn and in others, group by group.
 
 Run through ./build.sh accuracy. Writes build/results/accuracy.json and accuracy.html. The exit status is 1 if limn is
-wrong anywhere. An interrupted run goes on where it was. docs/accuracy.md says what the groups ask.
-"""
+wrong anywhere. An interrupted run goes on where it was. docs/accuracy.md says what the groups ask."""
 
 import argparse
-import json
-import subprocess
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
 
-from results import BIN, RESULTS, Kept, origin, table, write
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from results import BIN, RESULTS, Kept, origin, run_json, table, write
 
 GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "instances", "leaving", "far-origins",
           "bad-rays", "furnace", "queries")
@@ -22,17 +16,9 @@ LIMIT_ULPS = 1
 LIMIT_FURNACE = 1e-3
 DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut and nothing ends by chance
 WRONG = ("false_hits", "false_misses", "self_hits", "lost", "aborts")
-# Rays a row, and rays a row of leaks. 1e8 in each row of leaks would take two hours of two cores.
-RAYS = {"quick": ("500", "3000"), "usual": ("250000", "1000000"), "full": ("1000000", "10000000")}
-
-
-def measure(group, effort):
-    rays, leak_rays = RAYS[effort]
-    run = subprocess.run([BIN / "limn_accuracy", group, "--rays", rays, "--leak-rays", leak_rays],
-                         stdout=subprocess.PIPE)
-    if run.returncode != 0:
-        sys.exit(f"accuracy: limn_accuracy {group} ended with status {run.returncode}")
-    return json.loads(run.stdout)
+# 1e8 rays in each row of leaks would take two hours of two cores.
+USUAL = ("--rays", "250000", "--leak-rays", "1000000")
+FULL = ("--rays", "1000000", "--leak-rays", "10000000")
 
 
 def is_wrong(measure, column, cell):
@@ -72,20 +58,9 @@ def cell_text(measure, column, cell):
     return f"**{text}**" if is_wrong(measure, column, cell) else text
 
 
-def section(group):
-    rows = [[row["case"], f"{row['rays']:,}",
-             *(cell_text(group["measure"], column, cell) for column, cell in zip(group["columns"], row["cells"]))]
-            for row in group["rows"]]
-    parts = [f"## {group['group']}", table(["case", "rays", *group["columns"]], rows)]
-    if group["group"] == "leaks":
-        draw_leaks(group)
-        parts.append("![leaks over the distance from the origin](accuracy-leaks.svg)")
-    return parts
-
-
 def draw_leaks(group):
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    """Draws the leaks of the group, and returns what names the plot."""
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True, layout="constrained")
     for axis, kind in zip(axes, ("vertices", "edges")):
         for k, column in enumerate(group["columns"]):
             for body, style in (("icosphere", "o-"), ("bumpy ball", "s:")):
@@ -97,23 +72,22 @@ def draw_leaks(group):
         axis.grid(True, alpha=0.3)
     axes[0].set_ylabel("leaks a million rays")
     axes[0].legend(fontsize=7)
-    figure.tight_layout()
     figure.savefig(RESULTS / "accuracy-leaks.svg")
+    return "![leaks over the distance from the origin](accuracy-leaks.svg)"
 
 
 def main():
     parser = argparse.ArgumentParser(prog="./build.sh accuracy", description=__doc__.splitlines()[0])
-    parser.add_argument("--full", dest="effort", action="store_const", const="full", default="usual",
+    parser.add_argument("--full", dest="rays", action="store_const", const=FULL, default=USUAL,
                         help="1e7 rays a row of leaks and 1e6 in others: an hour")
-    parser.add_argument("--quick", dest="effort", action="store_const", const="quick",
-                        help="few rays, to see that all works")
     parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"what to measure (all): {', '.join(GROUPS)}")
     options = parser.parse_args()
     if unknown := set(options.groups) - set(GROUPS):
         parser.error(f"there is no group {', '.join(unknown)}")
     head = origin(" ".join(["./build.sh accuracy", *sys.argv[1:]]))
     kept = Kept("accuracy", **head)
-    measured = [kept(name, lambda: measure(name, options.effort)) for name in options.groups or GROUPS]
+    measured = [kept(name, lambda: run_json(BIN / "limn_accuracy", name, *options.rays))
+                for name in options.groups or GROUPS]
     groups = [one["groups"][0] for one in measured]
     found = faults(groups)
     rays = sum(row["rays"] for group in groups for row in group["rows"])
@@ -122,13 +96,16 @@ def main():
              "ulps. That of a furnace says the relative deviation of the mean ± its standard error.",
              f"**limn is wrong in {len(found)} cells.**" if found else "**limn is wrong nowhere.**", *found]
     for group in groups:
-        parts += section(group)
+        rows = [[row["case"], f"{row['rays']:,}",
+                 *(cell_text(group["measure"], column, cell) for column, cell in zip(group["columns"], row["cells"]))]
+                for row in group["rows"]]
+        parts += [f"## {group['group']}", table(["case", "rays", *group["columns"]], rows)]
+        if group["group"] == "leaks":
+            parts.append(draw_leaks(group))
     write("accuracy", "Accuracy", head, groups, "\n\n".join(parts))
     kept.forget()
-    for fault in found:
-        print(f"accuracy: {fault}", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(f"accuracy: {fault}" for fault in found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

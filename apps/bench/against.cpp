@@ -1,12 +1,9 @@
 // Prints the seconds that a render or rays take. against.py links it with the libraries of two commits.
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 
-#include "bench/rays.h"
-#include "bench/scenes.h"
-#include "bench/stopwatch.h"
+#include "bench/contender.h"
 #include "bench/transport_scenes.h"
 #include "figures.h"
 
@@ -22,22 +19,9 @@ static std::map<std::string, std::function<Figure()>> pictures() {
 }
 
 static void print_seconds(const std::string& what, const std::function<void()>& work) {
-    const bench::Stopwatch watch(bench::Clock::thread);
+    const double begin = bench::seconds(bench::Clock::thread);
     work();
-    std::printf("%s %.9g\n", what.c_str(), watch.seconds());
-}
-
-static void trace(const bench::RaySet& set, const CompiledScene& scene) {
-    std::vector<RayHit> hits(set.rays.size());
-    std::vector<std::uint8_t> occluded(set.rays.size());
-    print_seconds(set.name + ",single", [&] {
-        for (std::size_t i = 0; i < set.rays.size(); ++i) {
-            if (set.any) occluded[i] = scene.any_hit(set.rays[i]);
-            else hits[i] = scene.closest_hit(set.rays[i]).value_or(RayHit{});
-        }
-    });
-    print_seconds(set.name + ",batch",
-                  [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
+    std::printf("%s %.9g\n", what.c_str(), bench::seconds(bench::Clock::thread) - begin);
 }
 
 // Callgrind counts instructions within this function alone.
@@ -53,11 +37,21 @@ int main(int argc, char** argv) {
     } else if (what == "rays") {
         const bench::Geometry geometry = bench::make_scene(argv[2], 1);
         const CompiledScene scene = compile(bench::describe(geometry));
-        for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) trace(set, scene);
+        for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) {
+            std::vector<RayHit> hits(set.rays.size());
+            std::vector<std::uint8_t> occluded(set.rays.size());
+            print_seconds(set.name + ",single", [&] {
+                for (std::size_t i = 0; i < set.rays.size(); ++i)
+                    if (set.any) occluded[i] = scene.any_hit(set.rays[i]);
+                    else hits[i] = scene.closest_hit(set.rays[i]).value_or(RayHit{});
+            });
+            print_seconds(set.name + ",batch",
+                          [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
+        }
     } else {
         Figure figure = pictures().at(argv[2])();
         figure.settings.width = figure.settings.height = what == "samples" ? 100 : 16;
-        figure.settings.samples_per_pixel = std::atoi(argv[3]);
+        figure.settings.samples_per_pixel = std::stoi(argv[3]);
         figure.settings.threads = 1;
         const CompiledScene scene = compile(figure.scene);
         print_seconds("samples", [&] { measured_render(scene, figure); });

@@ -1,8 +1,6 @@
 """Compares this tree with another commit: samples a second, rays a second, and instructions a sample of each scene.
 
-Builds the scenes of this tree against both libraries; names and leaves out what one of them can't build. A ratio over
-1 means that this tree is faster; it is the median of nine interleaved rounds. Run through ./build.sh against.
-"""
+Builds this tree's scenes against both libraries. A ratio over 1 is faster: the median of nine interleaved rounds."""
 
 import re
 import subprocess
@@ -12,11 +10,10 @@ from statistics import geometric_mean, quantiles
 from results import ROOT, git, origin, table, write
 
 FOLDERS = ("apps", "apps/common", "examples/figures", "examples/gallery")
-SOURCES = [path for folder in FOLDERS[2:] for path in sorted((ROOT / folder).glob("*.cpp"))
-           if path.name not in ("main.cpp", "figure_program.cpp")]
-SOURCES += [ROOT / f"apps/bench/{name}.cpp" for name in
-            ("against", "rays", "scenes", "transport_scenes", "material_scenes")]
-CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=measured_render")
+SOURCES = [ROOT / f"apps/bench/{name}.cpp" for name in ("against", "rays", "scenes", "transport_scenes")]
+SOURCES += [path for folder in FOLDERS[2:] for path in (ROOT / folder).glob("*.cpp")
+            if path.stem not in ("main", "figure_program")]
+CALLGRIND = "valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=measured_render".split()
 
 
 def run(*command, check=True):
@@ -34,14 +31,15 @@ def build(source, folder):
     run("cmake", "--build", folder / "build", "--target", "install")
     package = next((folder / "installed").glob("lib/**/limn.pc"))
     compiler = ["ccache", "g++", "-O3", "-no-pie", "-ffp-contract=off", *(f"-I{ROOT / f}" for f in FOLDERS),
-                *(f'-DLIMN_{name}="{ROOT}/examples/{path}"' for name, path in
-                  (("FIGURE_DATA_DIR", "figures/data"), ("GALLERY_MODELS", "models"))),
+                f'-DLIMN_FIGURE_DATA_DIR="{ROOT}/examples/figures/data"',
+                f'-DLIMN_GALLERY_MODELS="{ROOT}/examples/models"',
                 *run("pkg-config", "--cflags", package).stdout.split()]
-    failed = {path for path in SOURCES
-              if run(*compiler, "-c", path, "-o", folder / f"{path.stem}.o", check=False).returncode != 0}
+    failed = [path.name for path in SOURCES
+              if run(*compiler, "-c", path, "-o", folder / f"{path.name}.o", check=False).returncode != 0]
     # A scene whose source is missing ends the program when it is made.
-    run(*compiler, *(folder / f"{path.stem}.o" for path in SOURCES if path not in failed), "-o", folder / "against",
-        *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy")
+    run(*compiler, *(folder / f"{path.name}.o" for path in SOURCES if path.name not in failed),
+        *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy",
+        "-o", folder / "against")
     return folder / "against", failed
 
 
@@ -56,8 +54,7 @@ def numbers(program, what, name, spp):
 def measure(programs, kind, name):
     """Returns the ratios of each number, round by round."""
     print(f"against: {name}", file=sys.stderr, flush=True)
-    seconds, ratios = numbers(programs[0], kind, name, 4).get("samples", 1), {}
-    spp = max(4, round(1.6 / seconds))  # makes renders of about 0.4 s
+    ratios, spp = {}, max(4, round(1.6 / numbers(programs[0], kind, name, 4).get("samples", 1)))  # about 0.4 s
     for what, count, rounds in [(kind, spp, 9)] + [("instructions", 4, 1)] * (kind == "samples"):
         for _ in range(rounds):
             ours, theirs = (numbers(program, what, name, count) for program in programs)
@@ -72,23 +69,21 @@ def main():
         sys.exit("usage: ./build.sh against COMMIT [SCENE ...]; COMMIT must be one of this repository")
     head, there = origin(" ".join(["./build.sh against", commit, *sys.argv[2:]])), ROOT / "build/against" / commit
     if not (there / "source").exists():
-        run("git", "-C", ROOT, "worktree", "prune")
-        run("git", "-C", ROOT, "worktree", "add", "--detach", there / "source", commit)
+        run("git", "-C", ROOT, "worktree", "add", "--force", "--detach", there / "source", commit)
     programs, failed = zip(build(ROOT, ROOT / "build/against/this"), build(there / "source", there))
     known = {name: kind for kind, name in map(str.split, run(programs[0]).stdout.splitlines())}
     if unknown := [name for name in sys.argv[2:] if name not in known]:
         sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(known)}")
     found = {name: measure(programs, known[name], name) for name in sys.argv[2:] or known}
-    rows, middles = [], {}
+    rows, medians = [], {}
     for name, what, ratios in [(n, w, ratios) for n, each in found.items() for w, ratios in sorted(each.items())]:
         low, middle, high = quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
-        middles.setdefault(what.rpartition(",")[2], []).append(middle)
+        medians.setdefault(what.rpartition(",")[2], []).append(middle)
         rows.append([name, what, f"{middle:.3f}", f"{low:.3f}", f"{high:.3f}"])
-    rows += [["geometric mean", what, f"{geometric_mean(values):.3f}", "", ""] for what, values in middles.items()]
-    left_out = sorted({path.name for path in failed[0] | failed[1]} | {name for name, each in found.items() if not each})
-    text = table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows)
-    text += f"\nLeft out, as one of the two can't build them: {', '.join(left_out) or 'nothing'}.\n"
-    print(text)
+    rows += [["geometric mean", what, f"{geometric_mean(values):.3f}", "", ""] for what, values in medians.items()]
+    left_out = sorted({*failed[0], *failed[1], *(name for name, each in found.items() if not each)})
+    rows.append(["can't be built by both: " + (", ".join(left_out) or "nothing"), "", "", "", ""])
+    print(text := table(["scene", "what", "ratio", "lower quartile", "upper quartile"], rows))
     write("against", f"This tree against {commit}", head, found, text)
 
 

@@ -1,8 +1,7 @@
 """Rays a second beside Embree, building, memory, threads and growth; then queries beside other libraries.
 
 Run through ./build.sh bench. Writes build/results/bench.json and bench.html. The exit status is 1 if a result is wrong.
-An interrupted run goes on where it was. Times say little on a machine that does something else meanwhile.
-"""
+An interrupted run goes on where it was. Times say little on a machine that does something else meanwhile."""
 
 import argparse
 import json
@@ -12,37 +11,23 @@ import sys
 from pathlib import Path
 from statistics import geometric_mean, median, quantiles
 
-import matplotlib
-
-from results import BIN, RESULTS, ROOT, Kept, origin, table, write
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from results import BIN, ROOT, Kept, origin, run_json, table, write
 
 SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
+PARTS = (*SCENES, "growth", "queries")
 GROWTH = {"sphere": 2e6, "soup": 1e6}  # triangles with --scale 1
 BATCHES = {"limn batch 1": 1, "limn batch 8": 8, "limn batch 64": 64, "limn batch": 4096, "limn batch 65536": 65536}
 LIMN_BENCH = (BIN / "limn", "bench", "--quiet", "--json", "-")
 RATIOS = (("limn", "Embree"), ("limn", "Embree robust"), ("batch", "best mode"))
 PACKAGES = ("numpy", "scipy", "rtree", "pillow", "trimesh", "embreex", "open3d")
-HEAD = """A ratio over 1 says that limn is faster or smaller. Ratios are medians of interleaved rounds, with quartiles.
+HEAD = """A ratio over 1 says that limn is faster. Ratios are medians of interleaved rounds, with quartiles.
 In the first table they are geometric means over the kinds of rays. `batch` is the fastest of limn's batches. `best
 mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, streams (1M, 16M)."""
-
-
-def run_json(*command):
-    """Returns what a program prints. Its exit status may say that a result is wrong."""
-    print("bench:", *command, file=sys.stderr, flush=True)
-    run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
-    if run.returncode not in (0, 1) or not run.stdout:
-        sys.exit(f"bench: {command[0]} ended with status {run.returncode}")
-    return json.loads(run.stdout)
 
 
 def ask_peers(*arguments):
     """Installs limn and the other libraries in an environment of their own, and returns what queries.py prints."""
     raw, python = ROOT / "build/queries", ROOT / "build/query-peers/bin/python"
-    raw.mkdir(parents=True, exist_ok=True)
     pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     for command in ([sys.executable, "-m", "venv", python.parents[1]],
                     ["cmake", "--install", ROOT / "build/release", "--prefix", raw / "limn"],
@@ -50,10 +35,8 @@ def ask_peers(*arguments):
                      "--config-settings=cmake.define.LIMN_INSTALLED=ON",
                      f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={raw}/limn", ROOT]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    for command in (*([*pip, package] for package in PACKAGES),
-                    ["g++", "-O3", "-DNDEBUG", "-std=c++17", ROOT / "apps/bench/peers/cgal_queries.cpp", "-o",
-                     raw / "cgal_queries", "-lgmp", "-lmpfr"]):
-        subprocess.run(command)  # what can't be had has no answers
+    for package in PACKAGES:
+        subprocess.run([*pip, package])  # a library that can't be installed has no answers
     return run_json(python, "-B", ROOT / "apps/bench/queries.py", *arguments)
 
 
@@ -78,15 +61,6 @@ def rate(row, name):
     return (found := subject(row, name)) and found["million_a_second"]
 
 
-def mean_ratio(rows, pair):
-    found = [r[1] for row in rows if (r := ray_ratio(row, *pair))]
-    return geometric_mean(found) if found else None
-
-
-def bytes_each(scene, name):
-    return scene["bytes"][name] / scene["primitives"] if name in scene["bytes"] else None
-
-
 def number(x, digits=2):
     return "–" if x is None else f"{x:,.{digits}f}"
 
@@ -101,14 +75,12 @@ def rows_of(scenes, threads=1):
 
 
 def summary(scenes):
-    rows = []
-    for scene in scenes:
-        seconds, own, theirs = scene["builds"][0]["seconds"], bytes_each(scene, "limn"), bytes_each(scene, "Embree")
-        built = ratio(seconds["limn"], seconds.get("Embree"))
-        rows.append([scene["name"], *(number(mean_ratio([row for _, row in rows_of([scene])], r)) for r in RATIOS),
-                     number(built and built[1]), number(theirs and theirs / own)])
-    rows.append(["all", *(number(mean_ratio([row for _, row in rows_of(scenes)], r)) for r in RATIOS), "", ""])
-    return table(["one thread", *map(" / ".join, RATIOS), "building", "memory"], rows)
+    def means(rows):
+        found = [[r[1] for _, row in rows if (r := ray_ratio(row, *pair))] for pair in RATIOS]
+        return [number(geometric_mean(ratios)) if ratios else "–" for ratios in found]
+
+    rows = [[scene["name"], *means(rows_of([scene]))] for scene in scenes]
+    return table(["one thread", *map(" / ".join, RATIOS)], [*rows, ["all", *means(rows_of(scenes))]])
 
 
 def ray_tables(scenes):
@@ -140,24 +112,11 @@ def building(scenes):
             own, theirs = build["seconds"]["limn"], build["seconds"].get("Embree")
             rows.append([scene["name"], f"{scene['primitives']:,}", build["threads"], f"{median(own):.3g}",
                          f"{median(theirs):.3g}" if theirs else "–", spread(ratio(own, theirs)),
-                         *(number(bytes_each(scene, name), 1) for name in ("limn", "Embree"))])
+                         *(number(scene["bytes"].get(name, 0) / scene["primitives"], 1)
+                           for name in ("limn", "Embree"))])
     return "## Building and memory\n\n" + table(
         ["scene", "primitives", "threads", "limn, s", "Embree, s", "limn / Embree", "limn, bytes each",
          "Embree, bytes each"], rows)
-
-
-def growth(scenes):
-    figure, axis = plt.subplots(figsize=(7, 4.5))
-    for kind, style in (("displaced sphere", "o-"), ("soup", "s:")):
-        found = [scene for scene in scenes if scene["name"] == kind]
-        for color, renderer in (("C0", "limn"), ("C1", "Embree")):
-            axis.loglog([scene["primitives"] for scene in found], [rate(s["rows"][0], renderer) or 0 for s in found],
-                        style, color=color, label=f"{kind}, {renderer}")
-    axis.set(xlabel="triangles", ylabel="million primary rays a second")
-    axis.legend()
-    figure.savefig(RESULTS / "bench-growth.svg")
-    named = [{**scene, "name": f"{scene['name']}, {scene['primitives']:,}"} for scene in scenes]
-    return "# Growth with the scene", "![growth](bench-growth.svg)", building(named), ray_tables(named)[0]
 
 
 def query_tables(results):
@@ -190,40 +149,33 @@ def faults(results):
 
 def measure(kept, options, models):
     results = {}
-    chosen = options.scene or [*(["cornell"] if options.quick else SCENES), "growth", "queries"]
+    chosen = options.scene or PARTS
     scenes = [name for name in chosen if name in SCENES]
-    rays, scale, judged, asked, timed, most = (
-        (8192, 0.01, 10, 20, 2000, 1e4) if options.quick else
-        (2 ** 18, 1, 200, 2000, 10 ** 6, 2e7) if options.full else (2 ** 17, 1, 40, 200, 10 ** 6, 2e6))
+    rays, judged, asked, most = (2 ** 18, 200, 2000, 2e7) if options.full else (2 ** 17, 40, 200, 2e6)
     if scenes or models:
         named = [word for name in scenes for word in ("--scene", name)]
-        results["rays"] = kept("rays", lambda: run_json(*LIMN_BENCH, *named, *models, "--scale", scale, "--rays",
-                                                        rays, "--rounds", 9)["scenes"])
-        results["truth"] = kept("truth", lambda: run_json(BIN / "limn_bench_truth", scale, min(rays, 65536), judged,
-                                                          *scenes, *models))
+        results["rays"] = kept("rays", lambda: run_json(*LIMN_BENCH, *named, *models, "--rays", rays,
+                                                        "--rounds", 9)["scenes"])
+        results["truth"] = kept("truth", lambda: run_json(BIN / "limn_bench_truth", 1, 65536, judged, *scenes, *models))
     if "growth" in chosen:
         results["growth"] = [kept(f"{scene} {n}", lambda: run_json(
-            *LIMN_BENCH, "--scene", scene, "--scale", n / whole, "--rays", min(rays, 65536), "--rounds", 3,
+            *LIMN_BENCH, "--scene", scene, "--scale", n / whole, "--rays", 65536, "--rounds", 3,
             "--build-rounds", 3, "--threads", 1, "--kind", "primary", "--kind", "diffuse1")["scenes"][0])
             for scene, whole in GROWTH.items() for n in (1e3, 1e4, 1e5, 5e5, 2e6, 5e6, 2e7) if n <= most]
     if "queries" in chosen:
-        results["queries"] = kept("queries", lambda: ask_peers(asked, timed, *models))
+        results["queries"] = kept("queries", lambda: ask_peers(asked, 10 ** 6, *models))
     return results
 
 
 def main():
     parser = argparse.ArgumentParser(prog="./build.sh bench", description=__doc__.splitlines()[0])
     parser.add_argument("--full", action="store_true", help="twice the rays, ten times the queries, growth to 2e7")
-    parser.add_argument("--quick", action="store_true", help="few rays of small scenes, to see that all works")
-    parser.add_argument("--scene", action="append", choices=[*SCENES, "growth", "queries"],
-                        help="measure this alone; repeatable (default: all)")
+    parser.add_argument("--scene", action="append", choices=PARTS, help="measure this alone; repeatable (default: all)")
     parser.add_argument("models", nargs="*", metavar="MODEL.obj", help="a model to measure too")
     options = parser.parse_args()
     models = [Path(os.environ.get("LIMN_CALLER", ".")) / model for model in options.models]
-    for model in models:
-        if not model.is_file():
-            parser.error(f"{model}: there is no such file")
-    RESULTS.mkdir(parents=True, exist_ok=True)
+    if missing := [str(model) for model in models if not model.is_file()]:
+        parser.error(f"{', '.join(missing)}: there is no such file")
     head = origin(" ".join(["./build.sh bench", *sys.argv[1:]]))
     kept = Kept("bench", **head)
     results = measure(kept, options, models)
@@ -234,15 +186,14 @@ def main():
         parts += [HEAD, summary(results["rays"]), f"Exact arithmetic judged {judged:,} results of limn.",
                   *ray_tables(results["rays"]), building(results["rays"])]
     if "growth" in results:
-        parts += growth(results["growth"])
+        named = [{**scene, "name": f"{scene['name']}, {scene['primitives']:,}"} for scene in results["growth"]]
+        parts += ["# Growth with the scene", building(named), ray_tables(named)[0]]
     if "queries" in results:
         parts += query_tables(results["queries"])
     write("bench", "Rays and queries", head, results, "\n\n".join(parts))
     kept.forget()
-    for fault in found:
-        print(f"bench: {fault}", file=sys.stderr)
-    return 1 if found else 0
+    sys.exit("\n".join(f"bench: {fault}" for fault in found) or 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -2,14 +2,26 @@
 /// The renderers that are measured: limn, and those of modules.
 #pragma once
 
+#include <time.h>
+
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "bench/rays.h"
-#include "bench/stopwatch.h"
+#include "bench/scenes.h"
 
 namespace limn::bench {
+
+// What one thread does is measured by the processor's time that it takes, so that other programs count less. What
+// several threads do is measured by the time that passes.
+enum class Clock { wall = CLOCK_MONOTONIC, process = CLOCK_PROCESS_CPUTIME_ID, thread = CLOCK_THREAD_CPUTIME_ID };
+
+// Returns the time of a clock.
+inline double seconds(Clock clock) {
+    timespec time{};
+    clock_gettime(static_cast<clockid_t>(clock), &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 // The result of a ray. A ray that only asks whether there is a hit has t = 0 for a hit, and nothing else.
 struct Answer {
@@ -36,7 +48,7 @@ public:
 // A scene that a contender has built. The subjects keep it alive.
 struct BuiltScene {
     double seconds = 0;     // time of building
-    std::size_t bytes = 0;  // memory of the scene, including arrays that it shares with the geometry
+    std::size_t bytes = 0;  // memory of the scene, including arrays that limn shares with the geometry
     std::vector<std::unique_ptr<Subject>> subjects;  // single rays first
 };
 

@@ -2,16 +2,15 @@
 
 transport_scenes.cpp describes the scenes once, and peers/ writes them for each renderer that can express them. Each
 renderer renders a converged reference in two halves. Then all of them take turns at growing numbers of samples on one
-thread, with several seeds. On a machine that does something else meanwhile the seconds say little.
-"""
+thread, with several seeds. On a machine that does something else meanwhile the seconds say little."""
 
 import argparse
 import math
 import os
-import statistics
 import sys
 import tempfile
 from pathlib import Path
+from statistics import mean, median
 
 import promise
 from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer, compare
@@ -21,6 +20,8 @@ LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-ligh
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
 ERROR = 1e-3  # relMSE whose seconds are stated
 DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
+STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"),
+          "luxcore": ("C2", "v-")}
 
 
 def parse_arguments():
@@ -35,10 +36,9 @@ def parse_arguments():
     parser.add_argument("--cap", type=float, metavar="SECONDS",
                         help="of the longest render, and of half a reference (5; at size 400 40)")
     a = parser.parse_args()
-    large = a.size == 400
     a.seeds = a.seeds or (50 if a.promise else 4)
-    a.cap = a.cap or (40 if large else 5)
-    a.scene = a.scene or (promise.SCENES if a.promise else LARGE_SCENES if large else SCENES)
+    a.cap = a.cap or (40 if a.size == 400 else 5)
+    a.scene = a.scene or (promise.SCENES if a.promise else LARGE_SCENES if a.size == 400 else SCENES)
     a.peer = [key for key in a.peer or PEERS if key != "none"]
     return a
 
@@ -103,15 +103,12 @@ def measure(scene, renderers, a):
                     rung["seconds"].append(seconds)
                     rung["errors"].append(compared["corrected_relmse"])
                     rung["reference_error"] = compared["reference_relmse"]
-            active = [renderer for renderer in active if goes_on(rows[renderer.key]["rungs"][-1], a.cap)]
+            # Go on where the next rung is short enough, and this one is not better yet than its reference.
+            rungs = ((renderer, rows[renderer.key]["rungs"][-1]) for renderer in active)
+            active = [renderer for renderer, rung in rungs if GROWTH * median(rung["seconds"]) <= a.cap
+                      and mean(rung["errors"]) > rung["reference_error"]]
             spp *= GROWTH
     return rows
-
-
-def goes_on(rung, cap):
-    """Whether the next rung is short enough, and this one not better yet than its reference."""
-    return (GROWTH * statistics.median(rung["seconds"]) <= cap
-            and statistics.mean(rung["errors"]) > rung["reference_error"])
 
 
 def seconds_to(error, curve):
@@ -122,7 +119,7 @@ def seconds_to(error, curve):
         return math.inf, True
     goal = math.log(error)
     near = sorted(known, key=lambda point: abs(point[1] - goal))[:3]
-    x, y = (statistics.mean(axis) for axis in zip(*near))
+    x, y = (mean(axis) for axis in zip(*near))
     spread = sum((p[0] - x) ** 2 for p in near)
     slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
     if not -3 < slope < -0.3:  # noise hides the convergence: take that of independent samples
@@ -132,12 +129,12 @@ def seconds_to(error, curve):
 
 def seconds_by_seed(error, rungs):
     """In ascending order. A rung has the lists "seconds" and "errors" with an entry for each seed."""
-    curves = zip(*([(statistics.median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
+    curves = zip(*([(median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
     return sorted(seconds_to(error, curve) for curve in curves)
 
 
 def median_seconds(row):
-    return statistics.median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
+    return median(seconds for seconds, _ in seconds_by_seed(ERROR, row["rungs"]))
 
 
 def solves_another_problem(difference, noise):
@@ -158,68 +155,64 @@ def ratio_cell(rows):
     return f"{median_seconds(rows['limn']) / times[best]:.2f} of {best}" if best else "–"
 
 
-def rate_cell(row, pixels):
-    rung = row["rungs"][-1]
-    return f"{1e-6 * rung['spp'] * pixels / statistics.median(rung['seconds']):.2f}"
-
-
-def agreement_cell(row):
-    difference, noise = row["agreement"]
-    text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
-    return f"**{text}**" if solves_another_problem(difference, noise) else text
-
-
 def page(scenes, a, plot):
     keys = ["limn", *a.peer]
 
-    def rows_of(cell):
-        return [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys)]
-                for scene, rows in scenes.items()]
+    def table_of(cell, *more):
+        rows = [[scene, *(cell(rows[key]) if rows[key]["rungs"] else "–" for key in keys),
+                 *(of_all(rows) for _, of_all in more)] for scene, rows in scenes.items()]
+        return table(["scene", *keys, *(name for name, _ in more)], rows)
 
-    known = {key: row["about"] for rows in scenes.values() for key, row in rows.items() if "about" in row}
-    about = "".join(f"- {key}: {said}\n" for key, said in known.items())
-    seconds = [[*row, ratio_cell(rows)] for row, rows in zip(rows_of(seconds_cell), scenes.values())]
-    failed = "".join(f"- {scene}: {row['failed']}\n" for scene, rows in scenes.items() for row in rows.values()
-                     if "failed" in row)
+    def rate_cell(row):
+        rung = row["rungs"][-1]
+        return f"{1e-6 * rung['spp'] * a.size**2 / median(rung['seconds']):.2f}"
+
+    def agreement_cell(row):
+        difference, noise = row["agreement"]
+        text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
+        return f"**{text}**" if solves_another_problem(difference, noise) else text
+
+    known = {f"- {key}: {row['about']}\n" for rows in scenes.values() for key, row in rows.items() if "about" in row}
+    failed = "\n".join(f"- {scene}: {row['failed']}" for scene, rows in scenes.items() for row in rows.values()
+                       if "failed" in row)
     return f"""{a.seeds} seeds.
 
-{about}
+{"".join(sorted(known))}
+
 ## Seconds to relMSE {ERROR:g} on one thread
 
 Medians over the seeds, with the least and the largest. A `~` marks what is extrapolated.
 
-{table(["scene", *keys, "limn / fastest peer"], seconds)}
+{table_of(seconds_cell, ("limn / fastest peer", ratio_cell))}
 ![curves]({plot})
 
 ## Million samples a second on one thread
 
-{table(["scene", *keys], rows_of(lambda row: rate_cell(row, a.size**2)))}
+{table_of(rate_cell)}
 ## Difference from limn's picture
 
 Root mean square of the relative differences of 10x10 blocks beyond noise, ± the noise. If it is bold, the renderer
 solves another problem and is not compared.
 
-{table(["scene", *keys], rows_of(agreement_cell))}
+{table_of(agreement_cell)}
 {failed}"""
 
 
 def draw(scenes, path):
-    import matplotlib
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     lines = -(-len(scenes) // 2)
-    figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False)
+    figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False, layout="constrained")
     for axis in axes.flat[len(scenes):]:
         axis.set_axis_off()
     for axis, (scene, rows) in zip(axes.flat, scenes.items()):
         for key, row in rows.items():
-            axis.loglog([statistics.median(rung["seconds"]) for rung in row["rungs"]],
-                        [statistics.mean(rung["errors"]) for rung in row["rungs"]], "o-", label=key)
+            color, style = STYLES[key]
+            axis.loglog([median(rung["seconds"]) for rung in row["rungs"]],
+                        [mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
         axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
         axis.grid(True, alpha=0.3)
         axis.legend()
-    figure.tight_layout()
     figure.savefig(path)
 
 

@@ -1,16 +1,15 @@
-#include "bench/describe_scene.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <span>
 
+#include "bench/transport_scenes.h"
+#include "json_output.h"
 #include "limn/core/error.h"
 #include "limn/record_sink.h"
 
 namespace limn::bench {
-
 namespace {
 
 using app::Json;
@@ -20,14 +19,12 @@ void require(bool told, const char* what) {
     if (!told) throw Error(std::string("describe: the peers are not told of ") + what);
 }
 
-Json triple(const Point3& p) { return {p.x, p.y, p.z}; }
-Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json triple(const auto& v) { return {v.x, v.y, v.z}; }
 Json triple(const Color& c) { return {c.r, c.g, c.b}; }
 Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
 Json pair(const Float2& uv) { return {uv.u, uv.v}; }
 
-template <class Elements, class ToJson>
-Json list(const Elements& elements, const ToJson& to_json) {
+Json list(const auto& elements, const auto& to_json) {
     Json all = Json::array();
     for (const auto& element : elements) all.push_back(to_json(element));
     return all;
@@ -39,19 +36,14 @@ Json picture(const Image& image, double scale = 1) {
     return {{"width", image.width()}, {"height", image.height()}, {"values", list(image.values(), scaled)}};
 }
 
+Json no_shapes() { return {{"spheres", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}}; }
+
 // Turns records to JSON, everything in the space of the world.
 class Description {
 public:
     explicit Description(const SceneRecords& records) : records_(records) {}
 
-    // Returns the spheres, meshes and media of a BLAS.
-    Json shapes(BlasId id, const Transform& place) const {
-        Json all = {{"spheres", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}};
-        add_shapes(id, place, all);
-        return all;
-    }
-
-private:
+    // Adds the spheres, meshes and media of a BLAS to the lists of these names in `all`.
     void add_shapes(BlasId id, const Transform& place, Json& all) const {
         for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
             if (range.kind == PrimitiveKind::instance) {
@@ -72,13 +64,15 @@ private:
                 const MediumRecord& m = records_.media[range.first_row];
                 const MaterialRecord& phase = records_.materials.at(static_cast<std::size_t>(m.phase));
                 require(phase.kind == "isotropic", "other phase functions");
-                all["media"].push_back({{"boundary", shapes(m.boundary, place)},
-                                        {"density", m.density},
-                                        {"albedo", texture(phase.texture)}});
+                Json boundary = no_shapes();
+                add_shapes(m.boundary, place, boundary);
+                all["media"].push_back(
+                    {{"boundary", boundary}, {"density", m.density}, {"albedo", texture(phase.texture)}});
             }
         }
     }
 
+private:
     // Neighbours of one material become one mesh: a box is closed.
     void add_quads(std::span<const QuadRecord> quads, const Transform& place, Json& all) const {
         while (!quads.empty()) {
@@ -163,9 +157,8 @@ private:
 Json describe_light(const LightSource& light) {
     const auto* sun = std::get_if<SunLight>(&light);
     require(sun, "lights that are neither shapes nor suns");
-    return {{"direction", triple(sun->direction)},
-            {"irradiance", triple(sun->irradiance)},
-            {"angular_radius", sun->angular_radius}};
+    const Json direction = triple(sun->direction), irradiance = triple(sun->irradiance);
+    return {{"direction", direction}, {"irradiance", irradiance}, {"angular_radius", sun->angular_radius}};
 }
 
 Json describe_camera(const Camera& c) {
@@ -183,16 +176,17 @@ Json describe_camera(const Camera& c) {
 
 Json describe_scene(const Figure& figure) {
     const Scene& scene = figure.scene;
-    const auto& map = scene.environment;
-    require(!map || map->world_from_map() == Transform{}, "turned environment maps");
     RecordSink sink;
     for (const auto& object : scene.objects()) object->lower(sink);
-    Json json = {{"max_depth", figure.settings.max_depth},
-                 {"camera", describe_camera(figure.camera)},
-                 {"background", {{"bottom", triple(scene.background.bottom)}, {"top", triple(scene.background.top)}}},
-                 {"environment", map ? picture(*map->image(), map->scale()) : Json()},
-                 {"suns", list(scene.lights(), describe_light)}};
-    json.update(Description(sink.records()).shapes(BlasId::root, Transform{}));
+    Json json = no_shapes();
+    Description(sink.records()).add_shapes(BlasId::root, Transform{}, json);
+    json["max_depth"] = figure.settings.max_depth;
+    json["camera"] = describe_camera(figure.camera);
+    json["background"] = {{"bottom", triple(scene.background.bottom)}, {"top", triple(scene.background.top)}};
+    json["suns"] = list(scene.lights(), describe_light);
+    const EnvironmentMap* map = scene.environment.get();
+    require(!map || map->world_from_map() == Transform{}, "turned environment maps");
+    json["environment"] = map ? picture(*map->image(), map->scale()) : Json();
     return json;
 }
 

@@ -6,14 +6,12 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <numeric>
 
 #include "bench/contender.h"
 #include "limn/core/error.h"
 #include "module.h"
 
 namespace limn::bench {
-
 namespace {
 
 alignas(64) constexpr int kAllLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
@@ -31,14 +29,14 @@ public:
         packets_.assign((set.rays.size() + kWidth - 1) / kWidth, {});
         t_.assign(packets_.size(), {});
         hits_.assign(set.any ? 0 : packets_.size(), {});
-        const auto f = [](double x) { return static_cast<float>(x); };
         for (std::size_t i = 0; i < packets_.size() * kWidth; ++i) {
             const limn::Ray& from = set.rays[std::min(i, set.rays.size() - 1)];  // lanes beyond the last ray repeat it
             RTCRayNt<kLanes>& to = packets_[i / kWidth];
             const std::size_t k = i % kWidth;
-            to.org_x[k] = f(from.origin.x), to.org_y[k] = f(from.origin.y), to.org_z[k] = f(from.origin.z);
-            to.dir_x[k] = f(from.direction.x), to.dir_y[k] = f(from.direction.y), to.dir_z[k] = f(from.direction.z);
-            to.tnear[k] = f(from.t_min), to.tfar[k] = f(from.t_max);
+            const Float3 origin = to_float3(from.origin), direction = to_float3(from.direction);
+            to.org_x[k] = origin.x, to.org_y[k] = origin.y, to.org_z[k] = origin.z;
+            to.dir_x[k] = direction.x, to.dir_y[k] = direction.y, to.dir_z[k] = direction.z;
+            to.tnear[k] = static_cast<float>(from.t_min), to.tfar[k] = static_cast<float>(from.t_max);
             to.mask[k] = 0xffffffff;
         }
     }
@@ -54,9 +52,17 @@ public:
         for (std::size_t p = first / kWidth; p < end; p += kPackets) {
             const std::size_t packets = std::min(kPackets, end - p);
             alignas(64) Rays rays[kPackets];
-            for (std::size_t k = 0; k < packets; ++k) fill(rays[k], p + k);
+            for (std::size_t k = 0; k < packets; ++k) {
+                rays[k].ray = packets_[p + k];
+                if (set_->any) continue;
+                std::fill_n(rays[k].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
+                std::fill_n(rays[k].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
+            }
             ask(context, rays, packets);
-            for (std::size_t k = 0; k < packets; ++k) keep(rays[k], p + k);
+            for (std::size_t k = 0; k < packets; ++k) {
+                std::copy_n(rays[k].ray.tfar, kWidth, t_[p + k].data());
+                if (!set_->any) hits_[p + k] = rays[k].hit;
+            }
         }
         _mm_setcsr(before);
     }
@@ -74,13 +80,6 @@ private:
     static constexpr std::size_t kPackets = kStreams ? 64 / kWidth : 1;
 
     using Rays = RTCRayHitNt<kLanes>;
-
-    void fill(Rays& rays, std::size_t packet) const {
-        rays.ray = packets_[packet];
-        if (set_->any) return;
-        std::fill_n(rays.hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(rays.hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
-    }
 
     // A packet for any hits is the first part of one for closest hits.
     void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
@@ -103,11 +102,6 @@ private:
             any ? rtcOccluded16(kAllLanes, scene, &context, static_cast<RTCRay16*>(rays))
                 : rtcIntersect16(kAllLanes, scene, &context, static_cast<RTCRayHit16*>(rays));
         }
-    }
-
-    void keep(const Rays& rays, std::size_t packet) {
-        std::copy_n(rays.ray.tfar, kWidth, t_[packet].data());
-        if (!set_->any) hits_[packet] = rays.hit;
     }
 
     const std::shared_ptr<RTCSceneTy> scene_;
@@ -147,38 +141,40 @@ void attach(const ScenePointer& scene, RTCGeometry geometry) {
     rtcReleaseGeometry(geometry);
 }
 
-float* new_vertices(RTCGeometry geometry, RTCFormat format, std::size_t floats, std::size_t count) {
-    return static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, format, floats * sizeof(float), count));
+// Gives the geometry a copy of the values. Embree pads it, as it reads 16 bytes of the last vertex.
+template <class T>
+void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
+    std::memcpy(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size()), values.data(),
+                values.size() * sizeof(T));
 }
 
-void attach_mesh(const ScenePointer& scene, const MeshData& mesh) {
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree reads 16 bytes of the last vertex, so that the vertices are copied.
-    std::memcpy(new_vertices(geometry, RTC_FORMAT_FLOAT3, 3, mesh.vertices.size()), mesh.vertices.data(),
-                mesh.vertices.size() * sizeof(Float3));
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
-                               sizeof(Index3), mesh.triangles.size());
-    attach(scene, geometry);
-}
-
-void attach_balls(const ScenePointer& scene, const std::vector<Ball>& balls) {
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    float* to = new_vertices(geometry, RTC_FORMAT_FLOAT4, 4, balls.size());
-    for (const Ball& ball : balls)
-        for (const double x : {ball.center.x, ball.center.y, ball.center.z, ball.radius}) *to++ = static_cast<float>(x);
+void attach_faces(const ScenePointer& scene, RTCGeometryType type, const std::vector<Float3>& vertices,
+                  RTCFormat face_format, const auto& faces) {
+    const RTCGeometry geometry = rtcNewGeometry(device(), type);
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, vertices);
+    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, face_format, faces);
     attach(scene, geometry);
 }
 
 void attach_quads(const ScenePointer& scene, const std::vector<Parallelogram>& quads) {
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_QUAD);
-    float* to = new_vertices(geometry, RTC_FORMAT_FLOAT3, 3, 4 * quads.size());
-    for (const Parallelogram& q : quads)
-        for (const Point3& p : {q.corner, q.corner + q.edge_u, q.corner + q.edge_u + q.edge_v, q.corner + q.edge_v})
-            for (const double x : {p.x, p.y, p.z}) *to++ = static_cast<float>(x);
-    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                                                                 4 * sizeof(unsigned), quads.size()));
-    std::iota(index, index + 4 * quads.size(), 0U);
+    std::vector<Float3> corners;
+    std::vector<std::array<unsigned, 4>> faces;
+    for (unsigned i = 0; const auto& [p, u, v] : quads) {
+        for (const Point3& corner : {p, p + u, p + u + v, p + v}) corners.push_back(to_float3(corner));
+        faces.push_back({i, i + 1, i + 2, i + 3});
+        i += 4;
+    }
+    attach_faces(scene, RTC_GEOMETRY_TYPE_QUAD, corners, RTC_FORMAT_UINT4, faces);
+}
+
+void attach_balls(const ScenePointer& scene, const std::vector<Ball>& balls) {
+    std::vector<std::array<float, 4>> points;
+    for (const Ball& ball : balls) {
+        const Float3 center = to_float3(ball.center);
+        points.push_back({center.x, center.y, center.z, static_cast<float>(ball.radius)});
+    }
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, points);
     attach(scene, geometry);
 }
 
@@ -196,17 +192,19 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
     constexpr RTCSceneFlags kFlags = kRobust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     const std::ptrdiff_t before = bytes_held;
     const ScenePointer scene = new_scene(kFlags), inner = geometry.places.empty() ? scene : new_scene(kFlags);
-    if (geometry.mesh) attach_mesh(inner, geometry.mesh->data());
+    if (geometry.mesh) {
+        const MeshData& mesh = geometry.mesh->data();
+        attach_faces(inner, RTC_GEOMETRY_TYPE_TRIANGLE, mesh.vertices, RTC_FORMAT_UINT3, mesh.triangles);
+    }
     if (!geometry.balls.empty()) attach_balls(scene, geometry.balls);
     if (!geometry.quads.empty()) attach_quads(scene, geometry.quads);
     for (const Transform& place : geometry.places) attach_instance(scene, inner, place);
-    const Stopwatch watch(clock);  // only Embree's own work is timed
+    const double begin = seconds(clock);  // only Embree's own work is timed
     if (inner != scene) rtcCommitScene(inner.get());
     rtcCommitScene(scene.get());
-    BuiltScene built{.seconds = watch.seconds(), .bytes = 0, .subjects = {}};
+    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = 0, .subjects = {}};
     if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw Error("Embree does not build " + geometry.name);
     built.bytes = static_cast<std::size_t>(bytes_held - before);
-    if (geometry.mesh) built.bytes += geometry.mesh->data().triangles.size() * sizeof(Index3);  // are shared
     built.subjects.push_back(std::make_unique<EmbreeSubject<1, false>>(kRobust ? "Embree robust" : "Embree", scene));
     if (kRobust) return built;
     built.subjects.push_back(std::make_unique<EmbreeSubject<4, false>>("Embree 4", scene));
@@ -218,7 +216,6 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
 }
 
 }  // namespace
-
 }  // namespace limn::bench
 
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;

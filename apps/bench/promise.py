@@ -37,7 +37,7 @@ def measure(scene, seeds):
 
 
 def share(cases):
-    return f"{sum(cases)} of {len(cases)}" + (f", {100 * sum(cases) / len(cases):.0f} %" if cases else "")
+    return f"{sum(cases)} of {len(cases)}, {100 * sum(cases) / max(1, len(cases)):.0f} %"
 
 
 def coverage_rows(scenes):

@@ -2,13 +2,14 @@
 
 Is run by bench.py in an environment with these libraries. Judges the answers to RAYS rays of each kind. Takes the time
 of TIMED rays or points. A library that fails or isn't installed has null.
-"""
+
+All coordinates of meshes and rays are whole multiples of 2^-GRID, so that float32 holds them exactly, all libraries get
+the same ones, and the truth can be computed exactly."""
 
 import importlib
 import json
 import multiprocessing
 import os
-import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -18,27 +19,104 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: it
 
 import numpy as np  # noqa: E402
 
-from query_truth import KINDS, floats, make_rays, meshes, truth  # noqa: E402
-from results import ROOT  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/python"))
+from meshes import icosphere, voxels  # noqa: E402
 
+GRID = 16
+KINDS = ("at random", "at vertices", "along edges", "in planes of faces")
 ROUNDS, LONG = 3, 10  # the least of some rounds, of which none begins after so many seconds
 TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther away
 # The most rays or points of slow libraries and questions.
-MOST = {"trimesh": 200, "cgal": 200000, "compute_closest_points": 20000, "compute_signed_distance": 20000}
+MOST = {"trimesh": 200, "compute_closest_points": 20000, "compute_signed_distance": 20000}
 ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")
 OPEN3D = ("cast_rays", "test_occlusions", "list_intersections", "count_intersections", *ON_POINTS[:3])
 TRIMESH = ("intersects_first", "intersects_location", "contains_points")
 MODULES = {"limn.open3d": "limn.open3d", "open3d": "open3d", "limn.trimesh": "limn.trimesh",
            "embreex": "trimesh.ray.ray_pyembree", "trimesh": "trimesh.ray.ray_triangle"}
-QUESTIONS = {"limn.open3d": OPEN3D, "open3d": OPEN3D, "limn.trimesh": TRIMESH, "embreex": TRIMESH, "trimesh": TRIMESH,
-             "cgal": ("cast_rays",)}
-THREADED = ("limn.open3d", "open3d", "limn.trimesh")
+QUESTIONS = {library: OPEN3D if library.endswith("open3d") else TRIMESH for library in MODULES}
+
+
+def floats(whole):
+    """Returns whole numbers of the grid as float32."""
+    return (whole * 2.0 ** -GRID).astype(np.float32)
+
+
+def meshes(models):
+    """Returns vertices as whole numbers, in the cube from -1 to 1, and faces, by name."""
+    # A ball and a ring of a grid's cells have edges that four faces share, and many faces in a plane.
+    x, y, z = (np.indices((24, 24, 24)) + 0.5) / 12 - 1
+    cells = (x * x + y * y + z * z < 0.3) ^ ((np.hypot(x, y) - 0.7) ** 2 + z * z < 0.05)
+    found = {"icosphere": icosphere(6), "voxels": voxels(cells)}
+    for path in models:
+        mesh = importlib.import_module("trimesh").load(path, force="mesh", process=False)
+        found[path.stem] = mesh.vertices, mesh.faces
+    for name, (vertices, faces) in found.items():
+        lower, upper = vertices.min(axis=0), vertices.max(axis=0)
+        scaled = (vertices.astype(float) - (lower + upper) / 2) * 2 / (upper - lower).max()
+        found[name] = np.rint(scaled * 2 ** GRID).astype(np.int64), faces.astype(np.int64)
+    return found
+
+
+def is_closed(vertices, faces):
+    """Returns whether each edge, by its positions, is used as often one way as the other."""
+    _, number = np.unique(vertices, axis=0, return_inverse=True)
+    ends = number.reshape(-1)[faces[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2)
+    ends = ends[ends[:, 0] != ends[:, 1]]
+    code = lambda pairs: np.sort(pairs[:, 0] * len(vertices) + pairs[:, 1])
+    return np.array_equal(code(ends), code(ends[:, ::-1]))
+
+
+def make_rays(kind, vertices, faces, count, seed):
+    """Returns (count, 6) whole numbers: origin and direction."""
+    rng = np.random.default_rng([seed, KINDS.index(kind)])
+    a, b, c = vertices[faces[rng.integers(len(faces), size=count)]].transpose(1, 0, 2)
+    if kind in ("at random", "at vertices"):
+        start = rng.integers(-3 << (GRID - 1), 3 << (GRID - 1), (count, 3))
+        target = rng.integers(-1 << GRID, 1 << GRID, (count, 3)) if kind == "at random" else a
+        return np.concatenate([start, target - start], axis=1)
+    k = rng.integers(1, 4, (count, 1))
+    if kind == "along edges":
+        return np.concatenate([a - k * (b - a), b - a], axis=1)
+    m, n = rng.integers(-2, 3, (2, count, 1))
+    way = np.where((m == 0) & (n == 0), c - a, m * (b - a) + n * (c - a))
+    return np.concatenate([a + k * (a - b), way], axis=1)
+
+
+def meets(triangles, origin, direction):
+    """Returns t >= 0 of each triangle that the ray meets, and whether that is on an edge. Triangles in whose plane the
+    ray lies are left out. Only t is rounded: products of three numbers below 2^20 have sums of six below 2^63."""
+    corners = triangles - origin
+    assert max(np.abs(corners).max(), np.abs(direction).max()) < 1 << 20
+    a, b, c = corners.transpose(1, 0, 2)
+    ab = np.cross(a, b)
+    # Six times the signed volumes of the direction with each edge, and of the triangle with the origin.
+    parts = np.stack([np.cross(b, c) @ direction, np.cross(c, a) @ direction, ab @ direction])
+    volume, total = (ab * c).sum(axis=1), parts.sum(axis=0)
+    met = (total != 0) & ((parts >= 0).all(axis=0) | (parts <= 0).all(axis=0))
+    met &= np.sign(volume) * np.sign(total) >= 0
+    return volume[met] / total[met], (parts[:, met] == 0).any(axis=0)
+
+
+def is_inside(triangles, point, rng):
+    """Returns the parity along a ray that meets no edge, or -1 for a point on the surface."""
+    while True:
+        t, on_edge = meets(triangles, point, rng.integers(-1 << GRID, 1 << GRID, 3))
+        if (t == 0).any():
+            return -1
+        if not on_edge.any():
+            return len(t) % 2
+
+
+def truth(vertices, faces, rays):
+    """Returns t of the nearest hit, inf for none; and whether the origin is inside, -1 if that is undefined."""
+    rng, triangles, closed = np.random.default_rng(1), vertices[faces], is_closed(vertices, faces)
+    hits = [meets(triangles, ray[:3], ray[3:])[0] for ray in rays]
+    inside = [is_inside(triangles, ray[:3], rng) if closed else -1 for ray in rays]
+    return np.array([min(t[t > 0], default=np.inf) for t in hits]), np.array(inside)
 
 
 def tracer(library, vertices, faces, threads):
     """Returns a function that answers a question."""
-    if library == "cgal":
-        return lambda question, rays: ask_cgal(vertices, faces, rays)
     module = importlib.import_module(MODULES[library])
     if library.endswith("open3d"):
         scene = module.t.geometry.RaycastingScene(threads)
@@ -54,23 +132,12 @@ def given(library, question, rays):
     """Returns the arguments of a question. Points are those that the rays aim at."""
     if question in ON_POINTS:
         return [rays[:, :3] + rays[:, 3:]]
-    return np.split(rays.astype(float), 2, axis=1) if "trimesh" in MODULES.get(library, "") else [rays]
-
-
-def ask_cgal(vertices, faces, rays):
-    """Returns t, counts, and the seconds that CGAL's program took for t."""
-    source, sizes = ROOT / "build/queries/input", [len(vertices), len(faces), len(rays)]
-    np.concatenate([sizes, vertices.ravel(), faces.ravel(), rays.ravel()]).tofile(source, sep=" ", format="%.9g")
-    done = subprocess.run([ROOT / "build/queries/cgal_queries", source], stdout=subprocess.PIPE, check=True, text=True)
-    seconds, *found = np.array(done.stdout.split(), float)
-    return np.array(found[::2]), np.array(found[1::2]), seconds
+    return [rays] if library.endswith("open3d") else np.split(rays.astype(float), 2, axis=1)
 
 
 def answers(library, mesh, rays):
     """Returns t of the nearest hits, inf for none, and counts of hits."""
     ask = tracer(library, *mesh, 0)
-    if library == "cgal":
-        return ask("", rays)[:2]
     if library.endswith("open3d"):
         return ask("cast_rays", rays)["t_hit"].numpy(), ask("count_intersections", rays).numpy()
     origins, ways = given(library, "intersects_location", rays)
@@ -98,8 +165,8 @@ def rate(library, mesh, question, threads, rays):
     arguments, seconds, started = given(library, question, rays), [], time.perf_counter()
     while len(seconds) < ROUNDS and time.perf_counter() - started < LONG:
         begin = time.perf_counter()
-        answer = ask(question, *arguments)
-        seconds.append(answer[2] if library == "cgal" else time.perf_counter() - begin)
+        ask(question, *arguments)
+        seconds.append(time.perf_counter() - begin)
     return len(rays) / min(seconds) / 1e6
 
 
@@ -109,20 +176,9 @@ def measure(library, mesh, judged, timed):
         results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
     for question in QUESTIONS[library]:
         few = min(MOST.get(key, len(timed)) for key in (library, question))
-        for threads in (1, 0) if library in THREADED else (1,):
+        for threads in (1, 0) if library not in ("embreex", "trimesh") else (1,):
             results["rates"][f"{question}, {threads or 'all'}"] = rate(library, mesh, question, threads, timed[:few])
     return results
-
-
-def apart(library, *arguments):
-    """Measures in a process of its own. Returns None if that fails."""
-    print(f"bench: queries of {library}", file=sys.stderr, flush=True)
-    try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-            return pool.submit(measure, library, *arguments).result()
-    except Exception as problem:
-        print(f"bench: {library}: {problem}", file=sys.stderr, flush=True)
-        return None
 
 
 def main(count, timed, *models):
@@ -133,8 +189,14 @@ def main(count, timed, *models):
             rays = make_rays(kind, vertices, faces, count, 7)
             judged[kind] = floats(rays), *truth(vertices, faces, rays)
         rays = floats(make_rays("at random", vertices, faces, timed, 8))
-        results[f"{name}, {len(faces):,} triangles"] = {
-            library: apart(library, (floats(vertices), faces), judged, rays) for library in QUESTIONS}
+        found = results[f"{name}, {len(faces):,} triangles"] = dict.fromkeys(QUESTIONS)
+        for library in QUESTIONS:
+            print(f"bench: queries of {library}", file=sys.stderr, flush=True)
+            try:  # in a process of its own
+                with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+                    found[library] = pool.submit(measure, library, (floats(vertices), faces), judged, rays).result()
+            except Exception as problem:
+                print(f"bench: {library}: {problem}", file=sys.stderr, flush=True)
     print(json.dumps(results))
 
 

@@ -1,8 +1,7 @@
 """Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
 
-Each has a `key`. open(scene) makes it ready and returns its name, version and settings. render(picture, size, spp,
-seed, threads) writes an EXR file and returns the seconds of rendering and the samples a pixel.
-"""
+Each has a `key`. open(scene) makes it ready and returns its name, version and settings. Its render(picture, size, spp,
+seed, threads) writes an EXR file and returns the seconds of rendering and the samples a pixel."""
 
 import json
 import multiprocessing
@@ -16,7 +15,7 @@ SCENES = ("cornell-empty", "cornell", "lamps", "three-spheres", "depth-of-field"
 SCENES_OF_LIMN = ("bouncing", "glass", "fireflies")  # no peer can express them
 PROGRAM = BIN / "limn_transport"
 VENV = ROOT / "build/peers"
-PEERS = {"mitsuba": "mitsuba", "cycles": "bpy"}  # and their packages on PyPI
+PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and their packages on PyPI
 UNIFORM = "uniform"  # limn with the same number of samples in every pixel
 
 
@@ -53,9 +52,8 @@ class Limn:
         self.scene = scene
         return " ".join([checked(BIN / "limn", "--version").strip(), *self.options])
 
-    def render(self, picture, size, spp, seed, threads):
-        options = [f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options]
-        report = limn(self.scene, picture, size, *options)
+    def render(self, path, size, spp, seed, threads):
+        report = limn(self.scene, path, size, f"--spp={spp}", f"--seed={seed}", f"--threads={threads}", *self.options)
         return report["seconds"]["render"], report["spp"]
 
 

@@ -29,6 +29,15 @@ def origin(command):
             "machine": f"{model[1] if model else platform.machine()}, {len(os.sched_getaffinity(0))} cores"}
 
 
+def run_json(*command):
+    """Returns what a program prints. Its exit status may say that a result is wrong."""
+    print(*command, file=sys.stderr, flush=True)
+    run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
+    if run.returncode not in (0, 1) or not run.stdout:
+        sys.exit(f"{command[0]} ended with status {run.returncode}")
+    return json.loads(run.stdout)
+
+
 class Kept:
     """The parts that an interrupted command has measured already. A run with the same origin goes on after them; any
     other run begins again."""

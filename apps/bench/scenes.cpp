@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <numbers>
 
-#include "bench/random.h"
 #include "limn/core/error.h"
 #include "limn/core/warp.h"
 #include "limn/io/obj.h"
@@ -15,10 +14,7 @@
 #include "limn/shape/sphere.h"
 
 namespace limn::bench {
-
 namespace {
-
-Float3 to_float3(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
 
@@ -29,19 +25,17 @@ struct Wave {
     double phase, height;
 };
 
-std::array<Wave, 32> make_waves() {
-    std::array<Wave, 32> waves;
-    for (std::size_t i = 0; i < waves.size(); ++i) {
-        const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
-        const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
-        waves[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
-    }
-    return waves;
-}
-
 // Returns a point of a closed ball with hills: r = 1 + a sum of waves.
 Vec3 on_hills(const Vec3& direction) {
-    static const std::array<Wave, 32> waves = make_waves();
+    static const std::array<Wave, 32> waves = [] {
+        std::array<Wave, 32> made;
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
+            const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
+            made[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
+        }
+        return made;
+    }();
     double r = 1;
     for (const Wave& w : waves) r += w.height * std::sin(dot(w.frequency, direction) + w.phase);
     return r * direction;
@@ -71,10 +65,9 @@ Geometry displaced_sphere(double scale) {
         for (std::uint32_t j = 0; j < cuts; ++j) {
             for (std::uint32_t i = 0; i < cuts; ++i) {
                 const std::uint32_t a = first + j * (cuts + 1) + i, b = a + 1, c = a + cuts + 1, d = c + 1;
-                if (side == 1)
-                    data.triangles.insert(data.triangles.end(), {{a, b, d}, {a, d, c}});
-                else
-                    data.triangles.insert(data.triangles.end(), {{a, d, b}, {a, c, d}});
+                const bool turned = side == 0;
+                data.triangles.push_back(turned ? Index3{a, d, b} : Index3{a, b, d});
+                data.triangles.push_back(turned ? Index3{a, c, d} : Index3{a, d, c});
             }
         }
     }
@@ -82,8 +75,7 @@ Geometry displaced_sphere(double scale) {
 }
 
 // A triangle of any direction. `dimension` is the first of six random numbers.
-template <class Random>
-void add_triangle(MeshData& data, const Vec3& center, double size, const Random& u, std::uint64_t dimension) {
+void add_triangle(MeshData& data, const Vec3& center, double size, const auto& u, std::uint64_t dimension) {
     const auto first = static_cast<std::uint32_t>(data.vertices.size());
     for (std::uint64_t k = dimension; k < dimension + 6; k += 2)
         data.vertices.push_back(to_float3(center + size * sample_uniform_sphere(u(k), u(k + 1))));
@@ -154,7 +146,7 @@ MeshData tree(std::size_t count) {
     data.vertices.push_back({0, 1, 0});
     for (std::uint32_t i = 0; i < kSides; ++i) {
         const double angle = 2 * std::numbers::pi * i / kSides;
-        data.vertices.push_back(to_float3({0.03 * std::cos(angle), 0, 0.03 * std::sin(angle)}));
+        data.vertices.push_back(to_float3(Vec3{0.03 * std::cos(angle), 0, 0.03 * std::sin(angle)}));
         data.triangles.push_back({0, 1 + (i + 1) % kSides, 1 + i});
     }
     for (std::size_t i = kSides; i < count; ++i) {

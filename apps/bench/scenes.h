@@ -1,12 +1,15 @@
 /// \file
-/// The scenes that limn and its peers are given: arrays in which every number is a float32, so that all trace the same.
+/// The scenes and rays that limn and its peers are given. Every number is a float32, so that all trace the same.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "limn/core/ray.h"
+#include "limn/query/compiled_scene.h"
 #include "limn/scene/camera.h"
 #include "limn/scene/scene.h"
 #include "limn/shape/mesh.h"
@@ -38,21 +41,43 @@ struct Geometry {
 
 // The names that make_scene knows.
 const std::vector<std::string>& scene_names();
-
 // `scale` multiplies the number of primitives.
 Geometry make_scene(const std::string& name, double scale);
-
 // \throws FileError
 Geometry load_scene(const std::string& path);
-
 // The description that limn compiles.
 Scene describe(const Geometry& geometry);
-
 std::size_t stored_primitives(const Geometry& geometry);
+
+struct RaySet {
+    std::string name;
+    bool any = false;       // whether there is a hit; else the nearest
+    bool coherent = false;  // neighbours go much the same way
+    std::vector<Ray> rays;
+};
+
+// "primary", "diffuse1" to "diffuse3", "occlusion" and "shadow".
+const std::vector<std::string>& ray_kinds();
+// Returns `count` rays of each kind, the same ones each time. They are fewer where paths leave the scene too soon. A
+// kind without rays has no set. limn's exact hits say where the next rays begin.
+std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count);
+
+inline Float3 to_float3(const auto& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 // The nearest float32, as a double.
 inline double to_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
 inline Vec3 to_float32(const Vec3& v) { return {to_float32(v.x), to_float32(v.y), to_float32(v.z)}; }
 inline Point3 to_float32(const Point3& p) { return {to_float32(p.x), to_float32(p.y), to_float32(p.z)}; }
+
+// Returns a number in [0, 1), a function of its arguments alone, by the mixer SplitMix64 (Steele, Lea, Flood, Fast
+// Splittable Pseudorandom Number Generators, 2014).
+inline double random_number(std::uint64_t seed, std::uint64_t place, std::uint64_t dimension) {
+    std::uint64_t x = seed + 0x9e3779b97f4a7c15 * (place * 64 + dimension + 1);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
 
 }  // namespace limn::bench

@@ -1,33 +1,187 @@
 #include "bench/session.h"
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <thread>
+#include <cmath>
+
+#include "limn/core/error.h"
+#include "limn/render/render.h"
+#include "module.h"
 
 namespace limn::bench {
-
 namespace {
 
 using app::Json;
 
-// A few rounds of building a small scene say little. Building is repeated until it has taken kLeastBuilding seconds or
-// kMostBuilds rounds.
+// limn by its public queries: ray by ray, or in batches.
+class LimnSubject final : public Subject {
+public:
+    // \param batch the rays of each query; 0 for the query of a single ray
+    // \param targets the instruction sets that limn may use
+    LimnSubject(const std::string& subject_name, std::shared_ptr<const CompiledScene> scene, std::size_t batch,
+                std::int64_t targets)
+        : Subject(subject_name), scene_(std::move(scene)), batch_(batch), targets_(targets) {}
+
+    void prepare(const RaySet& set) override {
+        set_ = &set;
+        hits_.assign(set.any ? 0 : set.rays.size(), {});
+        occluded_.assign(set.any ? set.rays.size() : 0, 0);
+    }
+
+    void trace(std::size_t first, std::size_t count) override {
+        hwy::GetChosenTarget().Update(targets_);
+        const std::vector<Ray>& rays = set_->rays;
+        const std::size_t end = first + count;
+        if (batch_ != 0)
+            for (std::size_t i = first; i < end; i += batch_) trace_batch(i, std::min(batch_, end - i));
+        else if (set_->any)
+            for (std::size_t i = first; i < end; ++i) occluded_[i] = scene_->any_hit(rays[i]) ? 1 : 0;
+        else
+            for (std::size_t i = first; i < end; ++i) hits_[i] = scene_->closest_hit(rays[i]).value_or(RayHit{});
+    }
+
+    Answer answer(std::size_t i) const override {
+        if (set_->any) return {.t = occluded_[i] != 0 ? 0 : kInfinity};
+        return {.t = hits_[i].t, .u = hits_[i].u, .v = hits_[i].v, .primitive = hits_[i].primitive};
+    }
+
+private:
+    void trace_batch(std::size_t first, std::size_t count) {
+        const std::span<const Ray> rays = std::span(set_->rays).subspan(first, count);
+        set_->any ? scene_->any_hit(rays, std::span(occluded_).subspan(first, count))
+                  : scene_->closest_hit(rays, std::span(hits_).subspan(first, count));
+    }
+
+    const std::shared_ptr<const CompiledScene> scene_;
+    const std::size_t batch_;
+    const std::int64_t targets_;
+    const RaySet* set_ = nullptr;
+    std::vector<RayHit> hits_;
+    std::vector<std::uint8_t> occluded_;
+};
+
+constexpr double kSameT = 1e-3;  // relative: a larger difference is another surface
+
+// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
+constexpr double kLeastSeconds = 0.004;
+
+void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
+    // Every thread gets several parts.
+    const std::size_t share = rays / (8 * static_cast<std::size_t>(arena.max_concurrency())) / 64 * 64;
+    const std::size_t size = std::clamp<std::size_t>(share, 64, 65536);
+    arena.execute([&] {
+        tbb::parallel_for(std::size_t{0}, (rays + size - 1) / size,
+                          [&](std::size_t i) { subject.trace(i * size, std::min(size, rays - i * size)); });
+    });
+}
+
+// Returns the time of one pass over the rays.
+double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
+    const Clock clock = arena.max_concurrency() == 1 ? Clock::thread : Clock::wall;
+    const double begin = seconds(clock);
+    for (int passes = 1;; ++passes) {
+        trace_all(subject, rays, arena);
+        if (const double spent = seconds(clock) - begin; spent >= kLeastSeconds) return spent / passes;
+    }
+}
+
+}  // namespace
+
+BuiltScene build_limn(const Geometry& geometry, Clock clock) {
+    const Scene description = describe(geometry);  // is not timed
+    const double begin = seconds(clock);
+    const auto scene = std::make_shared<const CompiledScene>(compile(description));
+    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = scene->stats().memory_bytes, .subjects = {}};
+    const auto add = [&](const std::string& name, std::size_t batch, std::int64_t targets) {
+        built.subjects.push_back(std::make_unique<LimnSubject>(name, scene, batch, targets));
+    };
+    const std::int64_t all = hwy::SupportedTargets(), better_than_avx2 = all & (HWY_AVX2 - 1);
+    add("limn", 0, all);
+    if (better_than_avx2 != 0) {
+        add("AVX2", 0, all & ~better_than_avx2);
+        add("AVX2 batch", 4096, all & ~better_than_avx2);
+    }
+    add("limn batch", 4096, all);
+    for (const std::size_t size : {1, 8, 64, 65536}) add("limn batch " + std::to_string(size), size, all);
+    return built;
+}
+
+std::vector<Contender> load_contenders(std::vector<std::string>& notes) {
+    std::vector<Contender> contenders{{.name = "limn", .version = version(), .build = build_limn}};
+    try {
+        reinterpret_cast<AddContenders*>(app::load_module("limn_bench_embree"))(contenders);
+    } catch (const Error& e) {
+        notes.push_back(std::string("without Embree: ") + e.what());
+    }
+    return contenders;
+}
+
+Spread spread_of(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::ranges::sort(values);
+    const auto quantile = [&](double q) {
+        const double place = q * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, values.size() - 1);
+        return std::lerp(values[below], values[above], place - static_cast<double>(below));
+    };
+    return {.median = quantile(0.5), .low = quantile(0.25), .high = quantile(0.75)};
+}
+
+Spread ratio(const Timing& a, const Timing& b) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(a.seconds.size(), b.seconds.size()); ++i)
+        ratios.push_back(b.seconds[i] / a.seconds[i]);
+    return spread_of(std::move(ratios));
+}
+
+std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
+                            int rounds, const std::function<bool()>& keep_going) {
+    tbb::task_arena arena(threads);
+    const std::size_t rays = set.rays.size();
+    std::vector<Timing> timings;
+    for (const auto& subject : subjects) {
+        subject->prepare(set);
+        trace_all(*subject, rays, arena);
+        Timing& timing = timings.emplace_back(Timing{.subject = subject->name});
+        for (std::size_t i = 0; i < rays; ++i) {
+            const Answer expected = subjects.front()->answer(i), found = subject->answer(i);
+            const bool agrees = expected.t == found.t || std::abs(expected.t - found.t) <= kSameT * expected.t;
+            timing.mismatches += agrees ? 0 : 1;
+            timing.differences += expected == found ? 0 : 1;
+        }
+        if (!keep_going()) return timings;
+    }
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t s = 0; s < subjects.size(); ++s) {
+            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena));
+            if (!keep_going()) return timings;
+        }
+    }
+    return timings;
+}
+
+namespace {
+
+// A few rounds of building a small scene say little: building is repeated until one of these is reached.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
 constexpr char kLine[] = "  {:<10} {:>2} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}  {:<18} {:<18} {:<18} {:>8}\n";
 
-// Returns the fastest subject that fits, or null.
+// Returns the fastest subject whose name fits, or null.
 template <class Fits>
 const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
-    const Timing* best = nullptr;
-    for (const Timing& t : timings)
-        if (fits(t.subject) && !t.seconds.empty() &&
-            (best == nullptr || spread_of(t.seconds).median < spread_of(best->seconds).median))
-            best = &t;
-    return best;
+    const auto median = [&](const Timing& t) {
+        return fits(t.subject) && !t.seconds.empty() ? spread_of(t.seconds).median : kInfinity;
+    };
+    const auto best = std::ranges::min_element(timings, {}, median);
+    return best != timings.end() && median(*best) < kInfinity ? &*best : nullptr;
 }
 
 std::string ratio_text(const Timing* a, const Timing* b) {
@@ -36,9 +190,7 @@ std::string ratio_text(const Timing* a, const Timing* b) {
     return fmt::format("{:.2f} ({:.2f}..{:.2f})", r.median, r.low, r.high);
 }
 
-double million_a_second(const Timing& timing, std::size_t rays) {
-    return static_cast<double>(rays) / spread_of(timing.seconds).median * 1e-6;
-}
+double million_a_second(const Timing& timing, double rays) { return 1e-6 * rays / spread_of(timing.seconds).median; }
 
 std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& timings) {
     const auto find = [&](const char* name) { return fastest(timings, [&](const auto& s) { return s == name; }); };
@@ -46,84 +198,81 @@ std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& 
     const Timing* batch = fastest(timings, [](const std::string& s) { return s.starts_with("limn batch"); });
     const Timing* best =
         fastest(timings, [](const std::string& s) { return s.starts_with("Embree") && s != "Embree robust"; });
-    const auto rate = [&](const Timing* t) {
-        return t == nullptr ? "-" : fmt::format("{:.2f}", million_a_second(*t, set.rays.size()));
-    };
+    const auto rays = static_cast<double>(set.rays.size());
+    const auto rate = [&](const Timing* t) { return t ? fmt::format("{:.2f}", million_a_second(*t, rays)) : "-"; };
     const auto differ = [&](const Timing* t) {
-        const auto rays = static_cast<double>(set.rays.size());
-        return t == nullptr ? "-" : fmt::format("{:.1f}", 1e6 * static_cast<double>(t->mismatches) / rays);
+        return t ? fmt::format("{:.1f}", 1e6 * static_cast<double>(t->mismatches) / rays) : "-";
     };
     return fmt::format(kLine, set.name, threads, rate(single), rate(batch), rate(plain), rate(robust), rate(best),
                        best == nullptr || best == plain ? "1" : best->subject.substr(7), ratio_text(single, plain),
                        ratio_text(single, robust), ratio_text(batch, best), differ(plain) + "/" + differ(robust));
 }
 
-class Session {
-public:
-    Session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch)
-        : plan_(plan), contenders_(contenders), watch_(watch) {}
+struct Session {
+    const Plan& plan;
+    const std::vector<Contender>& contenders;
+    const Watch& watch;
+    Results results{};
+    Json scenes = Json::array();
+    double scenes_done = 0;
+    double part = 0;  // of the scene's measurements that is done
+    bool going = true;
 
     Results run() {
-        for (const std::string& name : plan_.scenes)
-            if (goes_on()) measure_scene(make_scene(name, plan_.scale));
-        for (const std::string& path : plan_.models)
+        for (const std::string& name : plan.scenes)
+            if (goes_on()) measure_scene(make_scene(name, plan.scale));
+        for (const std::string& path : plan.models)
             if (goes_on()) measure_scene(load_scene(path));
         Json versions = Json::object();
-        for (const Contender& contender : contenders_) versions[contender.name] = contender.version;
-        results_.json = {{"complete", going_},
-                         {"versions", versions},
-                         {"rounds", plan_.rounds},
-                         {"cores", std::thread::hardware_concurrency()},
-                         {"scenes", scenes_}};
-        return std::move(results_);
+        for (const Contender& contender : contenders) versions[contender.name] = contender.version;
+        results.json = {{"complete", going}, {"versions", versions}, {"rounds", plan.rounds}, {"scenes", scenes}};
+        return std::move(results);
     }
 
-private:
     bool goes_on() {
-        const auto scenes = static_cast<double>(plan_.scenes.size() + plan_.models.size());
-        going_ = going_ && watch_((scenes_done_ + part_) / scenes);
-        return going_;
+        const auto count = static_cast<double>(plan.scenes.size() + plan.models.size());
+        going = going && watch((scenes_done + part) / count);
+        return going;
     }
 
     void measure_scene(const Geometry& geometry) {
         const std::size_t primitives = stored_primitives(geometry);
         Json bytes = Json::object(), builds = Json::array(), rows = Json::array();
-        results_.table += fmt::format("{}: {} primitives", geometry.name, primitives);
+        results.table += fmt::format("{}: {} primitives", geometry.name, primitives);
         std::vector<std::unique_ptr<Subject>> subjects;
-        for (const Contender& contender : contenders_) {
+        for (const Contender& contender : contenders) {
             BuiltScene built = contender.build(geometry, Clock::wall);
             bytes[contender.name] = built.bytes;
-            results_.table += fmt::format("; {} {:.1f} bytes each", contender.name,
-                                          static_cast<double>(built.bytes) / static_cast<double>(primitives));
+            results.table += fmt::format("; {} {:.1f} bytes each", contender.name,
+                                         static_cast<double>(built.bytes) / static_cast<double>(primitives));
             std::ranges::move(built.subjects, std::back_inserter(subjects));
         }
-        results_.table += '\n';
-        for (const int threads : plan_.threads) builds.push_back(measure_builds(geometry, threads));
+        results.table += '\n';
+        for (const int threads : plan.threads) builds.push_back(measure_builds(geometry, threads));
         if (goes_on()) rows = measure_rays(geometry, subjects);
-        scenes_.push_back({{"name", geometry.name},
-                           {"primitives", primitives},
-                           {"bytes", bytes},
-                           {"builds", builds},
-                           {"rows", rows}});
-        ++scenes_done_;
-        part_ = 0;
+        scenes.push_back({{"name", geometry.name},
+                          {"primitives", primitives},
+                          {"bytes", bytes},
+                          {"builds", builds},
+                          {"rows", rows}});
+        ++scenes_done;
+        part = 0;
     }
 
     Json measure_builds(const Geometry& geometry, int threads) {
         std::vector<Timing> timings;
-        for (const Contender& contender : contenders_) timings.push_back({.subject = contender.name});
+        for (const Contender& contender : contenders) timings.push_back({.subject = contender.name});
         // This limits Embree's threads too.
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         const Clock clock = threads == 1 ? Clock::process : Clock::wall;
-        const int most = plan_.build_rounds == 0 ? 0 : std::max(plan_.build_rounds, kMostBuilds);
+        const int most = plan.build_rounds == 0 ? 0 : std::max(plan.build_rounds, kMostBuilds);
         double spent = 0;
-        for (int round = 0; round < most && (round < plan_.build_rounds || spent < kLeastBuilding); ++round) {
-            for (std::size_t i = 0; i < contenders_.size() && goes_on(); ++i) {
-                timings[i].seconds.push_back(contenders_[i].build(geometry, clock).seconds);
+        for (int round = 0; going && round < most && (round < plan.build_rounds || spent < kLeastBuilding); ++round) {
+            for (std::size_t i = 0; i < contenders.size() && goes_on(); ++i) {
+                timings[i].seconds.push_back(contenders[i].build(geometry, clock).seconds);
                 spent += timings[i].seconds.back();
             }
-            if (!going_) break;
         }
         Json seconds = Json::object();
         std::string text;
@@ -134,26 +283,24 @@ private:
             if (&t != &timings.front()) text += " x " + ratio_text(&timings.front(), &t);
         }
         if (!text.empty())
-            results_.table += fmt::format("  built by {} thread{}:{}\n", threads, threads == 1 ? "" : "s", text);
+            results.table += fmt::format("  built by {} thread{}:{}\n", threads, threads == 1 ? "" : "s", text);
         return {{"threads", threads}, {"seconds", seconds}};
     }
 
     Json measure_rays(const Geometry& geometry, const std::vector<std::unique_ptr<Subject>>& subjects) {
-        std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan_.rays);
-        if (!plan_.kinds.empty())
-            std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan_.kinds, set.name) == 0; });
-        const auto measurements =
-            static_cast<double>(sets.size() * plan_.threads.size() * subjects.size()) * (plan_.rounds + 1);
-        results_.table += fmt::format(kLine, "rays", "th", "limn", "batch", "Embree", "robust", "best", "(mode)",
-                                      "limn/Embree", "limn/robust", "batch/best", "differ/M");
+        std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan.rays);
+        if (!plan.kinds.empty())
+            std::erase_if(sets, [&](const RaySet& set) { return std::ranges::count(plan.kinds, set.name) == 0; });
+        const auto measurements = static_cast<double>(sets.size() * plan.threads.size());
+        results.table += fmt::format(kLine, "rays", "th", "limn", "batch", "Embree", "robust", "best", "(mode)",
+                                     "limn/Embree", "limn/robust", "batch/best", "differ/M");
         Json rows = Json::array();
         for (const RaySet& set : sets) {
-            for (const int threads : plan_.threads) {
+            for (const int threads : plan.threads) {
                 if (!goes_on()) return rows;
-                rows.push_back(row(set, threads, measure(subjects, set, threads, plan_.rounds, [&] {
-                                       part_ += 1 / measurements;
-                                       return goes_on();
-                                   })));
+                rows.push_back(
+                    row(set, threads, measure(subjects, set, threads, plan.rounds, [&] { return goes_on(); })));
+                part += 1 / measurements;
             }
         }
         return rows;
@@ -166,31 +313,22 @@ private:
             if (!t.subject.starts_with("Embree")) differences += t.differences;
             if (t.seconds.empty()) continue;
             subjects.push_back({{"name", t.subject},
-                                {"million_a_second", million_a_second(t, set.rays.size())},
+                                {"million_a_second", million_a_second(t, static_cast<double>(set.rays.size()))},
                                 {"mismatches", t.mismatches},
                                 {"seconds", t.seconds}});
         }
         if (differences > 0)
-            results_.fault = fmt::format("{}: {} rays have other results in batches", set.name, differences);
-        results_.table += row_text(set, threads, timings);
+            results.fault = fmt::format("{}: {} rays have other results in batches", set.name, differences);
+        results.table += row_text(set, threads, timings);
         return {{"rays", set.name},   {"count", set.rays.size()},   {"any", set.any},
                 {"threads", threads}, {"differences", differences}, {"subjects", subjects}};
     }
-
-    const Plan& plan_;
-    const std::vector<Contender>& contenders_;
-    const Watch& watch_;
-    Results results_;
-    Json scenes_ = Json::array();
-    double scenes_done_ = 0;
-    double part_ = 0;  // of the scene's measurements that is done
-    bool going_ = true;
 };
 
 }  // namespace
 
 Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch) {
-    return Session(plan, contenders, watch).run();
+    return Session{plan, contenders, watch}.run();
 }
 
 }  // namespace limn::bench

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "bench/describe_scene.h"
 #include "bench/transport_scenes.h"
+#include "json_output.h"
 #include "program.h"
 #include "text_file.h"
 

@@ -1,10 +1,10 @@
 #include "bench/transport_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "bench/random.h"
 #include "bench/scenes.h"
 #include "figures.h"
 #include "gallery.h"
@@ -13,7 +13,6 @@
 #include "scene_parts.h"
 
 namespace limn::bench {
-
 namespace {
 
 using figures::matte;
@@ -55,10 +54,7 @@ Figure still_spheres() {
 // A ball with hills, of 69312 triangles.
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
     MeshData data = make_scene("sphere", 0.035).mesh->data();
-    const auto place = [radius](float coordinate, double middle) {
-        return static_cast<float>(middle + radius * static_cast<double>(coordinate));
-    };
-    for (Float3& v : data.vertices) v = {place(v.x, center.x), place(v.y, center.y), place(v.z, center.z)};
+    for (Float3& v : data.vertices) v = to_float3(center + radius * Vec3{v.x, v.y, v.z});
     return std::make_shared<Mesh>(std::move(data), std::move(material));
 }
 
@@ -177,13 +173,11 @@ std::vector<std::string> transport_scene_names() {
 }
 
 Figure make_transport_scene(const std::string& name) {
-    for (const auto& [known, make] : kScenes) {
-        if (name != known) continue;
-        Figure figure = make();
-        figure.name = name;
-        return figure;
-    }
-    throw ArgumentError("'" + name + "' is not the name of a scene");
+    const auto* found = std::ranges::find(kScenes, name, [](const auto& scene) { return scene.first; });
+    if (found == std::end(kScenes)) throw ArgumentError("'" + name + "' is not the name of a scene");
+    Figure figure = found->second();
+    figure.name = name;
+    return figure;
 }
 
 }  // namespace limn::bench

@@ -10,23 +10,23 @@ try:
 except ImportError:
     sys.exit(77)  # skipped
 
-import query_truth
-from meshes import box  # in tests/python, which query_truth knows
+import queries
+from meshes import box  # in tests/python, which queries knows
 
 
 class Truth(unittest.TestCase):
     def test_solids_are_closed_and_their_normals_point_outward(self):
-        for name, (vertices, faces) in query_truth.meshes([]).items():
-            self.assertTrue(query_truth.is_closed(vertices, faces), name)
+        for name, (vertices, faces) in queries.meshes([]).items():
+            self.assertTrue(queries.is_closed(vertices, faces), name)
             a, b, c = (vertices[faces[:, k]].astype(float) for k in range(3))
             self.assertGreater(np.einsum("ij,ij->i", np.cross(a, b), c).sum(), 0, name)
-            self.assertFalse(query_truth.is_closed(vertices, faces[1:]), name)
+            self.assertFalse(queries.is_closed(vertices, faces[1:]), name)
 
     def test_a_start_on_a_face_is_neither_inside_nor_outside_and_no_hit(self):
         vertices, faces = box()
         rays = np.array([[4, 1, 2, 1, 0, 0], [1, 4, 2, 5, 3, 2], [1, 2, 3, 1, 0, 0], [-1, 2, 3, 1, 0, 0],
                          [0, 0, 1, 1, 1, 0]])
-        nearest, inside = query_truth.truth(vertices.astype(int) * 4, faces.astype(int), rays)
+        nearest, inside = queries.truth(vertices.astype(int) * 4, faces.astype(int), rays)
         self.assertEqual(inside.tolist(), [-1, -1, 1, 0, -1])
         self.assertEqual(nearest.tolist(), [float("inf")] * 2 + [3, 1, 4])
 

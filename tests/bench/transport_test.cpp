@@ -4,11 +4,11 @@
 #include <numbers>
 #include <random>
 
-#include "bench/describe_scene.h"
 #include "bench/transport_scenes.h"
 #include "catch.h"
 #include "figures.h"
 #include "gallery.h"
+#include "json_output.h"
 #include "limn/limn.h"
 
 using namespace limn;

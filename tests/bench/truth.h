@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/rays.h"
+#include "bench/scenes.h"
 
 namespace limn::test {
 

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "bench/scenes.h"
 #include "bench/truth.h"
 
 namespace {

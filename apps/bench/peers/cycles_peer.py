@@ -1,19 +1,17 @@
 """Cycles, through Blender's Python module.
 
 Opaque balls are points of a point cloud, the only exact spheres of Cycles. Balls of glass are meshes with exact
-normals. A ball of light is a point light, which has a radius. Coordinates stay as they are, with y up.
-"""
+normals. A ball of light is a point light, which has a radius. Coordinates stay as they are, with y up."""
 
 import math
 import re
 from pathlib import Path
 
 import bpy
-import bmesh  # part of bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from geometry import index_of, is_checker, is_picture, pixels
+from geometry import index_of, pixels, sphere_mesh
 
 FEW_LIGHTS = 16  # up to here the light tree costs more than it gains
 
@@ -39,10 +37,10 @@ class Shader:
         return node.outputs[0] if node.outputs else None
 
     def color(self, color, space="Linear Rec.709"):
-        if is_checker(color):  # Color1 is used where the sum of the whole parts is odd
+        if "cell" in color:  # Color1 is used where the sum of the whole parts is odd
             return self.node("TexChecker", {"Vector": self.node("NewGeometry"), "Color1": rgba(color["odd"]),
                                             "Color2": rgba(color["even"]), "Scale": 1 / color["cell"]})
-        if is_picture(color):
+        if "picture" in color:
             return self.node("TexImage", image=image_of(pixels(color["picture"]), space), interpolation="Linear",
                              extension="REPEAT")
         return rgba(color)
@@ -56,8 +54,8 @@ def image_of(values, space="Linear Rec.709"):
     height, width, _ = values.shape
     made = bpy.data.images.new("picture", width, height, float_buffer=True)
     made.colorspace_settings.name = space
-    bottom_up = values[::-1]
-    made.pixels.foreach_set(np.concatenate([bottom_up, np.ones((height, width, 1), np.float32)], axis=2).ravel())
+    rows = np.concatenate([values, np.ones((height, width, 1), np.float32)], axis=2)
+    made.pixels.foreach_set(rows[::-1].ravel())
     made.pack()
     return made
 
@@ -66,6 +64,12 @@ def material_of(told, tinted=False):
     """A Blender material. If `tinted`, the colour is an attribute of the points."""
     made = bpy.data.materials.new(told["kind"])
     shader = Shader(made)
+    if told["kind"] == "medium":
+        scattering = told["density"] * np.array(told["albedo"])
+        shader.node("OutputMaterial", {"Volume": shader.node("VolumeCoefficients", {
+            "Absorption Coefficients": told["density"] - scattering, "Scatter Coefficients": scattering,
+            "Anisotropy": 0.0})})
+        return made
     color = shader.node("Attribute", attribute_name="tint") if tinted else shader.color(told.get("color", (1, 1, 1)))
     inputs = {"Color": color, "Roughness": math.sqrt(told.get("alpha", 0))}
     if "normal_map" in told:
@@ -85,18 +89,9 @@ def material_of(told, tinted=False):
         made.cycles.emission_sampling = "FRONT_BACK"
     if "opacity" in told:
         opacity = told["opacity"]
-        share = shader.color(opacity, "Non-Color") if is_picture(opacity) else opacity[0]
+        share = shader.color(opacity, "Non-Color") if "picture" in opacity else opacity[0]
         surface = shader.node("MixShader", {0: share, 1: shader.node("BsdfTransparent"), 2: surface})
     shader.node("OutputMaterial", {"Surface": surface})
-    return made
-
-
-def medium_material(medium):
-    made = bpy.data.materials.new("medium")
-    shader, albedo = Shader(made), np.array(medium["albedo"])
-    shader.node("OutputMaterial", {"Volume": shader.node("VolumeCoefficients", {
-        "Absorption Coefficients": medium["density"] * (1 - albedo), "Scatter Coefficients": medium["density"] * albedo,
-        "Anisotropy": 0.0})})
     return made
 
 
@@ -117,18 +112,6 @@ def add_mesh(told, material):
         data.shade_smooth()
         data.normals_split_custom_set_from_vertices(told["normals"].tolist())
     add(data, material)
-
-
-def add_ball(sphere, material):
-    """Adds a ball as a mesh with its exact normals."""
-    data, ball = bpy.data.meshes.new("ball"), bmesh.new()
-    bmesh.ops.create_uvsphere(ball, u_segments=128, v_segments=64, radius=abs(sphere["radius"]))
-    ball.to_mesh(data)
-    if sphere["radius"] < 0:
-        data.flip_normals()
-    data.shade_smooth()
-    data.normals_split_custom_set_from_vertices([(v.co / sphere["radius"]).normalized() for v in data.vertices])
-    add(data, material).location = sphere["center"]
 
 
 def add_points(spheres, tinted):
@@ -153,31 +136,30 @@ def add_spheres(spheres):
         if material["kind"] == "light":
             add_ball_of_light(sphere)
         elif material["kind"] in ("glass", "rough-glass"):
-            add_ball(sphere, material_of(material))
+            add_mesh(sphere_mesh(sphere, 64), material_of(material))
         else:
-            clouds.setdefault((is_checker(material["color"]), material["kind"]), []).append(sphere)
+            clouds.setdefault(("cell" in material["color"], material["kind"]), []).append(sphere)
     for (checkered, _), balls in sorted(clouds.items()):  # Cycles loses the tints unless their cloud is the first
         add_points(balls, tinted=not checkered)
 
 
+def add_light(kind, power):
+    light = bpy.data.lights.new("light", kind)
+    light.color, light.energy = np.array(power) / max(power), max(power)
+    return light, add(light)
+
+
 def add_ball_of_light(sphere):
-    light = bpy.data.lights.new("ball", "POINT")
+    light, made = add_light("POINT", 4 * math.pi**2 * sphere["radius"] ** 2 * np.array(sphere["material"]["color"]))
     light.shadow_soft_size = sphere["radius"]
     light.use_soft_falloff = False
-    radiance = np.array(sphere["material"]["color"])
-    light.color = radiance / radiance.max()
-    light.energy = 4 * math.pi**2 * sphere["radius"] ** 2 * radiance.max()
-    made = add(light)
     made.location = sphere["center"]
     made.visible_camera = True
 
 
 def add_sun(sun):
-    light = bpy.data.lights.new("sun", "SUN")
+    light, made = add_light("SUN", sun["irradiance"])
     light.angle = math.radians(2 * sun["angular_radius"])
-    irradiance = np.array(sun["irradiance"])
-    light.color, light.energy = irradiance / irradiance.max(), irradiance.max()
-    made = add(light)
     made.rotation_mode = "QUATERNION"
     made.rotation_quaternion = Vector(sun["direction"]).to_track_quat("-Z", "Y")
 
@@ -215,29 +197,6 @@ def add_camera(told):
                                + [[0, 0, 0, 1]])
 
 
-def set_integrator(scene):
-    render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
-    render.engine, cycles.device = "CYCLES", "CPU"
-    render.use_persistent_data = True
-    render.threads_mode = "FIXED"
-    render.resolution_percentage = 100
-    images = render.image_settings
-    images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
-    for name in ("max", "diffuse", "glossy", "transmission", "volume"):
-        # The segments from the camera and to a light do not count.
-        setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
-    cycles.transparent_max_bounces = 64
-    cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.blur_glossy = 0
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.light_sampling_threshold = 0
-    cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = False
-    cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
-    cycles.sampling_pattern = "TABULATED_SOBOL"
-    cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.shapes()) > FEW_LIGHTS
-    cycles.use_auto_tile = False
-
-
 class Peer:
     about = f"Cycles of Blender {bpy.app.version_string}, tabulated Sobol, light tree from {FEW_LIGHTS + 1} lights on"
 
@@ -247,19 +206,35 @@ class Peer:
         for mesh in scene.meshes:
             add_mesh(mesh, material_of(mesh["material"]))
         for medium in scene.media:
-            add_mesh(medium["boundary"], medium_material(medium))
+            add_mesh(medium["boundary"], material_of({**medium, "kind": "medium"}))
         for sun in scene.suns:
             add_sun(sun)
         add_sky(scene)
         add_camera(scene.camera)
-        set_integrator(scene)
+        # Set the integrator.
+        render, cycles = bpy.context.scene.render, bpy.context.scene.cycles
+        render.engine, cycles.device = "CYCLES", "CPU"
+        render.use_persistent_data = True
+        render.threads_mode, render.resolution_percentage = "FIXED", 100
+        images = render.image_settings
+        images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
+        for name in ("max", "diffuse", "glossy", "transmission", "volume"):
+            # The segments from the camera and to a light do not count.
+            setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
+        cycles.transparent_max_bounces = 64
+        cycles.caustics_reflective = cycles.caustics_refractive = True
+        cycles.blur_glossy = cycles.light_sampling_threshold = 0
+        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+        cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_guiding = cycles.use_auto_tile = False
+        cycles.pixel_filter_type, cycles.filter_width = "BOX", 1.0
+        cycles.sampling_pattern = "TABULATED_SOBOL"
+        cycles.use_light_tree = sum(s["material"]["kind"] == "light" for s in scene.spheres + scene.meshes) > FEW_LIGHTS
 
     def render(self, path, size, spp, seed, threads):
         scene = bpy.context.scene
         scene.render.resolution_x = scene.render.resolution_y = size
-        scene.render.threads = threads
+        scene.render.threads, scene.render.filepath = threads, path
         scene.cycles.samples, scene.cycles.seed = spp, seed
-        scene.render.filepath = path
         bpy.ops.render.render(write_still=True)
         # The header of the picture says how long the sampling took.
         time = re.search(rb"cycles\.[^\0]*\.render_time\0string\0....(\d\d):(\d\d\.\d\d)", Path(path).read_bytes(),

@@ -7,6 +7,7 @@ import numpy as np
 RARELY = 0.02  # how often the back of a lamp is sampled if a wall is right behind it, over other sides of lamps
 NEAR = 2  # distance of such a wall
 GAP = 1e-3  # between the two sides of a lamp
+LARGE = 50  # radius of a ball
 LIFT = 0.2  # of media: Mitsuba misses a boundary that touches the floor
 
 
@@ -36,9 +37,6 @@ class Scene:
         else:
             self.sky = top if any(top) else None
 
-    def shapes(self):
-        return self.spheres + self.meshes
-
     def backs(self):
         """The other sides of lamps, for renderers whose lamps shine to one side, and how often to sample them."""
         for lamp in self.meshes:
@@ -53,6 +51,24 @@ class Scene:
                    "triangles": np.ascontiguousarray(lamp["triangles"][:, ::-1])}, RARELY if behind else 1.0
 
 
+def sphere_mesh(sphere, rings):
+    """A ball of triangles with exact normals, which point inward if the radius is negative. A large ball is the ground,
+    and has more rings towards its top."""
+    segments, polar = 2 * rings, np.linspace(0, np.pi, rings + 1)
+    if abs(sphere["radius"]) >= LARGE:
+        segments, polar = 512, np.concatenate([[0], np.geomspace(1e-4, np.pi, 400)])
+    around = 2 * np.pi * np.arange(segments) / segments
+    sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
+    normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), -1).reshape(-1, 3)
+    # a and b are neighbours in a ring, c and d are below them. The first ring is the top, the last the bottom.
+    rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
+    a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
+    c, d = a + segments, b + segments
+    triangles = np.concatenate([np.stack([a, c, d], axis=-1)[:-segments], np.stack([a, d, b], axis=-1)[segments:]])
+    return {"vertices": (np.array(sphere["center"]) + sphere["radius"] * normals).astype(np.float32),
+            "triangles": triangles.astype(np.uint32), "normals": normals.astype(np.float32), "uvs": None}
+
+
 def pixels(picture):
     return np.array(picture["values"], dtype=np.float32).reshape(picture["height"], picture["width"], 3)
 
@@ -62,14 +78,6 @@ def index_of(metal):
     r, tint = np.array(metal["reflectance"]), np.array(metal["edge_tint"])
     eta = tint * (1 - r) / (1 + r) + (1 - tint) * (1 + np.sqrt(r)) / (1 - np.sqrt(r))
     return eta, np.sqrt(np.maximum(0, (r * (eta + 1) ** 2 - (eta - 1) ** 2) / (1 - r)))
-
-
-def is_checker(color):
-    return isinstance(color, dict) and "cell" in color
-
-
-def is_picture(color):
-    return isinstance(color, dict) and "picture" in color
 
 
 def sky_image(bottom, top, height=512):

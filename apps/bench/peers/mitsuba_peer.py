@@ -1,7 +1,6 @@
 """Mitsuba 3: path tracing with the multijitter sampler, compiled by LLVM.
 
-Its area lights shine to one side. It has no solid textures: the checker is a plug-in.
-"""
+Its area lights shine to one side. It has no solid textures: the checker is a plug-in."""
 
 import os
 from pathlib import Path
@@ -13,7 +12,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from geometry import index_of, is_checker, is_picture, pixels
+from geometry import index_of, pixels
 
 LANES = 1 << 24  # paths at once: more take more memory, and are not faster
 FAR = 1e4  # distance of the discs that stand for suns
@@ -43,9 +42,9 @@ def rgb(color):
 
 
 def texture(color, raw=False):
-    if is_picture(color):
+    if "picture" in color:
         return {"type": "bitmap", "bitmap": mi.Bitmap(pixels(color["picture"])), "raw": raw}
-    if not is_checker(color):
+    if "cell" not in color:
         return rgb(color)
     return {"type": "solid_checker", "cell": color["cell"],
             **{f"{name}_{c}": float(v) for name in ("even", "odd") for c, v in zip("rgb", color[name])}}
@@ -53,18 +52,18 @@ def texture(color, raw=False):
 
 def bsdf(material):
     kind, alpha = material["kind"], float(material.get("alpha", 0))
+    glass = {"int_ior": float(material.get("index", 1)), "ext_ior": 1.0}
     if kind == "lambertian":
         told = {"type": "diffuse", "reflectance": texture(material["color"])}
     elif kind == "mirror":
         told = {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])}
     elif kind == "glass":
-        told = {"type": "dielectric", "int_ior": float(material["index"]), "ext_ior": 1.0}
+        told = {"type": "dielectric", **glass}
     elif kind == "rough-conductor":
         eta, k = index_of(material)
         told = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": rgb(eta), "k": rgb(k)}
     elif kind == "rough-glass":
-        told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, "int_ior": float(material["index"]),
-                "ext_ior": 1.0}
+        told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, **glass}
     else:
         told = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}  # a lamp
     if "normal_map" in material:
@@ -105,10 +104,9 @@ def mesh(told, properties):
     made = mi.Mesh("mesh", len(told["vertices"]), len(told["triangles"]), props=props,
                    has_vertex_normals=told["normals"] is not None, has_vertex_texcoords=told["uvs"] is not None)
     parameters = mi.traverse(made)
-    parameters["vertex_positions"] = told["vertices"].ravel()
-    parameters["faces"] = told["triangles"].ravel()
-    if told["normals"] is not None:
-        parameters["vertex_normals"] = told["normals"].ravel()
+    for name, values in (("vertex_positions", "vertices"), ("faces", "triangles"), ("vertex_normals", "normals")):
+        if told[values] is not None:
+            parameters[name] = told[values].ravel()
     if told["uvs"] is not None:
         parameters["vertex_texcoords"] = (told["uvs"] * [1, -1] + [0, 1]).ravel()  # its pictures begin at the top
     parameters.update()
@@ -150,11 +148,12 @@ class Peer:
         self.scene = mi.load_dict({"type": "scene", **{f"part{i}": part for i, part in enumerate(parts)}})
         self.camera = scene.camera
         # Roulette pays unless light has to pass through glass.
-        glass = any("glass" in shape["material"]["kind"] for shape in scene.shapes())
+        glass = any("glass" in shape["material"]["kind"] for shape in scene.spheres + scene.meshes)
         self.integrator = {"type": "volpath" if scene.media else "path", "max_depth": scene.max_depth,
                            "rr_depth": 100 if glass else 5}
 
-    def sensor(self, size):
+    def render(self, path, size, spp, seed, threads):
+        """The seconds are those of the kernels: recording and compiling them does not count."""
         c = self.camera
         told = {"type": "perspective", "fov": c["vertical_fov"], "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e5,
                 "to_world": mi.ScalarTransform4f().look_at(c["look_from"], c["look_at"], c["up"]),
@@ -163,11 +162,7 @@ class Peer:
                 "sampler": {"type": "multijitter"}}
         if c["lens_radius"] > 0:
             told.update(type="thinlens", aperture_radius=c["lens_radius"], focus_distance=c["focus_distance"])
-        return mi.load_dict(told)
-
-    def render(self, path, size, spp, seed, threads):
-        """The seconds are those of the kernels: recording and compiling them does not count."""
-        sensor = self.sensor(size)
+        sensor = mi.load_dict(told)
         dr.set_thread_count(threads)
         sensor.sampler().set_sample_count(spp)
         spp = sensor.sampler().sample_count()  # rounded up to rows times columns of strata
