@@ -4,7 +4,6 @@ Run through ./build.sh bench. Writes build/results/bench.json and bench.html. Th
 An interrupted run goes on where it was. Times say little on a machine that does something else meanwhile."""
 
 import argparse
-import json
 import os
 import subprocess
 import sys
