@@ -11,4 +11,7 @@ int info_command(int argc, const char* const* argv);
 int trace_command(int argc, const char* const* argv);
 int bench_command(int argc, const char* const* argv);
 
+/// Runs the whole command line, argv[0] included, and returns the exit status.
+int run_limn(int argc, const char* const* argv) noexcept;
+
 }  // namespace limn::app

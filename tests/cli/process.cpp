@@ -59,8 +59,6 @@ Outcome run(const std::string& program, const Words& arguments, const std::strin
     return run_between("/dev/null", "", program, arguments, folder);
 }
 
-Outcome limn(const Words& arguments) { return run(LIMN_PROGRAM, arguments); }
-
 Outcome limn_reads(const std::string& input, const Words& arguments) {
     const Folder folder;
     return run_between(folder.write("in", input), "", LIMN_PROGRAM, arguments);

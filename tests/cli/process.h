@@ -1,4 +1,4 @@
-// Runs programs as a shell would.
+// Runs programs as a shell would, and limn's commands without one.
 #pragma once
 
 #include <sys/types.h>
@@ -19,9 +19,10 @@ using Words = std::vector<std::string>;
 
 /// Runs a program to its end, with empty stdin, and stdout and stderr not going to a terminal.
 Outcome run(const std::string& program, const Words& arguments, const std::string& folder = ".");
-/// The same for bin/limn.
-Outcome limn(const Words& arguments);
-/// The same, with `input` as its stdin.
+/// Does what bin/limn does, in this process: to load OpenImageIO takes each new one a quarter of a second. For `limn
+/// trace` use limn_reads(), as it looks what stdout is.
+Outcome limn(const Words& arguments, const std::string& folder = ".");
+/// Runs bin/limn with `input` as its stdin.
 Outcome limn_reads(const std::string& input, const Words& arguments);
 /// The same, with stdout going to the file `path`, which must be there.
 Outcome limn_writes(const std::string& path, const Words& arguments);

@@ -80,18 +80,6 @@ TEST_CASE("limn: --help states of each option that takes a value what holds with
     CHECK(options >= 50);
 }
 
-TEST_CASE("limn: no line of --help is wider than 100 columns", "[cli]") {
-    for (const Words& words :
-         {Words{"--help"}, Words{"help", "render"}, Words{"help", "merge"}, Words{"help", "compare"},
-          Words{"help", "info"}, Words{"help", "trace"}, Words{"help", "bench"}}) {
-        std::istringstream lines(limn(words).out);
-        for (std::string line; std::getline(lines, line);) {
-            CAPTURE(line);
-            CHECK(line.size() <= 100);
-        }
-    }
-}
-
 TEST_CASE("limn: the defaults in --help are those of the library, and of a figure its own", "[cli]") {
     const std::string render = limn({"render", "--help"}).out, figure = run(TINY_FIGURE_PROGRAM, {"--help"}).out;
     CHECK(line_of(render, "--spp N").ends_with("(default: 8; 1048576 with --error or --time-limit)"));

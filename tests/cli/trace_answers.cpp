@@ -101,13 +101,13 @@ TEST_CASE("limn trace: answers are those of every triangle tried in turn, bit fo
     REQUIRE(std::count(any_truth.begin(), any_truth.end(), 1.0) > 3000);
 
     const std::string text_file = folder.write("rays.txt", text), binary_file = folder.write("rays.bin", binary);
-    const Outcome as_text = limn({"trace", model, "--rays", text_file});
+    const Outcome as_text = limn_reads("", {"trace", model, "--rays", text_file});
     CHECK(as_text.status == 0);
     CHECK(as_text.err.empty());
     CHECK(to_binary(from_text(as_text.out)) == to_binary(truth));
-    CHECK(limn({"trace", model, "--rays", binary_file, "--binary"}).out == to_binary(truth));
-    CHECK(limn({"trace", model, "--rays", text_file, "--any"}).out == any_text);
-    CHECK(limn({"trace", model, "--rays", binary_file, "--any", "--binary"}).out == to_binary(any_truth));
+    CHECK(limn_reads("", {"trace", model, "--rays", binary_file, "--binary"}).out == to_binary(truth));
+    CHECK(limn_reads("", {"trace", model, "--rays", text_file, "--any"}).out == any_text);
+    CHECK(limn_reads("", {"trace", model, "--rays", binary_file, "--any", "--binary"}).out == to_binary(any_truth));
 }
 
 TEST_CASE("limn trace: u and v weigh the second and third corner, t counts directions", "[cli][trace]") {

@@ -48,9 +48,9 @@ TEST_CASE("limn trace: lines may end as on any system, be blank, be comments, an
 TEST_CASE("limn trace: rays come from a file, from standard input, or from - for the latter", "[cli][trace]") {
     const Triangle t;
     const std::string file = t.folder.write("rays", kRay + kRay);
-    CHECK(limn({"trace", t.model, "--rays", file}).out == kAnswer + kAnswer);
+    CHECK(limn_reads("", {"trace", t.model, "--rays", file}).out == kAnswer + kAnswer);
     CHECK(limn_reads(kRay, {"trace", t.model, "--rays", "-"}).out == kAnswer);
-    CHECK(limn({"trace", t.model, "--rays", "/dev/null"}).out.empty());
+    CHECK(limn_reads("", {"trace", t.model, "--rays", "/dev/null"}).out.empty());
 }
 
 TEST_CASE("limn trace: a malformed line ends it with status 1, its number, and the answers before it", "[cli][trace]") {
@@ -80,7 +80,7 @@ TEST_CASE("limn trace: a malformed line ends it with status 1, its number, and t
         CHECK(contains(outcome.err, problem));
     }
     const std::string file = t.folder.write("rays", kRay + "1 2 3");
-    CHECK(limn({"trace", t.model, "--rays", file}).err.starts_with("limn: " + file + ":2: "));
+    CHECK(limn_reads("", {"trace", t.model, "--rays", file}).err.starts_with("limn: " + file + ":2: "));
 }
 
 TEST_CASE("limn trace: lines are counted, and answered, over many blocks of input", "[cli][trace]") {
@@ -96,7 +96,7 @@ TEST_CASE("limn trace: lines are counted, and answered, over many blocks of inpu
 }
 
 TEST_CASE("limn trace: a line that never ends is refused, not gathered", "[cli][trace]") {
-    const Outcome outcome = limn({"trace", Triangle().model, "--rays", "/dev/zero"});
+    const Outcome outcome = limn_reads("", {"trace", Triangle().model, "--rays", "/dev/zero"});
     CHECK(outcome.status == 1);
     CHECK(contains(outcome.err, "/dev/zero:1: "));
 }
@@ -125,7 +125,7 @@ TEST_CASE("limn trace: files that cannot be read end with status 1 and their nam
     };
     for (const auto& [words, message] : cases) {
         CAPTURE(words);
-        const Outcome outcome = limn(words);
+        const Outcome outcome = limn_reads("", words);
         CHECK(outcome.status == 1);
         CHECK(contains(outcome.err, message));
         CHECK(outcome.out.empty());

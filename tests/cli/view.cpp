@@ -150,7 +150,7 @@ TEST_CASE("limn render: a model from standard input is that of the file, and is 
     CHECK(broken.err.find("standard input: line 1") != std::string::npos);
     const std::string rays = house.folder().write("rays.txt", "0 9 0 0 -1 0\n");
     CHECK(limn_reads(house_obj(), {"trace", "-", "--rays", rays}).out ==
-          limn({"trace", house.model(), "--rays", rays}).out);
+          limn_reads("", {"trace", house.model(), "--rays", rays}).out);
     CHECK(limn_reads(house_obj(), {"info", "-"}).out == limn({"info", house.model()}).out);
     CHECK(limn_reads(house.folder().read("b.exr"), {"info", "-"}).out == limn({"info", house.path("b.exr")}).out);
     const Outcome neither = limn_reads("GIF89a", {"info", "-"});

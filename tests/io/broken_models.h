@@ -1,9 +1,12 @@
 // Damaged and odd models, each with the verdict of load_model.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,51 @@ inline void check_verdicts(const std::vector<ModelVerdict>& verdicts, const std:
             CHECK(message.starts_with(path + ": "));
             CHECK(message.find(said) != std::string::npos);
         }
+    }
+}
+
+/// Loads `bytes`. Either they are a model whose every index is in range and every coordinate finite, or they are
+/// refused by their name. \returns the message without the name; nothing where they load
+inline std::string fault_of_model(const std::string& bytes) {
+    try {
+        const Model model = load_model_from_memory(std::as_bytes(std::span(bytes)), "damaged");
+        for (const auto& mesh : model.meshes) {
+            const MeshData& data = mesh->data();
+            for (const Index3& t : data.triangles) REQUIRE(std::max({t.a, t.b, t.c}) < data.vertices.size());
+            for (const Float3& v : data.vertices)
+                REQUIRE((std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)));
+        }
+        CHECK(triangles_of(model) > 0);
+        CHECK(model.dropped_faces < model.faces);
+        return "";
+    } catch (const FileError& error) {
+        const std::string message = error.what();
+        CAPTURE(message);
+        REQUIRE(message.starts_with("damaged: "));
+        return message.substr(9);
+    }
+}
+
+/// The law of every reader: wherever a file breaks off, and whatever byte is changed, it is refused or sound. `mark`
+/// bytes at its beginning, by which the format is known, are left as they are. Both outcomes occur often enough.
+inline void check_damage(const std::vector<std::string>& files, std::size_t mark, std::size_t fewest_loaded) {
+    std::mt19937 generator(17);
+    for (const std::string& whole : files) {
+        for (int i = 0; i < 200; ++i) {
+            const std::size_t size = generator() % whole.size();
+            CAPTURE(size);
+            fault_of_model(whole.substr(0, size));
+        }
+        std::size_t loaded = 0;
+        for (int i = 0; i < 1000; ++i) {
+            std::string bytes = whole;
+            const std::size_t place = mark + generator() % (bytes.size() - mark);
+            bytes[place] = static_cast<char>(generator());
+            CAPTURE(place, static_cast<int>(bytes[place]));
+            loaded += fault_of_model(bytes).empty();
+        }
+        CHECK(loaded > fewest_loaded);
+        CHECK(loaded < 1000);
     }
 }
 

@@ -100,25 +100,6 @@ TEST_CASE("NormalMap: one that is flat changes nothing, and glass stays glass", 
     }
 }
 
-TEST_CASE("NormalMap: a rendered ball in a furnace vanishes", "[material][normal-map]") {
-    Scene scene;
-    scene.background = Background::gradient({1, 1, 1}, {1, 1, 1});
-    Image bumps(2, 2, Color{.8, .3, .8});
-    bumps.set(0, 0, {.2, .5, .7});
-    const auto normals = std::make_shared<ImageTexture>(bumps);
-    const auto add = [&](double x, std::shared_ptr<const Material> material) {
-        scene.add(std::make_shared<Sphere>(Point3{x, 0, 0}, 1, std::make_shared<NormalMap>(material, normals)));
-    };
-    add(-2, std::make_shared<Lambertian>(kWhite));
-    add(0, std::make_shared<Plastic>(kWhite, 0));
-    add(2, std::make_shared<Metal>(kWhite));
-    const RenderSettings settings{.width = 36, .height = 12, .samples_per_pixel = 256, .max_depth = kUnlimitedDepth};
-    const Image image = render(compile(scene), Camera{.look_from = {0, 0, 6}, .look_at = {0, 0, 0}}, settings).image;
-    double sum = 0;
-    for (const float v : image.values()) sum += v;
-    CHECK(sum / static_cast<double>(image.values().size()) == Approx(1).epsilon(3e-3));
-}
-
 TEST_CASE("NormalMap: nothing in it, and one of another, is refused", "[material][normal-map]") {
     const auto white = std::make_shared<Lambertian>(kWhite);
     CHECK_THROWS_AS(NormalMap(nullptr, leaning(0, 0)), ArgumentError);

@@ -29,7 +29,7 @@ done
 
 # What the page of long renders says of its pictures: parts make the picture of one render, more samples that of so many.
 same() { build/release/bin/limn compare "build/films/$1.exr" "build/films/$2.exr" | grep -E '^MSE +0$'; }
-once=(build/release/bin/fig15_cornell_box --quiet --size 160x160)
+once=(build/release/bin/fig15_cornell_box --quiet --size 100x100)
 "${once[@]}" --spp 64 -o build/films/64.exr
 "${once[@]}" --spp 256 -o build/films/256.exr
 same merged 64

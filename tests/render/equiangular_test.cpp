@@ -2,9 +2,7 @@
 #include "render/equiangular.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <cstdlib>
 
-#include "limn/material/dielectric.h"
 #include "property.h"
 #include "render/single_ray.h"
 #include "support/random_geometry.h"
@@ -39,17 +37,6 @@ Case random_case(std::uint64_t seed) {
 
 Object fog_in(Object boundary, double density, const Color& albedo = {0.9, 0.9, 0.9}) {
     return std::make_shared<ConstantMedium>(std::move(boundary), density, albedo);
-}
-
-const int kMore = std::getenv("LIMN_FULL") ? 8 : 1;
-
-const Camera kCamera = camera_at({0, 1, 5}, {0, 1, 0}, 40);
-
-void check_estimators(const char* what, const std::vector<Object>& objects, int depth = 3) {
-    INFO(what);
-    const CompiledScene scene = compile_with(sky(0), objects);
-    check_same(measure(scene, kCamera, square(12, 16 * kMore, depth)),
-               measure(scene, kCamera, square(12, 64 * kMore, depth, Estimator::naive)), 4e-2);
 }
 
 }  // namespace
@@ -97,30 +84,6 @@ TEST_CASE("Equiangular: fog around a tiny lamp is as bright as the integral alon
         -kEnd, kEnd, 20, 1e-10);
     const Ray ray{.origin = {-6, kHeight, 0}, .direction = {2, 0, 0}};
     check_mean(along(scene, ray, 2, Estimator::path, 4000), truth, 4e-3);
-}
-
-TEST_CASE("Equiangular: light sampling and naive paths agree in thin and thick fog, around lamps of every kind",
-          "[render][media]") {
-    const Object floor = quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, grey(0.5)),
-                 room = make_box({-9, -1, -9}, {9, 9, 9}, nullptr), ball = sphere({0, 1, 0}, 0.5, lamp(9)),
-                 small = make_box({-1.5, 0.2, -1.5}, {1.5, 2, 1.5}, nullptr);
-    check_estimators("thin", {floor, ball, fog_in(room, 0.05)});
-    check_estimators("thick", {floor, ball, fog_in(room, 0.5)});
-    check_estimators("deeper than is asked along the way", {floor, ball, fog_in(small, 2.5)});
-    check_estimators("media across each other",
-                     {floor, ball, fog_in(small, 1, {0.9, 0.5, 0.1}), fog_in(room, 0.2, {0.1, 0.2, 0.8})});
-    check_estimators("smoke in fog",
-                     {floor, ball, fog_in(make_box({-1.5, 0, 1}, {0, 2, 1.5}, nullptr), 4), fog_in(room, 0.2)});
-    check_estimators("two balls", {floor, ball, sphere({1, 2, 0}, 0.4, lamp(5)), fog_in(room, 0.3)});
-    check_estimators("a mesh",
-                     {floor, std::make_shared<Mesh>(cube_mesh(1, {-0.5, 0.5, -0.5}), lamp(4)), fog_in(room, 0.3)});
-    check_estimators("a quad, more often",
-                     {floor, quad({-1, 2.5, -1}, {2, 0, 0}, {0, 0, 2}, lamp(5)), fog_in(room, 0.3)}, 5);
-    check_estimators(
-        "a moving ball",
-        {floor, std::make_shared<Sphere>(Point3{-1, 1, 0}, Point3{1, 1.5, 0}, 0.5, lamp(9)), fog_in(room, 0.3)});
-    check_estimators("behind glass",
-                     {ball, fog_in(small, 1), sphere({0, 1, 0}, 2.5, std::make_shared<Dielectric>(1.3))});
 }
 
 }  // namespace limn::equiangular_test

@@ -166,7 +166,7 @@ TEST_CASE("Media: extinction 0 and 1e-30 are invisible, 1e30 passes nothing, and
     for (const float v : thick.image.values()) CHECK(v == 0.0f);
     // Scattering: what enters comes out again.
     const Object white = std::make_shared<ConstantMedium>(ball, 1e30, Color{1, 1, 1});
-    const RenderResult milk = render(compile_with(sky(1), {white}), camera, square(8, 64, kUnlimitedDepth));
+    const RenderResult milk = render(compile_with(sky(1), {white}), camera, square(4, 64, kUnlimitedDepth));
     CHECK(milk.report.nonfinite_samples == 0);
     for (const float v : milk.image.values()) CHECK(std::isfinite(v));
 }
@@ -181,25 +181,6 @@ TEST_CASE("Media: a surface exactly on the boundary is lit through the medium an
     const CompiledScene scene = compile_with(sky(0), {floor, sun, smoke(slab, 1)});
     const double truth = 0.5 * std::exp(-1) * std::exp(-2);
     check_mean(measure(scene, camera_at({0, 2, std::sqrt(3.0) * 2}, {0, 0, 0}, 0.01), square(8, 256, 2)), truth, 5e-3);
-}
-
-TEST_CASE("Media: light sampling and naive paths agree in fog", "[render][media]") {
-    const Camera camera = camera_at({0, 2, 7}, {0, 1, 0}, 40);
-    const auto fog = [](Object boundary, double density) {
-        return std::make_shared<ConstantMedium>(std::move(boundary), density, Color{0.9, 0.9, 0.9});
-    };
-    const Object floor = quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, grey(0.5)),
-                 light = quad({-2, 4, -2}, {4, 0, 0}, {0, 0, 4}, lamp(3));
-    const auto agree = [&](const std::vector<Object>& objects) {
-        const CompiledScene scene = compile_with(sky(0), objects);
-        check_same(measure(scene, camera, square(16, 16, 6)),
-                   measure(scene, camera, square(16, 64, 6, Estimator::naive)), 8e-3);
-    };
-    agree({floor, light, fog(sphere({0, 1, 0}, 1, kBoundary), 1)});                 // fog beside the lamp
-    agree({floor, light, fog(make_box({-9, -1, -9}, {9, 9, 9}, kBoundary), 0.1)});  // all of it in fog
-    agree({floor, light, fog(make_box({-3, 2, -3}, {3, 3, 3}, kBoundary), 1)});     // fog between
-    agree({floor, light, fog(sphere({0, 1, 0}, 1, kBoundary), 1),
-           fog(make_box({-2, 0, -2}, {2, 1.5, 2}, kBoundary), 0.5)});
 }
 
 TEST_CASE("Media: where media overlap each scatters in proportion to its extinction", "[render][media]") {

@@ -3,7 +3,6 @@
 #include "limn/shape/constant_medium.h"
 #include "limn/shape/instance.h"
 #include "limn/texture/checker.h"
-#include "limn/texture/image_texture.h"
 #include "limn/texture/solid.h"
 #include "support/pictures.h"
 
@@ -15,13 +14,6 @@ namespace {
 
 Object floor_of(double half) { return quad({-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0}, grey(0.5)); }
 
-// Half of the picture is lit, so that light read from the wrong texel shows.
-MaterialPtr half_lamp() {
-    Image image(2, 1);
-    image.set(0, 0, {8, 8, 8});
-    return std::make_shared<DiffuseLight>(std::make_shared<ImageTexture>(image, ImageTextureOptions{Filter::nearest}));
-}
-
 // Emits to the front only, which a user's texture may decide.
 class FrontOnly final : public Texture {
 public:
@@ -29,17 +21,6 @@ public:
 };
 
 }  // namespace
-
-TEST_CASE("Lamps: a textured ball shines alike by both estimators, turned or inside out", "[render]") {
-    const auto ball = [&](double r) { return sphere({0, 1, 0}, r, half_lamp()); };
-    for (const Object& lamp_object :
-         {ball(0.5), ball(-0.5), Object(std::make_shared<Instance>(ball(0.5), Transform::rotate_y(180)))}) {
-        const CompiledScene scene = compile_with(sky(0), {floor_of(5), lamp_object});
-        const Camera camera = camera_at({1, 0.5, 0}, {1, 0, 0}, 20);
-        check_same(measure(scene, camera, square(4, 256, 2)),
-                   measure(scene, camera, square(4, 1024, 2, Estimator::naive)), 0.02);
-    }
-}
 
 TEST_CASE("Lamps: one that tells its sides apart shines on one side only, as a square of a checker too", "[render]") {
     const auto front_only = std::make_shared<FrontOnly>();

@@ -166,20 +166,6 @@ TEST_CASE("Path: a mirror shows a second lamp to the floor before it", "[render]
     check_both(scene, at_floor(), 3, truth, 100'000);
 }
 
-TEST_CASE("Path: light that is reflected twice is the same by both estimators, in a corner and in fog",
-          "[render][path]") {
-    const Object wall = quad({-3, 0, -0.5}, {6, 0, 0}, {0, 6, 0}, grey(0.9));
-    const Object light = quad({-1, 1, 0}, {2, 0, 0}, {0, 0.5, 1}, lamp(2));
-    const Object fog =
-        std::make_shared<ConstantMedium>(make_box({-2, -1, -2}, {2, 3, 2}, nullptr), 0.5, Color{0.9, 0.9, 0.9});
-    for (const Object& last : {wall, fog}) {
-        const CompiledScene scene = compile_with(sky(0), {floor_of(grey(0.9)), light, last});
-        for (const int depth : {3, 4})
-            check_same(along(scene, at_floor(), depth, Estimator::path, 30'000),
-                       along(scene, at_floor(), depth, Estimator::naive, 60'000), 1.5e-2);
-    }
-}
-
 TEST_CASE("Path: in a medium there are no texture coordinates, whatever the path met before", "[render][path]") {
     Image image(4, 4);
     image.set(0, 3, {1, 1, 1});  // at u = v = 0

@@ -241,20 +241,4 @@ TEST_CASE("Disk: as a lamp it gives the light that a closed form says, by either
     }
 }
 
-TEST_CASE("Disk: near, textured, stretched and moving it lights by both estimators alike", "[shape][disk]") {
-    const auto checker = std::make_shared<DiffuseLight>(std::make_shared<Checker>(0.3, Color{1, 1, 1}, Color{9, 9, 9}));
-    const Vec3 down{0, -1, 0.4};
-    const Object round = std::make_shared<Disk>(Point3{0, 1, 0}, down, 0.5, lamp(4));
-    for (const Object& object :
-         {round, Object(std::make_shared<Disk>(Point3{0, 1, 0}, down, 0.5, checker)),
-          Object(std::make_shared<Instance>(round, Transform::translate({0.3, 0, 0}) * Transform::scale(2, 1, 1))),
-          Object(std::make_shared<Instance>(round, Transform{}, Transform::translate({0.5, 0, 0})))}) {
-        const CompiledScene scene = compile_with(sky(0), {floor_of(grey(0.5)), object});
-        CHECK(scene.flat().lights.size() == 1);
-        const Camera camera = camera_at({1, 0.5, 0}, {0.5, 0, 0}, 20);
-        check_same(measure(scene, camera, square(4, 64, 2)),
-                   measure(scene, camera, square(4, 512, 2, Estimator::naive)), 0.02);
-    }
-}
-
 }  // namespace limn::disk_test
