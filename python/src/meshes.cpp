@@ -103,8 +103,10 @@ void check_length(const char* name, std::size_t length, std::size_t count, const
                               std::to_string(length));
 }
 
+// Constructs a Mesh from the arguments of Mesh.__init__.
 void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, MaterialsArgument material,
                ArrayArgument normals, ArrayArgument uvs, ArrayArgument slots) {
+    // Read the arrays of vertices and triangles.
     MeshData data = mesh_data(vertices, faces);
     if (!normals.object.is_none()) {
         data.normals = float_rows<Float3>(normals, "normals", 3, float3);
@@ -114,6 +116,7 @@ void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, Material
         data.uvs = float_rows<Float2>(uvs, "uvs", 2, [](const float* v) { return Float2{v[0], v[1]}; });
         check_length("uvs", data.uvs.size(), data.vertices.size(), " vertices");
     }
+    // Read the materials.
     std::vector<std::shared_ptr<const Material>> materials = materials_of(material.object);
     if (!slots.object.is_none()) {
         const ArrayView array(slots.object, "material_slots", "an array of whole numbers");
@@ -121,6 +124,7 @@ void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, Material
         check_length("material_slots", array.length(0), data.triangles.size(), " triangles");
         data.material_slots = whole_numbers(array, "material_slots", materials.size(), " materials");
     }
+    // Make the mesh.
     const std::shared_ptr<const Mesh> made = make_mesh(std::move(data), std::move(materials));
     new (self) Mesh(*made);
 }

@@ -88,8 +88,8 @@ void bind_point_queries(nb::class_<CompiledScene>& type) {
         nb::sig("def contains(self, points: numpy.typing.NDArray, threads: int = 0) -> numpy.typing.NDArray"),
         R"(Returns True for each point that is inside a closed surface or exactly on a surface: bool, shape (...).
 
-A point is inside if its winding number is not 0. The answer is exact for closed surfaces, also if they overlap. It has no
-meaning if the surfaces are open (see open_edges). A point with a NaN is outside. Moving objects are at time 0.
+A point is inside if its winding number is not 0. The answer is exact for closed surfaces, also if they overlap. It has
+no meaning if the surfaces are open (see open_edges). A point with a NaN is outside. Moving objects are at time 0.
 
 Args:
     points: shape (..., 3), float64 or float32, C-contiguous, in world units.
@@ -127,8 +127,8 @@ Args:
 
 Returns:
     A dict of arrays. "points" (..., 3) has the nearest points. "geometry_ids", "primitive_ids", "primitive_uvs" and
-    "primitive_normals" are as in cast_rays. If the given point has a NaN, or the scene is empty, then the nearest point is
-    NaN and the ids are 4294967295.)");
+    "primitive_normals" are as in cast_rays. If the given point has a NaN, or the scene is empty, then the nearest point
+    is NaN and the ids are 4294967295.)");
     type.def(
         "compute_distance",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads, NameArgument dtype) {
