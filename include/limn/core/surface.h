@@ -31,8 +31,8 @@ struct Surface {
     Normal3 normal;          ///< geometric normal, unit, on the side that the ray came from
     Normal3 shading_normal;  ///< unit, on the side of `normal`; equals `normal` unless the shape has normals of its own
     Uv uv;                   ///< texture coordinates
-    /// True if the ray came from the side of the shape's outward normal. For a ray within
-    /// 1e-15 radians of the surface either value is possible.
+    /// True if the ray came from the side of the shape's outward normal. For a ray within 1e-15 radians of the surface
+    /// either value is possible.
     bool front_face = true;
     MaterialRef material;  ///< the material; valid as long as the compiled scene
     /// The derivatives of the position with respect to uv.u and uv.v. They are zero on user-defined shapes and at the

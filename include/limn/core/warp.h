@@ -41,8 +41,8 @@ double pdf_uniform_cone(double one_minus_cos_max);
 /// density 1 / area (Heitz, A Low-Distortion Map Between Triangle and Square, 2019).
 Uv sample_uniform_triangle(double u, double v);
 
-/// Return a free-flight distance d = -log1p(-u) / sigma in a medium of extinction sigma, and its density
-/// sigma exp(-sigma d) per length. The distance is infinite if sigma is 0. The density is 0 for a negative distance.
+/// Return a free-flight distance d = -log1p(-u) / sigma in a medium of extinction sigma, and its density sigma
+/// exp(-sigma d) per length. The distance is infinite if sigma is 0. The density is 0 for a negative distance.
 ///@{
 double sample_exponential(double u, double sigma);
 double pdf_exponential(double distance, double sigma);
