@@ -10,12 +10,13 @@ namespace limn {
 
 namespace {
 
-// A damaged binary STL cannot be told by its contents.
+// Returns true if the name of a file is that of an STL. A damaged binary STL is not recognised by its contents.
 bool is_named_stl(const std::string& path) {
     const std::string suffix = std::filesystem::path(path).extension().string();
     return suffix == ".stl" || suffix == ".STL";
 }
 
+// Reads a model with the reader of its format. Contents that are not recognised are read as an OBJ.
 Model read_model(std::string_view bytes, const std::string& path, const ModelOptions& options) {
     const FileKind kind = kind_of_contents(bytes);
     if (kind.model == ModelFormat::gltf) return read_gltf(bytes, path, options);
