@@ -47,9 +47,9 @@ private:
 // Consecutive primitives that one task counts and moves.
 struct Chunk {
     std::uint32_t begin, end;
-    std::vector<Bounds> bounds;        // for each cell, the bounds of its primitives
-    std::vector<std::uint32_t> count;  // for each cell, the number of its primitives; in the second pass
-                                       // for each leaf, the row of its next primitive
+    std::vector<Bounds> bounds;        // bounds of the primitives of each cell
+    std::vector<std::uint32_t> count;  // number of primitives of each cell; before the second pass it's replaced by the
+                                       // row of the next primitive of each leaf
 };
 
 // Builds the tree over the cells that have primitives. Cells are split until they have at most kSubtree primitives.

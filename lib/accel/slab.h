@@ -31,8 +31,8 @@ struct SlabRay {
     double origin_near[3], origin_far[3];  // the origin, moved to widen the near and far planes of boxes
     double inverse[3];                     // reciprocals of the direction
     bool negative[3];                      // signs of the direction
-    double slack;                          // widens the interval of t, in units of t * scale
-    double t_min;                          // in units of t * scale, with the slack
+    double slack;                          // extends the interval at both ends; a length of t * scale
+    double t_min;                          // lower end of the interval of t * scale, with the slack
     double scale = 1;                      // a power of two that keeps `inverse` in range
 
     // `extent` is the largest finite coordinate of the boxes that will be tested. `origin_error` and `direction_error`

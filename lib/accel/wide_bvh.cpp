@@ -64,7 +64,7 @@ private:
 
     const BuildSettings& settings_;
     std::uint32_t* indices_;
-    std::deque<SplitNodes> nodes_;  // of the upper part
+    std::deque<SplitNodes> nodes_;  // nodes of the upper part
     std::deque<Job> jobs_;
 };
 

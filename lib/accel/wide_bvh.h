@@ -16,9 +16,10 @@ struct Leaf {
 };
 
 struct WideBvh {
-    HugeVector<Node> nodes;             // [0] is the root, even above a single leaf; empty if all boxes are empty
-    std::vector<Leaf> leaves;           // depth first; the leaves of one node are consecutive
-    HugeVector<std::uint32_t> indices;  // of the primitives, ascending within a leaf, without those of empty boxes
+    HugeVector<Node> nodes;    // [0] is the root, even above a single leaf; empty if all boxes are empty
+    std::vector<Leaf> leaves;  // depth first; the leaves of one node are consecutive
+    HugeVector<std::uint32_t>
+        indices;  // primitives in the order of the leaves, ascending in a leaf; empty boxes aren't included
 
     // The expected cost of a ray that intersects the bounds of the whole tree, in the units of BuildSettings. An
     // unbounded box is counted as if it were as large as the bounds of all bounded ones.

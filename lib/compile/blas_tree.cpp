@@ -175,7 +175,7 @@ private:
     std::vector<flat::Reference> references_;
     std::vector<accel::FloatBox> boxes_;
     std::vector<Candidate> others_;  // instances, and primitives outside meshes; empty box if listed
-    Box bounds_, mesh_bounds_;       // of all primitives, and of those in meshes
+    Box bounds_, mesh_bounds_;       // bounds of all primitives, and of those in meshes
     double extent_ = 0;              // the largest finite coordinate
 };
 

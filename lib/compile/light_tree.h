@@ -11,7 +11,7 @@ namespace limn::compiler {
 
 // A double cone that bounds the normals of planar lights and their opposites.
 struct Cone {
-    Vec3 axis;              // of unit length
+    Vec3 axis;              // unit vector
     double cos_spread = 0;  // cosine of the half angle; 0 for any normals; flat::kNoNormals for spheres alone
 };
 
@@ -26,7 +26,7 @@ struct LightBounds {
 struct LightItem {
     flat::LightRef ref;
     static constexpr std::uint64_t kNoPrimitive = ~std::uint64_t{0};
-    std::uint64_t number = 0;  // of its primitive in the scene, or kNoPrimitive
+    std::uint64_t number = 0;  // number of its primitive in the scene, or kNoPrimitive
     LightBounds bounds;
 };
 

@@ -17,7 +17,7 @@ struct Candidate {
     flat::Reference reference;
     Box box{};
     double packed_error = 0;  // error of rounding its numbers to float
-    std::uint32_t index = 0;  // of its box in the tree
+    std::uint32_t index = 0;  // index of its box in the tree
 };
 
 // Fills Scene::list with the candidates that are so large compared with the rest that most rays would test them in a

@@ -31,10 +31,10 @@ public:
 private:
     static constexpr std::size_t kGrain = 1024;  // nodes or leaves of one task
 
-    // The first rows of a leaf in the tables.
+    // The place of a leaf in the tables.
     struct Place {
-        std::size_t word;         // of Scene::blocks
-        std::uint32_t reference;  // of Scene::references
+        std::size_t word;         // first word in Scene::blocks
+        std::uint32_t reference;  // first row of Scene::references
     };
 
     // Returns the range of the primitive with the given index in the tree.
@@ -154,7 +154,7 @@ private:
     std::span<const accel::FloatBox> boxes_;
     std::span<const flat::Reference> references_;
     flat::Scene& scene_;
-    std::vector<Place> places_;  // of each leaf
+    std::vector<Place> places_;  // places of the leaves
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ void derive(flat::Scene& scene);
 void build_trees(flat::Scene& scene);
 
 // Builds the tree of one BLAS. Sets its root, bounds, extent, scale, packed_error and cost. For the root BLAS it also
-// sets Scene::list. \pre the BLASes of its instances are built \throws ArgumentError if there are too many primitives
+// sets Scene::list. Throws ArgumentError if there are too many primitives. \pre the BLASes of its instances are built
 void build_blas_tree(flat::Scene& scene, flat::Blas& blas);
 
 // Fills Scene::media with every occurrence of a medium. \pre the trees are built
@@ -39,9 +39,8 @@ void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
 
 // Fills Scene::lights with every emitter that can be sampled:
 // - light sources and the environment map
-// - up to 2^22 meshes' triangles, triangles, quads, disks and spheres whose material emits, unless its texture or
-// opacity
-//   is user-defined or they are in more than four moving instances; lights.cpp has more exceptions for spheres
+// - up to 2^22 triangles, quads, disks and spheres whose material emits. Exceptions are materials with a user-defined
+//   texture or opacity, and primitives in more than four moving instances. lights.cpp has more exceptions for spheres.
 // All other emitters are found by scattering alone.
 void collect_lights(flat::Scene& scene);
 

@@ -50,8 +50,8 @@ private:
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;
-    std::vector<std::uint32_t> height_;  // of each BLAS: the depth of the instances nested in it, or kUnbuilt
-    std::vector<bool> holds_media_;      // of each BLAS
+    std::vector<std::uint32_t> height_;  // depth of the instances nested in each BLAS, or kUnbuilt
+    std::vector<bool> holds_media_;      // true for each BLAS that contains a medium
 };
 
 // Fills Scene::media. It visits every path of instances that leads to a medium.
@@ -104,7 +104,7 @@ private:
     }
 
     flat::Scene& scene_;
-    std::vector<bool> holds_media_;    // of each BLAS
+    std::vector<bool> holds_media_;    // true for each BLAS that contains a medium
     std::vector<std::uint32_t> path_;  // instances around the BLAS being visited, outermost first
 };
 

@@ -23,7 +23,7 @@ struct Environment {
 
     // The tables are empty if the map is black.
     std::vector<double> row_luminance;        // sum of each row of pixels
-    std::vector<double> band_cosine;          // at the upper edge of each band, and -1 at the end
+    std::vector<double> band_cosine;          // cosine at the upper edge of each band; -1 at the end
     std::vector<double> band_before;          // integral over the bands above each band, and over all bands at the end
     std::vector<std::int32_t> column_before;  // width + 1 for each row: sum up to each pixel's centre, 0 to kWhole
     double luminance = 0;                     // integral of the luminance over all directions, without the scale

@@ -37,12 +37,12 @@ struct PrimitiveList {
         PrimitiveKind kind = PrimitiveKind::quad;
         bool is_instanced = false;
         std::uint32_t instance = 0;  // row of Scene::instances, if it is instanced
-        std::uint32_t row = 0;       // of the kind's table; for a triangle of a mesh, the row of the mesh
+        std::uint32_t row = 0;       // row of the kind's table, or the row of the mesh
         std::uint32_t element = 0;   // the triangle of the mesh
-        std::uint64_t number = 0;    // in the scene
-        Point3 corner;               // of a planar primitive; the centre of a sphere
+        std::uint64_t number = 0;    // number of the primitive in the scene
+        Point3 corner;               // corner of a planar primitive, or centre of a sphere
         Vec3 edge_u, edge_v;
-        double radius = 0;  // of a sphere, not negative
+        double radius = 0;  // radius of a sphere, not negative
         double error = 0;   // bounds the rounding error of each coordinate of an instanced primitive
     };
 

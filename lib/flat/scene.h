@@ -53,7 +53,7 @@ using UserDefined = UserDefinedRecord;
 
 struct Instance {
     Transform world_from_object0, world_from_object1;
-    Transform object_from_world;  // of a still instance; computed for each ray if it moves
+    Transform object_from_world;  // inverse matrix of a still instance; if it moves, each ray computes its own
     BlasId blas = BlasId::root;
     bool moving = false;
     InverseError object_from_world_error{};  // the rounding error of object_from_world
@@ -73,7 +73,7 @@ struct Blas {
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
     float packed_error = 0;  // the largest error of rounding a primitive to the floats of its block
-    double cost = 0;         // expected, of a ray that intersects the bounds: see accel::BuildSettings
+    double cost = 0;         // expected cost of a ray that intersects the bounds: see accel::BuildSettings
     double scale = 1;        // multiplies the nodes' boxes: a power of two that keeps them in the range of float
 };
 
@@ -83,7 +83,7 @@ struct Medium {
     std::uint32_t first_instance = 0;  // row of Scene::medium_instances
     std::uint32_t instance_count = 0;
     std::uint64_t first_number = 0;  // number in the scene of the first primitive of its boundary
-    Box bounds;                      // in world space
+    Box bounds;                      // bounds in world space
     double scattered = 1;            // upper bound of the albedo; 1 if it's unknown
 };
 
@@ -141,8 +141,8 @@ struct Scene {
     Features features;
     unsigned kinds = 0;  // set of the kinds of primitives in the trees: see bit()
     std::string feature_names;
-    Hash128 digest{};          // of the description
-    Hash128 unmoved_digest{};  // of the description without the matrices of instances
+    Hash128 digest{};          // digest of the description
+    Hash128 unmoved_digest{};  // digest of the description without the matrices of instances
     bool untagged = false;     // true if it has user-defined objects that the digest doesn't cover
     std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
     BelowRoot below_root;
