@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// Scatters equally into all directions: albedo / (4 pi). A ConstantMedium makes one of its albedo. On a surface it
+/// Scatters equally into all directions: albedo / (4 pi). A ConstantMedium creates one from its albedo. On a surface it
 /// ignores the normal, and its value contains no cosine.
 class Isotropic final : public Material {
 public:
