@@ -12,9 +12,9 @@
 
 namespace limn {
 
-/// Collects the records of one scene. Hittable::lower, Material::lower and Texture::lower write to it. A shared object
-/// is described once: the sink recognises its address and returns the same id again. Not thread-safe; each compilation
-/// has a sink of its own.
+/// Collects the records of one scene. Hittable::lower, Material::lower and Texture::lower write to it. A shared
+/// material, texture, image, lattice or BLAS is described once: the sink recognises its address and returns the same id
+/// again. Not thread-safe; each compilation has a sink of its own.
 class RecordSink {
 public:
     /// Returns the id of a material or texture. Calls `describe` for its record the first time only. The records keep

@@ -14,9 +14,9 @@ struct ImageTextureOptions {
 };
 
 /// An image over the unit square of texture coordinates. u points to the right and v upward. (0, 0) is the lower left
-/// corner. Let the image have W columns and H rows. The texel in column i from the left and row j from the top covers i
-/// <= W u < i + 1 and j <= H (1 - v) < j + 1. The edge u = 1 belongs to the last column, the edge v = 0 to the last
-/// row. A NaN coordinate counts as 0.
+/// corner. In an image of W x H texels, column i from the left covers u in [i/W, (i+1)/W), and row j from the top
+/// covers 1-v in [j/H, (j+1)/H). The edge u = 1 belongs to the last column, the edge v = 0 to the last row. A NaN
+/// coordinate counts as 0.
 class ImageTexture final : public Texture {
 public:
     /// \param image linear colours, in [0, 1] as an albedo, at least 0 as a radiance
