@@ -14,7 +14,7 @@
 
 namespace limn {
 
-/// A scene to render, with a camera and settings. Options on the command line replace parts of the latter two.
+/// A scene to render, with a camera and settings. Options on the command line replace parts of the camera and settings.
 struct Figure {
     std::string name;  ///< written to the report and the picture's header
     Scene scene;

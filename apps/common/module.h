@@ -6,10 +6,10 @@
 
 namespace limn::app {
 
-/// Loads the module `name`.so from the folder of the program (in a build) or from LIMN_MODULE_FOLDER (if installed),
-/// which is relative to the former. No other folder is searched. The module stays loaded. A second call returns the
-/// same address. \returns the address of the module's symbol limn_module \throws Error with the paths that were tried
-/// and the problem of each
+/// Loads the module `name`.so. It is searched in two folders: that of the program (for a build), and LIMN_MODULE_FOLDER
+/// relative to it (for an installation). The module stays loaded. A second call returns the same address.
+/// \returns the address of the module's symbol limn_module
+/// \throws Error with the paths that were tried and the problem of each
 void* load_module(const std::string& name);
 
 }  // namespace limn::app

@@ -17,9 +17,8 @@ namespace limn::app {
 /// Reads rays from a file or standard input and returns them as soon as they arrive. So a program can send a ray and
 /// wait for its result. The memory that is needed does not depend on the number of rays.
 ///
-/// - As text, a ray is a line `ox oy oz dx dy dz [tmin tmax]`: origin, direction and interval, by default 0 and
-/// infinity.
-///   Blank lines and lines that begin with # are skipped.
+/// - As text, a ray is a line `ox oy oz dx dy dz [tmin tmax]`: its origin, direction and interval. By default the
+///   interval is from 0 to infinity. Blank lines and lines that begin with # are skipped.
 /// - As binary, a ray is eight little-endian float64 in the same order.
 class RayReader {
 public:
@@ -32,8 +31,8 @@ public:
 
     /// Waits until a whole ray has arrived, and returns all rays that have arrived by then. The result is empty at the
     /// end. It is valid until the next call.
-    /// \throws FileError if the input is invalid, after the rays before the error have been returned. It names the line
-    /// of text
+    /// \throws FileError if the input is invalid, after the rays before the error have been returned. In text, it names
+    /// the line
     std::span<const Ray> next();
 
     /// Returns the part of a regular file that has been read, 0 to 1. Empty for a pipe or a terminal.

@@ -40,9 +40,10 @@ double max_sample_share(const Film& film) {
 //
 // e^2 must be estimated. The square of a pixel's estimated error is too large on average: three times e^2 for normal
 // replicates, more for skewed ones. The product of the pixel's estimate and the mean estimate of the pixels around it
-// is unbiased if all of these have the same e. Both are mixed: PixelErrors::own says how far a pixel differs from those
-// around, and this part of e^2 is a third of the pixel's own square. The sum of e^2 is noisy if few pixels dominate it,
-// so one standard error is added to it.
+// is unbiased if all of these have the same e. e^2 is therefore a mixture of two terms. That product has the weight
+// 1 - own. A third of the pixel's own square has the weight `own` (PixelErrors::own), which is larger the more the
+// pixel differs from those around it. The sum of e^2 is noisy if few pixels dominate it, so one standard error is
+// added.
 double equal_pixels(const Film& film, const PixelErrors& errors) {
     const int width = film.width(), height = film.height();
     struct Sums {
@@ -66,7 +67,7 @@ double equal_pixels(const Film& film, const PixelErrors& errors) {
         all.squares += row.squares;
         all.spread += row.spread;
     }
-    // For n pixels of equal error e, the square of the sum is (n^2 + 2 n) e^2 on average. The 2 is subtracted here.
+    // For n pixels of equal error e, the square of the sum is (n^2 + 2 n) e^2 on average, and the quotient is n + 2.
     return std::clamp(square(errors.sum) / (all.squares + std::sqrt(all.spread)) - 2, 1.0,
                       static_cast<double>(film.pixels()));
 }

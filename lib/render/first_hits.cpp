@@ -24,7 +24,7 @@ using transport::CameraSamples;
 
 // A hit of a camera ray and its surface.
 struct SurfaceHit {
-    RayHit hit;  // hit.t is measured from the last index-matched surface that the ray passed
+    RayHit hit;  // hit.t is measured from the last index-matched surface that the ray passed, if there is one
     Surface surface;
 };
 

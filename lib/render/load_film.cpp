@@ -39,8 +39,7 @@ void add_plan(const FilmReader& reader, const SamplePlan& plan, bool is_first, c
     if (!plan.rates.empty()) film.set_rates(reader.tiles(), plan.rates);
 }
 
-// Returns a list of the missing shards, which names ten of them at most. The first shard tells how many there should
-// be.
+// Returns a list of the missing shards, which names ten of them at most. Their number is that of the first shard.
 std::string missing_shards(const std::vector<Shard>& shards) {
     const int count = shards.front().count;
     std::vector<bool> is_there(static_cast<std::size_t>(count) + 1);

@@ -21,7 +21,7 @@ inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 // e_i is estimated from the pixels around i, never from i itself. The number of samples of a pixel is then independent
 // of their values, except for one factor that all pixels share. So the pixel's mean stays unbiased, and so does the
 // variance that its replicates give. The contrast around i is added to e_i, because features that no sample has hit yet
-// are usually at edges. (Also weighting by the number of rays per sample gained nothing.)
+// are usually at edges. Weighting by the number of rays per sample as well gained nothing.
 //
 // Runs on the threads of the caller's TBB arena; the result does not depend on their number.
 // \pre the film has SamplePlan::kFirstPass samples in each pixel
