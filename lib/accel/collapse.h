@@ -48,8 +48,8 @@ struct Slots {
     const SplitNode* const* end() const { return node + count; }
 };
 
-// [i] is the least cost of the subtree of a binary node, times the area of the root, if the subtree may fill up to
-// i + 1 slots.
+// The least costs of the subtree of a binary node, times the area of the root. Element i is the cost if the subtree may
+// fill up to i + 1 slots.
 using ForestCosts = std::array<double, kWidth - 1>;
 
 // Returns half the area of the box and a little more. The addition makes boxes without area differ by their length, and

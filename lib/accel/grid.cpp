@@ -48,11 +48,12 @@ private:
 struct Chunk {
     std::uint32_t begin, end;
     std::vector<Bounds> bounds;        // bounds of the primitives of each cell
-    std::vector<std::uint32_t> count;  // number of primitives of each cell; before the second pass it's replaced by the
+    std::vector<std::uint32_t> count;  // number of primitives of each cell; for the second pass it's replaced by the
                                        // row of the next primitive of each leaf
 };
 
-// Builds the tree over the cells that have primitives. Cells are split until they have at most kSubtree primitives.
+// Builds the tree over the cells that have primitives. A node is split if it has more than kSubtree primitives and
+// enough cells.
 struct CellTree {
     const BuildSettings& settings;
     std::deque<SplitNodes>& nodes;

@@ -6,8 +6,8 @@
 
 namespace limn::accel {
 
-// A closed box. Whoever makes one rounds it outward. Its coordinates may be infinite. It is empty if lower <= upper
-// fails on any axis.
+// A closed box. The code that makes a box rounds it outward. Coordinates may be infinite. A box is empty if lower <=
+// upper fails on any axis.
 struct FloatBox {
     float lower[3], upper[3];
 };

@@ -19,14 +19,13 @@ namespace limn::accel {
 // - The interval, because traversal compares the t at which a ray enters a box with the t of hits. The t of a hit has a
 //   relative error of up to 2^-32 (filter.h). That is up to 2^-32 (|origin| + extent) in units of length. kSlack is
 //   four times as large.
-// - The boxes, because the moved origin, the difference, the reciprocal and the product are rounded. Their error in t
-// is
+// - The boxes, because the moved origin, the difference, the reciprocal and the product are rounded. This error of t is
 //   at most 4 * 2^-53 (|origin| + extent) * inverse.
 // The price is a needless visit now and then.
 inline constexpr double kSlack = 0x1p-30;
 
-// A ray prepared for the test. A ray in the space of an instance is also widened by its own rounding error. If its
-// direction may be wrong by more than an eighth of its length, every box counts as hit.
+// A ray prepared for the test. If the ray is in the space of an instance, boxes and interval are also widened by its
+// own rounding error. If its direction may be wrong by more than an eighth of its length, every box counts as hit.
 struct SlabRay {
     double origin_near[3], origin_far[3];  // the origin, moved to widen the near and far planes of boxes
     double inverse[3];                     // reciprocals of the direction

@@ -25,8 +25,8 @@ public:
     SubtreeBuilder(const BuildSettings& settings, std::uint32_t* indices) : settings_(settings), indices_(indices) {}
 
     // Fills in `root`, except its depth, and builds the tree below it. The builder owns the nodes of that tree. The
-    // range refers to rows of `primitives`; these rows of `primitives` and `spare` are overwritten. \pre the range
-    // isn't empty, and build() hasn't been called before
+    // range refers to rows of `primitives`; these rows of `primitives` and `spare` are overwritten.
+    // \pre the range isn't empty, and build() hasn't been called before
     ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& root);
 
 private:

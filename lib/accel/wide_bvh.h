@@ -16,10 +16,9 @@ struct Leaf {
 };
 
 struct WideBvh {
-    HugeVector<Node> nodes;    // [0] is the root, even above a single leaf; empty if all boxes are empty
-    std::vector<Leaf> leaves;  // depth first; the leaves of one node are consecutive
-    HugeVector<std::uint32_t>
-        indices;  // primitives in the order of the leaves, ascending in a leaf; empty boxes aren't included
+    HugeVector<Node> nodes;             // [0] is the root, even above a single leaf; empty if all boxes are empty
+    std::vector<Leaf> leaves;           // depth first; the leaves of one node are consecutive
+    HugeVector<std::uint32_t> indices;  // primitives in the order of the leaves, ascending in each; without empty boxes
 
     // The expected cost of a ray that intersects the bounds of the whole tree, in the units of BuildSettings. An
     // unbounded box is counted as if it were as large as the bounds of all bounded ones.

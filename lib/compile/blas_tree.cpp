@@ -22,13 +22,12 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;  // primitives of one task
 
-// Builds the tree of one BLAS.
 class BlasTree {
 public:
     explicit BlasTree(flat::Scene& scene) : scene_(scene) {}
 
     void build(flat::Blas& blas) {
-        // Note the sizes of the tables below the root's tree.
+        // Store the sizes of the tables below the root's tree.
         if (&blas == &scene_.blases.front())
             scene_.below_root = {scene_.nodes.size(), scene_.blocks.size(),     scene_.references.size(),
                                  scene_.kinds,        scene_.stored_primitives, scene_.degenerate};

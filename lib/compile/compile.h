@@ -8,9 +8,9 @@
 
 namespace limn::compiler {
 
-// Returns the flat scene of a description. The function is pure. \throws ArgumentError if an object contains itself,
-// instances nest too deep, a medium's boundary contains a medium, there are too many primitives, or the background is
-// negative or not finite
+// Returns the flat scene of a description. The function is pure.
+// \throws ArgumentError if an object contains itself, instances nest too deep, a medium's boundary contains a medium,
+// there are too many primitives, or the background is negative or not finite
 flat::Scene flatten(const limn::Scene& scene);
 
 // Moves instances of a flat scene. The scene becomes the same as if it had been flattened from a description with the

@@ -30,8 +30,8 @@ struct LightItem {
     LightBounds bounds;
 };
 
-// Fills the table's ranks and nodes. Strengths are normalized to a sum of 1. \pre the table has its own lights, places
-// and distant lights
+// Fills the table's ranks and nodes. Strengths are normalized to a sum of 1.
+// \pre the table has its own lights, places and distant lights
 void build_light_tree(std::vector<LightItem> items, flat::LightTable& table);
 
 }  // namespace limn::compiler

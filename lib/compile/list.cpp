@@ -199,8 +199,8 @@ private:
         }
     }
 
-    // The vectors of a packed planar primitive (see PrimitiveList), in double. normal . x is constant on the plane. u .
-    // x increases by 1 along edge_u and is constant along edge_v; v . x the other way round.
+    // The vectors of a packed planar primitive (see PrimitiveList), in double. normal . x is constant on the plane.
+    // u . x increases by 1 along edge_u and is constant along edge_v. For v . x it is the other way round.
     struct Weights {
         Vec3 normal, u, v;
         double spread;  // the larger of the sums of the magnitudes of u's and of v's components

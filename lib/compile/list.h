@@ -21,8 +21,8 @@ struct Candidate {
 };
 
 // Fills Scene::list with the candidates that are so large compared with the rest that most rays would test them in a
-// tree anyway. Returns true for each listed candidate. `others` bounds the primitives that are no candidates.
-// \pre the root's extent and scale are set
+// tree anyway. Returns a flag for each candidate, true if it's listed. `others` bounds the primitives that are no
+// candidates. \pre the root's extent and scale are set
 std::vector<bool> list_large(flat::Scene& scene, std::span<const Candidate> candidates, const Box& others);
 
 }  // namespace limn::compiler

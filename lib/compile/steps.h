@@ -28,7 +28,8 @@ void derive(flat::Scene& scene);
 void build_trees(flat::Scene& scene);
 
 // Builds the tree of one BLAS. Sets its root, bounds, extent, scale, packed_error and cost. For the root BLAS it also
-// sets Scene::list. Throws ArgumentError if there are too many primitives. \pre the BLASes of its instances are built
+// sets Scene::list. Throws ArgumentError if there are too many primitives.
+// \pre the BLASes of its instances are built
 void build_blas_tree(flat::Scene& scene, flat::Blas& blas);
 
 // Fills Scene::media with every occurrence of a medium. \pre the trees are built

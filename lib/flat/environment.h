@@ -31,7 +31,7 @@ struct Environment {
     // The integer that represents the sum of a whole row in `column_before`. The sums are rounded to 5e-10 of it.
     static constexpr std::int32_t kWhole = 0x7fffffff;
 
-    // Returns true if directions can be sampled, so if the map isn't black.
+    // Returns true if directions can be sampled. There are none to sample if the map is black or null.
     bool is_sampled() const { return !band_before.empty(); }
 };
 

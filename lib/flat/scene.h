@@ -42,9 +42,8 @@ static_assert(sizeof(Reference) == 8);
 
 // A mesh. If it has neither normals nor texture coordinates, its vertices are stored only in the blocks of the tree,
 // and `arrays` has nothing but material slots. For such a mesh:
-// - places[i] is the place of triangle i in the tree: kMaxBlock * p + its lane in the block, if the block is at word 2
-// p
-//   of Scene::blocks. It is kNothing if the triangle has no area and isn't in the tree.
+// - places[i] is the place of triangle i in the tree: kMaxBlock * p + its lane in the block. The block begins at word
+//   2 p of Scene::blocks. The place is kNothing if the triangle has no area, because it isn't in the tree then.
 // - `slots` owns the material slots.
 struct Mesh : MeshRecord {
     std::vector<std::uint32_t> places, slots;
@@ -184,8 +183,8 @@ inline bool has_holes(const MaterialRecord& material) {
     return material.details && material.details->opacity != TextureId::none;
 }
 
-// Returns the vertices of a triangle of a mesh, exactly as described. \pre if the mesh has no arrays, the triangle is
-// in the tree
+// Returns the vertices of a triangle of a mesh, exactly as described.
+// \pre if the mesh has no arrays, the triangle is in the tree
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 
 // Calls visit() with the row of a primitive or with the triangle of a mesh. Does nothing for kinds without a table.

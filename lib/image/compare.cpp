@@ -53,7 +53,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
         encoded_mse += square(encode_clamped(x) - encode_clamped(r));
         if (m.valid && relative[i] > relative[largest]) largest = i;
     }
-    // Note the place of the largest.
+    // Store the position of the largest.
     const std::size_t pixel = largest / 3, width = static_cast<std::size_t>(test.width());
     m.largest_x = static_cast<int>(pixel % width);
     m.largest_y = static_cast<int>(pixel / width);

@@ -8,9 +8,8 @@
 //     static constexpr PrimitiveKind kKind
 //     static constexpr const char* kName             its name in CompiledScene::features()
 //     static constexpr auto kRecords                 the table of SceneRecords that describes it
-//     static auto fields(record)                     the fields of a record that the digest covers; only one of two
-//     kinds
-//                                                    that share a table has this
+//     static auto fields(record)                     the fields of a record that the digest covers; only one of the
+//                                                    kinds that share a table of records has this
 //     Kind(record)
 //     MaterialId material
 //     Box bounds() const
@@ -29,8 +28,7 @@
 // A planar kind that can be sampled as a light has this member:
 //
 //     Patch patch() const                            returns a parallelogram around it; u and v of a hit are the
-//     weights
-//                                                    of the edges
+//                                                    weights of its edges
 //
 // If the primitive doesn't fill its patch, it also has these:
 //
@@ -50,7 +48,7 @@
 
 namespace limn::primitives {
 
-// The defaults of the members above, a base of each kind.
+// The base of every kind, with defaults of the members above.
 struct Primitive {
     static constexpr double kShare = 1;
     static Uv weights(double u, double v) { return {u, v}; }

@@ -123,7 +123,7 @@ CameraRays::View view_of(const Camera& camera, int width, int height) {
     require(is_finite(view) && !(view == Vec3{}), "look-from and look-at must differ");
     v.forward = normalize(view);
     const Vec3 right = cross(v.forward, normalize(camera.up));
-    // If it's closer than this to the view direction, the axes would depend on rounding alone.
+    // If `up` is closer than this to the view direction, the axes would depend on rounding alone.
     require(length(right) > 16 * kRoundoff, "up must not be parallel to the view direction");
     v.right = normalize(right);
     v.up = cross(v.right, v.forward);
