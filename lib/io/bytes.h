@@ -1,4 +1,4 @@
-// Reads numbers and text from the bytes of a file, none of which is trusted.
+// Reads numbers and text from the bytes of a file that may be damaged.
 #pragma once
 
 #include <cstddef>

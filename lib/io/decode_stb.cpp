@@ -2,7 +2,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
-// Where a broken file leaves memory unset, stb reads it all the same. With zeroed memory it reads the same every time.
+// stb reads memory that a broken file has left unset. Zeroed memory makes the result the same every time.
 #include <cstdlib>
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)

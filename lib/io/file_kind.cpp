@@ -14,7 +14,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// The bytes by which a kind of file is recognised: `beginning` at its start and `also` at byte `place`.
+// The bytes by which a kind of file is recognised: `beginning` at its start and `also` at byte `place`. `also` never
+// decides alone, because a text might have the same bytes there.
 struct Mark {
     std::string_view beginning;
     FileKind kind;

@@ -15,7 +15,7 @@ namespace limn {
 std::string gltf_path_beside(const std::string& file, const std::string& uri);
 
 // Reads the binary data of a glTF: buffers, buffer views and accessors. A buffer is read when it is first needed, and
-// kept. All functions throw a FileError that names the file and the place in the JSON.
+// kept. Errors are FileErrors that name the file and the place in the JSON.
 class GltfBuffers {
 public:
     // \param chunk the binary chunk of a .glb, or empty; not owned
@@ -46,7 +46,7 @@ private:
         std::uint64_t type = 0;            // the component type
         bool is_normalized = false;        // true if integers stand for [0, 1] or [-1, 1]
 
-        // Returns one value. \pre it is inside `bytes`
+        // Returns one value; 0 if `bytes` is empty. \pre otherwise, the value is inside `bytes`
         double at(std::size_t element, std::size_t component) const;
     };
 

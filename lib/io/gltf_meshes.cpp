@@ -50,6 +50,7 @@ const std::vector<std::size_t>& GltfMeshes::get(const GltfValue& number) {
     return place->second;
 }
 
+// Reads a primitive and appends its index in Model::meshes to `places`. Does nothing if it has no usable triangle.
 void GltfMeshes::add(const GltfValue& primitive, std::vector<std::size_t>& places) {
     const std::uint64_t mode = primitive["mode"].natural_or(kTriangles);
     if (mode > kFan) primitive["mode"].fail("is none of 0 to 6");

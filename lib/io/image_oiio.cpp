@@ -76,7 +76,7 @@ const char* format_name(FileFormat format) {
 // name is one that cannot exist.
 std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
 
-// Reads from memory, but never after the end of the bytes. The class of OpenImageIO 2.4 does so if a file states an
+// A reader of memory that never reads beyond the end of the bytes. The one of OpenImageIO 2.4 does if a file states an
 // offset that is too large.
 class BoundedReader : public OIIO::Filesystem::IOMemReader {
 public:
@@ -87,8 +87,8 @@ public:
     }
 };
 
-// Opens a picture with the reader of its format. If OpenImageIO chose the reader, it would try those of all formats on
-// a broken file. \throws FileError naming `path`
+// Opens a picture with the reader of its format. OpenImageIO is not asked to choose one, because it would try the
+// readers of all formats on a broken file. \throws FileError naming `path`
 std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
     ImageSpec spec, wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha

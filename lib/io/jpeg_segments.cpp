@@ -46,7 +46,7 @@ void check_frame(std::uint64_t marker, std::span<const std::byte> data, std::siz
     demand(data.size() >= 6 && data.size() == 6 + 3 * byte_at(data, 5), "its size is damaged");
     const std::uint64_t height = big_endian(data, 1, 2), width = big_endian(data, 3, 2), count = byte_at(data, 5);
     demand(height > 0 && width > 0 && count > 0, kNoPixels);
-    // Find the largest sampling factors and the number of blocks in a unit, which is coded together.
+    // Find the largest sampling factors, and the number of blocks in a minimum coded unit.
     std::uint64_t most_x = 0, most_y = 0, blocks = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint64_t factors = byte_at(data, 6 + 3 * i + 1), x = factors >> 4, y = factors & 15;

@@ -10,7 +10,8 @@ namespace limn {
 
 namespace {
 
-// Returns true if the name of a file is that of an STL. A damaged binary STL is not recognised by its contents.
+// Returns true if a file has the suffix of an STL. Only a damaged binary STL needs this test: its contents are not
+// recognised.
 bool is_named_stl(const std::string& path) {
     const std::string suffix = std::filesystem::path(path).extension().string();
     return suffix == ".stl" || suffix == ".STL";

@@ -12,7 +12,7 @@
 
 namespace limn {
 
-// Takes the place of all unused words of a material after the first 20, which are named.
+// The text that replaces all unused keywords of a material after the first 20.
 inline constexpr const char* kOtherWords = "other words";
 
 // A picture of a material.

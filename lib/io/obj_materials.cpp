@@ -105,7 +105,7 @@ public:
 
 private:
     void add_library(const std::string& path) {
-        // Skip an MTL that has been read. So far, `files` holds the OBJ and the MTLs after it.
+        // Skip an MTL that has been read. At this stage, `files` holds the OBJ, followed by the MTLs.
         if (std::find(model_.files.begin() + 1, model_.files.end(), path) != model_.files.end()) return;
         model_.files.push_back(path);
         std::string text;
@@ -119,7 +119,7 @@ private:
         parse_mtl(text, path, materials_, model_.warnings);
     }
 
-    // Makes the material of an MTL's material, and collects the keywords that it does not use.
+    // Converts a material of an MTL, and collects the keywords that limn does not use for it.
     MaterialPtr make(const std::string& name, const MtlMaterial& m) {
         const MtlColors colors{clamped(m.emission, HUGE_VAL, "Ke", name), clamped(m.diffuse, 1, "Kd", name),
                                clamped(m.specular, 1, "Ks", name)};
@@ -189,7 +189,7 @@ private:
         return share < 1 ? std::make_shared<AlphaMask>(material, share) : material;
     }
 
-    // Collects a keyword that a material does not use, for one warning for each keyword of an MTL.
+    // Collects a keyword that limn does not use for a material. Each keyword of an MTL gets one warning.
     void count_unused(const MtlMaterial& m, const std::string& name, const MtlMaterial::Word& word) {
         const auto [place, is_new] = unused_places_.try_emplace({m.file, word.text}, unused_.size());
         if (is_new)

@@ -1,5 +1,5 @@
-// Checks the headers of picture files before they are decoded. All functions throw a Fault if a file is not sound. See
-// require_sound() in image_checks.h.
+// Checks the headers of picture files before they are decoded. The functions check_... throw a Fault if a file is not
+// sound. require_sound() in image_checks.h calls them.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ void check_jpeg(std::span<const std::byte> file);
 // picture.
 void check_png(std::span<const std::byte> file);
 
-// A chunk of a PNG file. Views of the file.
+// A chunk of a PNG. Its members are views of the file.
 struct PngChunk {
     std::string_view type, data;
     std::span<const std::byte> type_and_data;

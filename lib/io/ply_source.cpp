@@ -50,7 +50,7 @@ std::optional<Number> parse(std::string_view word) {
 
 }  // namespace
 
-// The value is clamped: a text may state integers up to 2^63, which a long long does not hold.
+// The value is clamped, because rounding to double may have raised it to 2^63, which a long long does not hold.
 std::string integer_text(double value) {
     return std::to_string(static_cast<long long>(std::clamp(value, -0x1p62, 0x1p62)));
 }

@@ -31,12 +31,13 @@ struct PlyElement {
     std::uint64_t count;
     std::vector<PlyProperty> properties{};
 
-    // Returns the index of the first property that has one of these names and is a list or a number, as wanted.
+    // Returns the index of the first property that has one of these names. Considers only lists if `is_list` is true,
+    // else only numbers.
     std::optional<std::size_t> find(std::initializer_list<std::string_view> names, bool is_list = false) const;
 };
 
-// Reads a PLY file row by row. All functions throw a FileError that names the file and the line, or the byte of a
-// binary file. The bytes are not owned.
+// Reads a PLY file row by row. Errors are FileErrors that name the file and the line, or the byte of a binary file. The
+// bytes are not owned.
 class PlySource {
 public:
     // Reads the header.

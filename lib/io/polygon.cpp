@@ -133,8 +133,9 @@ bool PolygonCutter::is_ear(Place i) {
     return turn(a, i, b) > 0 && !holds_a_dent(a, i, b);
 }
 
-// Returns true if another part of the ring is inside the closed triangle. If one is, one of its dents is. A dent at the
-// same point as a corner of the triangle does not count: it is the end of a cut that leads to a hole.
+// Returns true if another part of the ring reaches into the closed triangle. It is enough to test the dents: if any
+// part is inside, a dent is. A dent at the same point as a corner of the triangle does not count, because it is the end
+// of a cut that leads to a hole.
 bool PolygonCutter::holds_a_dent(Place a, Place i, Place b) {
     if (side_ == 0) return false;
     const auto [x0, x1] = std::minmax({points_[a][0], points_[i][0], points_[b][0]});

@@ -42,8 +42,8 @@ namespace {
     });
 }
 
-// Returns the closest hit of one ray, boundaries of media included. It is inlined by force, because batches in scenes
-// with media call it too. \pre is_usable(ray)
+// Returns the closest hit of one ray, boundaries of media included. The attribute makes the compiler inline it although
+// it has two callers. \pre is_usable(ray)
 [[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
     trace::Hit hit = trace::closest_hit(scene, ray);
     if (!scene.media.empty()) nearer_boundary(scene, ray, hit);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kTogether = 256;  // number of hits whose triangles are prefetched together
 
-// Returns the address of the entry of flat::Mesh::places that tells where the triangle of a hit is packed. Returns null
-// for a miss and for a primitive that is not in a packed mesh.
+// Returns a pointer to the entry of flat::Mesh::places for the triangle of a hit, which says where its vertices are
+// packed. Returns null for a miss and for a primitive whose vertices are not packed.
 const std::uint32_t* place_of(const flat::Scene& scene, const RayHit& hit) {
     if (hit.t == kInfinity) return nullptr;
     const flat::Place place = flat::locate(scene, hit.primitive);
@@ -26,7 +26,7 @@ const std::uint32_t* place_of(const flat::Scene& scene, const RayHit& hit) {
 }
 
 // Prefetches the triangles of at most kTogether hits: first their entries of flat::Mesh::places, then their blocks.
-// Without this, incoherent rays would wait for memory twice a hit.
+// Without the prefetch, each hit of an incoherent ray would wait for memory twice.
 void prefetch(const flat::Scene& scene, std::span<const RayHit> hits) {
     std::array<const std::uint32_t*, kTogether> places;
     for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -95,7 +95,7 @@ private:
     }
 
     const flat::Scene& scene_;
-    std::vector<std::uint64_t> of_blas_;  // by BlasId, kUnknown until counted
+    std::vector<std::uint64_t> of_blas_;  // the results of of(), by BlasId; kUnknown before the first call
 };
 
 }  // namespace

@@ -37,8 +37,8 @@ inline bool is_fit(const Ray& r) {
 }
 
 // An empty list for the hits along one ray. It reuses memory that is kept for the thread, so that a query usually
-// allocates nothing. A second list that is made in the same thread while the first one exists, as by a user-defined
-// shape that queries a scene, allocates its own memory.
+// allocates nothing. Lists may be nested, because a user-defined shape may query a scene during a query: the inner list
+// allocates memory of its own.
 class Found {
 public:
     Found() : hits_(std::move(kept())) { hits_.clear(); }

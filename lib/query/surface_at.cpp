@@ -36,8 +36,8 @@ void set_tangents(const Primitive& primitive, Surface& s) {
     s.dp_dv = patch.edge_v;
 }
 
-// Sets the tangents of a sphere to the derivatives of its position by the coordinates of sphere_uv. Its normal is n.x =
-// sin(pi v) cos(phi), n.y = -cos(pi v), n.z = -sin(pi v) sin(phi), where phi = 2 pi u - pi. dp_dv is 0 at the poles.
+// Sets the tangents of a sphere to the derivatives of its position by u and v of sphere_uv. The normal of the sphere is
+// (sin(pi v) cos(phi), -cos(pi v), -sin(pi v) sin(phi)), where phi = 2 pi u - pi. At the poles, dp_dv is set to 0.
 template <class Primitive>
 requires requires(const Primitive& p) { p.ball(); }
 void set_tangents(const Primitive& primitive, Surface& s) {
@@ -47,9 +47,8 @@ void set_tangents(const Primitive& primitive, Surface& s) {
     s.dp_dv = sine > 0 ? (kPi * radius) * Vec3{-n.y * n.x / sine, sine, -n.y * n.z / sine} : Vec3{};
 }
 
-// Replaces the tangents of a mesh triangle, which are its edges, by the derivatives of the position by the mesh's
-// texture coordinates. Keeps the edges if the mesh has no texture coordinates, or if those of the triangle span no
-// area.
+// Replaces the tangents of a mesh triangle, which are its edges, by the derivatives of the position by the texture
+// coordinates. Keeps the edges if the mesh has no texture coordinates, or if those of the triangle span no area.
 void set_mesh_tangents(const MeshView& mesh, std::size_t element, Surface& s) {
     if (mesh.uvs.empty()) return;
     const Index3 t = mesh.triangles[element];
@@ -133,7 +132,7 @@ void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_
         return;
     }
     on_primitive(scene, place, ray, found, parts, out);
-    // Decide the side here, where the normal has no rounding error of a transformation.
+    // Decide the side here, before transformations add rounding errors to the normal.
     out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }
 
