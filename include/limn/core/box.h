@@ -67,8 +67,8 @@ constexpr double surface_area(const Box& b) {
     return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
 }
 
-/// Returns `b` with every face moved outward by `amount` and then to the next double. The result contains every point
-/// whose coordinates differ from those of a point of `b` by at most `amount`, whatever was rounded. An empty box is
+/// Returns `b` with every face moved outward by `amount` and then to the next double. Rounding is outward, so the
+/// result contains every point that is at most `amount` away from a point of `b` along each axis. An empty box is
 /// returned as it is. \pre amount >= 0
 Box grow(const Box& b, const Vec3& amount);
 

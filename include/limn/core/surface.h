@@ -44,14 +44,14 @@ struct Surface {
 
     /// Returns a ray that starts at this point and goes in `direction`. Its origin is moved off the surface by the
     /// error bound, towards the side that the direction points to. So it cannot hit the same flat or convex surface
-    /// again (Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., section 6.8). \param direction of any
-    /// length, towards either side; the direction of the ray \param time in shutter units; the time of the ray
+    /// again (Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., section 6.8).
+    /// \param direction the direction of the ray, of any length and towards either side
+    /// \param time the time of the ray, in shutter units
     Ray spawn_ray(const Vec3& direction, double time) const;
 
     /// Returns a ray from this point to `target`, to test for obstacles. Its direction is target - origin. Its t_max is
     /// just under 1, so that a surface through the target is no obstacle. The error of the target is estimated from its
-    /// coordinates. If the target was computed on a surface, prefer the overload that takes a Surface: it knows the
-    /// error.
+    /// coordinates. Prefer the overload below for a point on a surface, because a Surface knows its error.
     Ray spawn_ray_to(const Point3& target, double time) const;
 
     /// Returns a ray from this point to a point on another surface, to test for obstacles. Both ends are moved off

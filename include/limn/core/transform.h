@@ -44,8 +44,8 @@ Transform interpolate(const Transform& at0, const Transform& at1, double time);
 /// Returns the determinant of the linear part.
 double determinant(const Transform& m);
 
-/// Returns the inverse, computed by cofactors. Very small and very large entries neither underflow nor overflow on the
-/// way.
+/// Returns the inverse, computed by cofactors. Very small or very large entries don't make intermediate results
+/// overflow or underflow.
 ///
 /// \throws ArgumentError if the matrix is singular or not finite, or its inverse is not finite
 Transform inverse(const Transform& m);
@@ -54,9 +54,9 @@ bool is_finite(const Transform& m);  ///< returns true if all twelve entries are
 
 Point3 transform_point(const Transform& m, const Point3& p);  ///< returns M p + translation
 Vec3 transform_vector(const Transform& m, const Vec3& v);     ///< returns M v
-/// Returns the normal n of a surface after the surface is transformed by M: M^-T n, not normalised.
+/// Returns M^-T n, not normalised: the normal of a surface after the surface is transformed by M.
 /// \param inverse_of_m the inverse of M
-/// \param n the normal before
+/// \param n the normal before the transform
 Normal3 transform_normal(const Transform& inverse_of_m, const Normal3& n);
 /// Returns a box that contains the transformed box, rounded outward (Arvo, Transforming Axis-Aligned Bounding Boxes,
 /// Graphics Gems, 1990). An empty box stays empty.

@@ -44,10 +44,10 @@ struct SaveOptions {
     /// called `limn:NAME`, or as comments of an HDR. A name has 1 to 70 printable ASCII characters without blanks. A
     /// text has no zero byte. An EXR loses an empty text; an HDR has blanks instead of line breaks.
     std::vector<std::pair<std::string, std::string>> facts{};
-    /// EXR: further channels, always stored as float. Other formats leave them out.
+    /// EXR: further channels, always stored as float. Other formats don't store them.
     std::vector<ImageLayer> layers{};
     /// EXR and PNG: empty, or the alpha of each pixel, row by row. The image's colours are multiplied by it (associated
-    /// alpha). An EXR stores colours so; a PNG stores them divided by alpha. An HDR leaves alpha out.
+    /// alpha). An EXR stores them like this; a PNG stores them divided by alpha. An HDR stores no alpha.
     std::vector<float> alpha{};
     double exposure = 0;  ///< PNG: in stops; colours are multiplied by 2^exposure
     /// EXR: the whole of which the picture is a part. The data window is the picture, the display window is the whole.

@@ -19,8 +19,8 @@ struct ModelOptions {
     /// True to read the images that materials name. Without its image, a material of an OBJ takes Kd, or (0.6, 0.6,
     /// 0.6) if it has map_Kd but no Kd. A material of a glTF takes its factors.
     bool textures = true;
-    /// The crease angle in degrees, 0 to 180: a mesh without normals gets those of smooth_normals with this angle. By
-    /// default such a mesh stays flat.
+    /// The crease angle in degrees, 0 to 180: a mesh without normals gets normals from smooth_normals with this angle.
+    /// By default such a mesh stays flat.
     std::optional<double> crease{};
 };
 

@@ -61,8 +61,8 @@ public:
     /// primitive. The first hit is that of closest_hit.
     ///
     /// - At a shared edge or vertex each triangle that the ray hits is listed once.
-    /// - A sphere is listed where the ray enters it and where the ray leaves it. It is listed once if the ray touches
-    ///   it, or if both t are rounded to the same number.
+    /// - A sphere is hit where the ray enters and where it exits. It is listed once if the ray touches it, or if both t
+    ///   are rounded to the same number.
     /// - The t of hits at the same point may differ by rounding. Such hits may be in either order.
     /// - The boundary of a medium is a hit too; RayHit::index_matched marks it.
     /// - An unusable ray has no hits.

@@ -19,7 +19,8 @@ namespace limn {
 /// - Surfaces with an AlphaMask are skipped until half of the light is stopped.
 /// - Albedo and normal are means over the camera rays of the pixel's first kRays samples. So they show edges, blur by a
 ///   lens and blur by motion as the picture does.
-/// - The others are those of one ray, through the middle of the pixel, of the lens and of the shutter.
+/// - Position, depth, object and primitive are those of one ray, through the middle of the pixel, of the lens and of
+///   the shutter.
 struct FirstHits {
     static constexpr int kRays = 16;  ///< number of rays per pixel for albedo and normal
 
