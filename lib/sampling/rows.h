@@ -13,8 +13,8 @@ namespace limn::sampling {
 inline constexpr std::size_t kShaded = 32;
 // The number of paths that are traced together. Their state fits the second-level cache.
 inline constexpr std::size_t kBatch = 512;
-// The number of elements behind a batch. They are overwritten when a whole vector is stored of which only the first
-// lanes are valid.
+// The number of spare elements behind a batch. Stages store whole vectors of which only the first lanes are valid; the
+// other lanes are stored there.
 inline constexpr std::size_t kSlack = 16;
 
 // Three rows of n numbers: the coordinates of n points, directions or normals, or n colours.
@@ -55,7 +55,7 @@ struct PathRows {
     double time[n] = {};           // in shutter units
     Rows3Of<n> throughput;
 
-    // Copies path number `at` of `from` to number i, except for the throughput.
+    // Copies row `at` of `from` to row i, except for the throughput.
     template <std::size_t m>
     void copy(std::size_t i, const PathRows<m>& from, std::size_t at) {
         path[i] = from.path[at];
@@ -64,7 +64,7 @@ struct PathRows {
         index[i] = from.index[at];
         time[i] = from.time[at];
     }
-    // Copies a path as copy() does and advances it to the next vertex.
+    // Copies a row as copy() does and advances its path to the next vertex.
     template <std::size_t m>
     void follow(std::size_t i, const PathRows<m>& from, std::size_t at) {
         copy(i, from, at);
