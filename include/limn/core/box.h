@@ -69,7 +69,8 @@ constexpr double surface_area(const Box& b) {
 
 /// Returns `b` with every face moved outward by `amount` and then to the next double. Rounding is outward, so the
 /// result contains every point that is at most `amount` away from a point of `b` along each axis. An empty box is
-/// returned as it is. \pre amount >= 0
+/// returned as it is.
+/// \pre amount >= 0
 Box grow(const Box& b, const Vec3& amount);
 
 }  // namespace limn

@@ -15,8 +15,9 @@ namespace limn {
 /// - On a file system without locks every process gets the lock.
 class FileLock {
 public:
-    /// Takes the lock, without waiting. \throws FileError if this process or another holds it already, PATH.lock cannot
-    /// be created, or links lead in a circle
+    /// Takes the lock, without waiting.
+    /// \throws FileError if this process or another holds it already, PATH.lock cannot be created, or links lead in a
+    /// circle
     explicit FileLock(const std::string& path);
     ~FileLock();
     FileLock(const FileLock&) = delete;

@@ -17,7 +17,8 @@ inline constexpr double kPi = 3.14159265358979323846;                         //
 inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Returns a bound on the relative error that n rounded operations accumulate (Higham, Accuracy and Stability of
-/// Numerical Algorithms, 2nd ed., 2002, Lemma 3.1). \pre n >= 0
+/// Numerical Algorithms, 2nd ed., 2002, Lemma 3.1).
+/// \pre n >= 0
 constexpr double gamma(int n) { return n * kRoundoff / (1 - n * kRoundoff); }
 
 /// Converts degrees to radians.

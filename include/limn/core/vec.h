@@ -134,7 +134,8 @@ inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 ///@}
 
 /// Returns `a` times a power of two such that the largest magnitude of a coordinate is in [1/2, 1). Its squared length
-/// cannot overflow. The zero vector stays zero. \pre a is finite
+/// cannot overflow. The zero vector stays zero.
+/// \pre a is finite
 inline Vec3 scale_to_one(const Vec3& a) {
     int exponent = 0;
     std::frexp(max_abs(a), &exponent);

@@ -43,7 +43,8 @@ ImageMetrics compare_images(const Image& test, const Image& reference);
 ImageMetrics compare_images(const Image& test, const Image& reference_a, const Image& reference_b);
 
 /// Returns (x - r)^2 / (r^2 + 0.01) for each value; ImageMetrics::relative_mse is the mean of these. A value that is
-/// not finite gives NaN. \throws ArgumentError if the sizes differ or the images are empty
+/// not finite gives NaN.
+/// \throws ArgumentError if the sizes differ or the images are empty
 Image error_image(const Image& test, const Image& reference);
 
 /// Returns the error image against the mean of two halves of a reference. The error of the reference is not subtracted.

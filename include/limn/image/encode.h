@@ -15,8 +15,8 @@ namespace limn {
 /// \param image linear colours; if `alpha` is given, multiplied by it (associated alpha)
 /// \param exposure in stops: colours are multiplied by 2^exposure before they are encoded
 /// \param alpha empty, or a value in [0, 1] for each pixel. The result is then r g b a, r g b a, ... with colours
-/// divided by alpha (unassociated alpha), as in a PNG. The colour is black where alpha is 0. \throws ArgumentError if
-/// the exposure is not finite, or alpha has not one value for each pixel
+/// divided by alpha (unassociated alpha), as in a PNG. The colour is black where alpha is 0.
+/// \throws ArgumentError if the exposure is not finite, or alpha has not one value for each pixel
 std::vector<std::uint8_t> encode_srgb8(const Image& image, double exposure = 0, std::span<const float> alpha = {});
 
 }  // namespace limn

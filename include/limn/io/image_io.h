@@ -87,7 +87,8 @@ void check_image_name(const std::string& path);
 bool image_holds_layers(const std::string& path);
 
 /// Checks that a picture can be written to `path`: the suffix, the folder, permissions and free disk space. Writes a
-/// temporary file in the folder and deletes it. \throws FileError as save_image would
+/// temporary file in the folder and deletes it.
+/// \throws FileError as save_image would
 void check_writable(const std::string& path);
 
 /// Reads the first three channels of a picture as linear values. If it has fewer than three, the first one is grey.

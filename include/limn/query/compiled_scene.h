@@ -167,8 +167,9 @@ public:
     void signed_distance(std::span<const Point3> points, std::span<double> distances, int threads = 1) const;
     ///@}
 
-    /// Returns the surface at the point that `ray` hits. \pre `hit` was found in this scene for `ray`, by closest_hit
-    /// or all_hits; for a user-defined shape only by closest_hit
+    /// Returns the surface at the point that `ray` hits.
+    /// \pre `hit` was found in this scene for `ray`, by closest_hit or all_hits; for a user-defined shape only by
+    /// closest_hit
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
     /// Returns the share of light along the shading normal that the surface scatters. It is the mean weight of 16 fixed
     /// samples of the material: the albedo of a diffuse material, white for glass, and black if there is no material.

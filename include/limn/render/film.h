@@ -99,8 +99,9 @@ public:
     /// Makes a black film with the given tiles, in ascending order. \throws Error if there is not enough memory
     Film(const FilmInfo& info, std::vector<std::uint32_t> tiles);
 
-    /// Reads a film. \throws FileError if the file is missing, damaged, truncated or no film, or if it is from a
-    /// version of limn that has another format or other samples
+    /// Reads a film.
+    /// \throws FileError if the file is missing, damaged, truncated or no film, or if it is from a version of limn that
+    /// has another format or other samples
     static Film load(const std::string& path);
     /// Reads films whose tiles together make the whole picture, and returns the whole film. The order of the files does
     /// not matter. The function needs the memory of one film.
@@ -149,10 +150,12 @@ public:
     Color replicate_mean(int x, int y, std::uint32_t r) const;
     ///@}
     /// Returns the variance of the mean, estimated from the difference of the replicates. The estimate is unbiased and
-    /// has one degree of freedom. \pre each replicate has a sample
+    /// has one degree of freedom.
+    /// \pre each replicate has a sample
     Color variance(int x, int y) const;
     /// Returns the variance that the mean of n independent samples would have. It has n - 1 degrees of freedom. It is
-    /// biased, because Sobol points are not independent. \pre the pixel has two samples
+    /// biased, because Sobol points are not independent.
+    /// \pre the pixel has two samples
     Color independent_variance(int x, int y) const;
     /// Returns the largest share that one sample has in the luminance of the pixel, 0 to 1.
     double largest_share(int x, int y) const;
@@ -178,7 +181,8 @@ public:
     std::size_t pixels() const { return index(0, height_); }
     ///@}
     /// Return the index of a pixel in a table of the film's tiles, 256 entries for each tile, and the size of such a
-    /// table. \pre for `place`: the film has the pixel's tile
+    /// table.
+    /// \pre for `place`: the film has the pixel's tile
     ///@{
     std::size_t place(int x, int y) const {
         const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
@@ -193,7 +197,8 @@ public:
     const SamplePlan& plan() const { return plan_; }
     SamplePlan& plan() { return plan_; }
     /// Sets the rates of the plan. `rates` has 256 entries for each of `tiles`, in ascending order. Tiles that the film
-    /// lacks are ignored. \throws ArgumentError if `rates` has another length
+    /// lacks are ignored.
+    /// \throws ArgumentError if `rates` has another length
     void set_rates(std::span<const std::uint32_t> tiles, std::span<const float> rates);
     double seconds() const { return seconds_; }
     void set_seconds(double seconds) { seconds_ = seconds; }
@@ -221,7 +226,8 @@ public:
     Counts counts() const;  ///< returns the sum of the counts of all tiles
 
     /// Convert a tile to the bytes that are stored in a file, and back. `tile_size` is the number of the bytes.
-    /// `set_tile` throws an ArgumentError if there are more or fewer. \pre the film has the tile
+    /// `set_tile` throws an ArgumentError if there are more or fewer.
+    /// \pre the film has the tile
     ///@{
     static std::size_t tile_size(const FilmInfo& info) { return kTileBytes + (info.transparent ? kClearBytes : 0); }
     std::vector<std::byte> tile_bytes(std::uint32_t tile) const;

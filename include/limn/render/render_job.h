@@ -52,7 +52,8 @@ public:
     StoppedBy add_samples(int count);
 
     /// Writes the film to a file, which appears whole or not at all. Any thread may call it at any time. While the job
-    /// runs, it writes the samples that each tile has at that moment. \throws FileError that names the file
+    /// runs, it writes the samples that each tile has at that moment.
+    /// \throws FileError that names the file
     void save(const std::string& path) const;
     /// Return the current picture, and its alpha as in PixelMaps. Any thread may call them at any time.
     ///@{
@@ -77,7 +78,8 @@ private:
 class Repeated {
 public:
     /// Starts the thread. It waits `seconds` before each call. If the function throws an exception, the program is
-    /// terminated. \throws ArgumentError if `seconds` is not positive
+    /// terminated.
+    /// \throws ArgumentError if `seconds` is not positive
     Repeated(double seconds, std::function<void()> function);
     /// Ends the thread. If the function is running, waits until it returns.
     ~Repeated();
@@ -93,8 +95,8 @@ private:
 class Checkpoints {
 public:
     /// Starts the thread. It waits `seconds` before each save. If a film cannot be written, it calls `failed` with the
-    /// error, and the render continues. The job must outlive the object. \throws ArgumentError if `seconds` is not
-    /// positive
+    /// error, and the render continues. The job must outlive the object.
+    /// \throws ArgumentError if `seconds` is not positive
     Checkpoints(const RenderJob& job, const std::string& path, double seconds,
                 std::function<void(const Error&)> failed);
     /// Ends the thread. If it is saving, waits until the file is written.
