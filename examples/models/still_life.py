@@ -16,7 +16,7 @@ FLOAT, USHORT = 5126, 5123
 TURN = 2 * math.pi
 
 
-# ---- images: lists of rows from the top, each a list of tuples of bytes -----------------------------------------------
+# ---- images: lists of rows from the top, each a list of tuples of bytes ----------------------------------------------
 
 
 def hashed(x, y, seed):
@@ -58,7 +58,7 @@ def byte(value):
 
 
 def picture(width, height, color):
-    """Returns the image of a function of (u, v), v upward, that returns linear red, green, blue and optionally alpha."""
+    """Returns the image of a function of (u, v), v upward, that returns linear red, green, blue and perhaps alpha."""
     rows = []
     for y in range(height):
         row = []
@@ -153,8 +153,8 @@ def plaster_relief(u, v):
 
 
 def lathe(profile, steps=56):
-    """Returns the surface of revolution of a profile, a list of (radius, height). If the profile is drawn to the right of
-    the axis, the outside is on the right of the way from its first to its last point."""
+    """Returns the surface of revolution of a profile, a list of (radius, height). If the profile is drawn to the right
+    of the axis, the outside is on the right of the way from its first to its last point."""
     n = len(profile)
     lengths = [0.0]
     for (r0, h0), (r1, h1) in zip(profile, profile[1:]):
