@@ -141,8 +141,8 @@ HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& w
 // the origin, which is off by `origin_error`, to a point of the plane. `against` is n.d < 0, where n = u x v and d is
 // the direction. The plane is behind the origin if n.q and n.d have opposite signs.
 //
-// Error of n.q. Let U be the largest magnitude of the coordinates of both edges, |q| that of q, a the edge_error, e the
-// origin_error, and r = 2^-53.
+// Error of n.q. Let U (`edge` in the code) be the largest magnitude of the coordinates of both edges, |q| (`way`) that
+// of q, a the edge_error, e the origin_error, and r = 2^-53.
 //   - A coordinate of n is off by (4/3) 4 U a + 4 r U^2. The factor 4/3 covers terms in a^2. This adds three times as
 //     much times |q| to the error: 16 U a |q| + 12 r U^2 |q|.
 //   - A coordinate of q is off by r |q| + e, and one of n is at most 2 U^2. This adds 6 U^2 (r |q| + e).
