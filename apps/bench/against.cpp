@@ -39,9 +39,11 @@ extern "C" [[gnu::noinline]] void measured_render(const CompiledScene& scene, co
 int main(int argc, char** argv) {
     const std::string what = argc == 4 ? argv[1] : "list";
     if (what == "list") {
+        // List the scenes.
         for (const auto& [name, make] : pictures()) std::printf("samples %s\n", name.c_str());
         for (const std::string& name : bench::scene_names()) std::printf("rays %s\n", name.c_str());
     } else if (what == "rays") {
+        // Trace the rays of each kind.
         const bench::Geometry geometry = bench::make_scene(argv[2], 1);
         const CompiledScene scene = compile(bench::describe(geometry));
         for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) {
@@ -58,6 +60,7 @@ int main(int argc, char** argv) {
                           [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
         }
     } else {
+        // Render.
         Figure figure = pictures().at(argv[2])();
         figure.settings.width = figure.settings.height = what == "samples" ? 100 : 16;
         figure.settings.samples_per_pixel = std::stoi(argv[3]);

@@ -164,6 +164,7 @@ def ratio_cell(rows):
 
 def page(scenes, a, plot):
     """Returns the page of results as Markdown."""
+    # Define the cells of the tables.
     keys = ["limn", *a.peer]
 
     def table_of(cell, *more):
@@ -180,6 +181,7 @@ def page(scenes, a, plot):
         text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
         return f"**{text}**" if solves_another_problem(difference, noise) else text
 
+    # Collect what the renderers say of themselves, and what failed.
     known = {f"- {key}: {row['about']}\n" for rows in scenes.values() for key, row in rows.items() if "about" in row}
     failed = "\n".join(f"- {scene}: {row['failed']}" for scene, rows in scenes.items() for row in rows.values()
                        if "failed" in row)

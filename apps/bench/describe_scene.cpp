@@ -48,6 +48,7 @@ public:
     // its transform to world space.
     void add_shapes(BlasId id, const Transform& place, Json& all) const {
         for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
+            // Convert the primitives by their kind.
             if (range.kind == PrimitiveKind::instance) {
                 const InstanceRecord& instance = records_.instances[range.first_row];
                 require(!instance.moving, "moving instances");

@@ -206,9 +206,8 @@ Geometry make_scene(const std::string& name, double scale) {
 }
 
 Geometry load_scene(const std::string& path) {
-    const Model model = load_obj(path, {.textures = false});
-    return {.name = std::filesystem::path(path).filename().string(),
-            .mesh = model.meshes.front()};  // load_obj returns one mesh
+    const Model model = load_obj(path, {.textures = false});  // has one mesh
+    return {.name = std::filesystem::path(path).filename().string(), .mesh = model.meshes.front()};
 }
 
 Scene describe(const Geometry& geometry) {

@@ -1,4 +1,4 @@
-// What the bindings of ray queries and point queries share. Both work on arrays.
+// Functions and types that the bindings of ray queries and point queries share.
 #pragma once
 
 #include <nanobind/nanobind.h>

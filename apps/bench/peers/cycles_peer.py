@@ -64,6 +64,7 @@ def image_of(values, space="Linear Rec.709"):
 
 def material_of(told, tinted=False):
     """Returns a Blender material. If `tinted` is true, its colour is an attribute of the points."""
+    # Make a medium.
     made = bpy.data.materials.new(told["kind"])
     shader = Shader(made)
     if told["kind"] == "medium":
@@ -72,10 +73,12 @@ def material_of(told, tinted=False):
             "Absorption Coefficients": told["density"] - scattering, "Scatter Coefficients": scattering,
             "Anisotropy": 0.0})})
         return made
+    # Or make the nodes of the colour and the normal.
     color = shader.node("Attribute", attribute_name="tint") if tinted else shader.color(told.get("color", (1, 1, 1)))
     inputs = {"Color": color, "Roughness": math.sqrt(told.get("alpha", 0))}
     if "normal_map" in told:
         inputs["Normal"] = shader.node("NormalMap", {"Color": shader.color(told["normal_map"], "Non-Color")})
+    # Make the node that scatters or emits.
     if told["kind"] == "lambertian":
         surface = shader.node("BsdfDiffuse", inputs)
     elif told["kind"] == "mirror":
@@ -89,6 +92,7 @@ def material_of(told, tinted=False):
     else:
         surface = shader.node("Emission", {"Color": color, "Strength": 1.0})
         made.cycles.emission_sampling = "FRONT_BACK"
+    # Make the holes.
     if "opacity" in told:
         opacity = told["opacity"]
         share = shader.color(opacity, "Non-Color") if "picture" in opacity else opacity[0]
