@@ -23,7 +23,7 @@ inline double seconds(Clock clock) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The result of a ray. For a shadow ray a hit has t = 0, and the other members are 0.
+// The result of a ray. In a set of any-hit queries a hit has t = 0, and the other members are 0.
 struct Answer {
     double t = kInfinity;  // infinity is a miss
     double u = 0, v = 0;
@@ -60,7 +60,7 @@ struct Contender {
     // Builds a scene and takes the time by the clock. The geometry must outlive the scene.
     BuiltScene (*build)(const Geometry& geometry, Clock clock);
 };
-// The function `build` of limn.
+// Builds a scene with limn. See Contender::build.
 BuiltScene build_limn(const Geometry& geometry, Clock clock);
 
 // Returns limn and the contenders of the module limn_bench_embree (common/module.h). If the module can't be loaded,

@@ -119,7 +119,7 @@ private:
     const RaySet* set_ = nullptr;
     std::vector<RTCRayNt<kLanes>> packets_;
     std::vector<std::array<float, kWidth>> t_;
-    std::vector<RTCHitNt<kLanes>> hits_;  // empty for shadow rays
+    std::vector<RTCHitNt<kLanes>> hits_;  // empty for any-hit queries
 };
 
 // The bytes of memory that Embree uses, as its memory monitor reports them.

@@ -105,7 +105,7 @@ def _renamed(*names: tuple[str, str]) -> Iterator[None]:
 
 
 def _odd(nsamples: int) -> None:
-    """Checks that nsamples is odd, as Open3D does. limn does not use it."""
+    """Raises a ValueError unless nsamples is odd. limn does not use the number."""
     if nsamples < 1 or nsamples % 2 == 0:
         raise ValueError(f"nsamples: must be an odd number, not {nsamples}")
 

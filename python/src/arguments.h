@@ -155,7 +155,8 @@ constexpr const char* type_name() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return "uint8";
     if constexpr (std::is_same_v<T, bool>) return "bool";
 }
-// Returns the same with elements of type T. If `columns` isn't 0, the array has an axis more, of that length.
+// Returns a new array with elements of type T that isn't initialised. If `columns` isn't 0, an axis of that length is
+// added to the shape. \pre the GIL is held
 template <class T>
 NewArray<T> new_array(std::vector<std::size_t> shape, std::size_t columns = 0) {
     if (columns > 0) shape.push_back(columns);
