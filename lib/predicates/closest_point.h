@@ -6,12 +6,15 @@
 
 namespace limn {
 
+// The point of a primitive that is nearest to the origin.
 struct NearestPoint {
     // The part of a shape that a point is on.
     enum class Part { face, edge_ab, edge_ac, edge_bc, a, b, c };
 
     Vec3 at;
-    double u = 0, v = 0;  // on a triangle the weights of b and c, on a quad the coordinates along the edges
+    // On a triangle the weights of b and c, on a quad the coordinates along the edges, on a disk as in
+    // intersect_disk().
+    double u = 0, v = 0;
     Part part = Part::face;
 };
 
@@ -19,15 +22,14 @@ struct NearestPoint {
 // triangle is.
 NearestPoint nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Returns the nearest point of a quad. `part` is that of the half of the quad which the point is on: the triangle at
-// the corner or the one opposite to it. The diagonal between them counts as face.
+// Returns the nearest point of a quad. `part` is a part of the half of the quad that has the point; the halves are the
+// triangle at `corner` and the opposite one. The diagonal between them counts as face.
 NearestPoint nearest_on_quad(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
 
 // Returns the nearest point of a sphere, and (radius, 0, 0) if its centre is the origin.
 NearestPoint nearest_on_sphere(const Vec3& center, double radius);
 
-// Returns the nearest point of a disk. On the rim, `part` is edge_bc. u and v are those of intersect_disk(). \pre the
-// normal has unit length
+// Returns the nearest point of a disk. On the rim, `part` is edge_bc. \pre the normal has unit length
 NearestPoint nearest_on_disk(const Vec3& center, const Vec3& normal, double radius);
 
 }  // namespace limn

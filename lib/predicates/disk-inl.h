@@ -21,7 +21,7 @@ struct DiskCrossing {
     Mask<N> known;  // false if products may have overflowed, or underflowed by more than the bounds
 };
 
-// The filter of a disk. Its border belongs to it; a ray in its plane misses.
+// The filter of a disk. Its rim belongs to it; a ray in its plane misses.
 template <class N>
 struct DiskPredicate {
     using Ray = RayOf<N>;
@@ -65,14 +65,15 @@ struct DiskPredicate {
                 .known = Mask<N>(is_in_range(reach) & is_in_range(along) & is_in_range(size) & is_in_range(radius))};
     }
 
-    // Returns what double can tell of the hit.
+    // Returns the hits and misses that double precision can prove.
     //
     // The disk is hit if w.w <= r^2 b^2 and b is not 0. Let |w| be the largest magnitude of the coordinates of w. Then
     //   - w.w is off by 6 |w| E + 3 E^2 because of the error of w, and by 8 u |w|^2 because of its own rounding;
     //   - r^2 b^2 is off by r^2 B (2 |b| + B) because of the error of b, and by 3 u r^2 b^2 because of its own
     //     rounding.
-    // If r^2 b^2 exceeds w.w by more than both, then r^2 b^2 > r^2 B (2 |b| + B), and so |b| > 2 B. Then the exact b is
-    // at least |b| / 2, and t is off by at most 2 (A + |t| B) / |b| plus its own rounding u |t|.
+    // If r^2 b^2 exceeds w.w by more than both errors, then r^2 b^2 > r^2 B (2 |b| + B), and so |b| > 2 B. Then the
+    // magnitude of the exact b is at least |b| / 2, and t is off by at most 2 (A + |t| B) / |b| plus its own rounding u
+    // |t|.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
         const auto [w, a, b, w_error, a_error, b_error, known] = crossing(ray);
         // Compare w.w with r^2 b^2.

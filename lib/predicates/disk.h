@@ -15,8 +15,8 @@ namespace limn {
 bool intersect_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame,
                     const Search& search, PlanarHit& hit);
 
-// Returns the same, computed in exact arithmetic only. If the line of the ray meets the disk, `hit` is set even if t is
-// not within the search.
+// Returns the same, computed in exact arithmetic only. If the line of the ray intersects the disk, `hit` is set even if
+// t is not within the search.
 bool exact_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame, const Search& search,
                 PlanarHit& hit);
 

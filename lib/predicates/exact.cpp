@@ -19,9 +19,10 @@ Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
 
 }  // namespace
 
-// Let A, B and C be the vertices seen from the ray's origin, D the direction and n the normal. The edge values are D.(B
-// x C), D.(C x A) and D.(A x B). Their sum is D.n. The ray hits if no two of them have opposite signs and the sum is
-// not 0. Then t = n.A / n.D, where n.A = A.(B x C).
+// Let A, B and C be the vertices relative to the ray's origin, D the direction and n the normal. The edge values are
+//     wa = D.(B x C), wb = D.(C x A), wc = D.(A x B).
+// Their sum is D.n. The ray hits if no two of them have opposite signs and the sum is not 0. Then t = n.A / n.D, where
+// n.A = A.(B x C).
 bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                     PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);
@@ -38,8 +39,9 @@ bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const Ray
     return search.contains(hit.t);
 }
 
-// Solves Q + u U + v V = t D, where Q is the corner seen from the ray's origin and D the direction. The scalar product
-// of both sides with V x D leaves u alone, that with U x D leaves v, and that with U x V leaves t.
+// Solves Q + u U + v V = t D, where Q is the corner relative to the ray's origin, U and V are the edges, and D is the
+// direction. In the scalar product of both sides with V x D only u remains. With U x D only v remains, and with U x V
+// only t.
 bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
                 const Search& search, PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);

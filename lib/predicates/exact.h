@@ -8,7 +8,7 @@
 namespace limn {
 
 // These two return true if the ray hits the closed shape and t is within the search; then `hit` is set. t, u and v are
-// exact up to the rounding of ratio(). t is rounded before it is compared with the search.
+// exact up to the rounding of ratio(). The rounded t is compared with the search.
 bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                     PlanarHit& hit);
 bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
@@ -21,8 +21,7 @@ struct SphereHits {
 };
 
 // Returns the roots of a sphere. `near` and `far` are the roots that the filter found if they are accurate, else null.
-// A root that is given is returned unchanged, unless both are given and out of order. The sign of `radius` does not
-// count.
+// A root that is given is returned unchanged. The sign of `radius` does not count. \pre *near <= *far if both are given
 SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const double* near,
                         const double* far, const Search& search);
 

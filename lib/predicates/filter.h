@@ -1,9 +1,8 @@
-// What all intersections share.
+// Definitions that all intersections share.
 //
 // A filter computes in double, with a proven bound on its error, and decides if it can. Otherwise the exact fallback
-// decides (exact.h). Therefore decisions do not depend on the quality of the filters. The reported t does depend on it,
-// within rounding: it is the t of the filter if the filter decides and its t is accurate, else that of the exact
-// fallback.
+// decides (exact.h). Therefore decisions do not depend on the quality of the filters. The rounding of the reported t
+// does depend on it: the t is computed by the filter if the filter decides and is accurate, else by the exact fallback.
 #pragma once
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Bounds on the distance of a computed hit point from its surface.
 //
-// A ray that leaves a surface starts at a point moved off the surface by this bound. The bounds are larger than the
-// error itself, so that the filter of the next intersection can tell on which side of the surface the ray starts. With
-// the error alone, the exact fallback would have to tell, which is slower.
+// The next ray starts at a point that is moved off the surface by this bound. The bounds are larger than the error
+// itself,so that the filter of the next intersection can decide on which side of the surface the ray starts. With the
+// error alone, the exact fallback would have to decide, which is slower.
 //
 // A bound is the same along every axis, because an intersection in a rotated or sheared frame mixes the axes.
 #pragma once

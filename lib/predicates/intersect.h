@@ -20,7 +20,7 @@ bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v
 // Returns the index of the nearest triangle of a mesh, the first of several with the same t. Returns the number of
 // triangles if none is hit.
 std::size_t intersect_mesh(const MeshView& mesh, const RayFrame& frame, const Search& search, PlanarHit& hit);
-// Tests the first root that is within the search. \pre radius > 0
+// The hit is at the first root that is within the search. \pre radius > 0
 bool intersect_sphere(const Point3& center, double radius, const RayFrame& frame, const Search& search, PlanarHit& hit);
 
 }  // namespace limn

@@ -63,8 +63,7 @@ HWY_INLINE bool is_clear(double t, const Search& search) {
     return is_clear_of(search.t_min) && is_clear_of(search.t_max);
 }
 
-// What a filter tells of a ray and a shape: that the ray surely hits it within the search, that it surely does not, or
-// nothing.
+// The result of tell(): the ray surely hits the shape within the search, surely does not, or the filter cannot decide.
 enum class Told { nothing, met, missed };
 
 // Runs the filter of a shape. Sets `hit` to the filter's t, u and v.

@@ -88,8 +88,9 @@ bool holds_origin(const Polygon<kCorners>& polygon) {
     return true;
 }
 
-// A sphere and a ray. p is the ray's origin relative to the centre. The power of the ray's point at t, its squared
-// distance from the centre minus the squared radius, is a t^2 + 2 b t + c. All are multiplied by powers of ray.unit.
+// A sphere and a ray. p is the ray's origin relative to the centre. The power of a point is its squared distance from
+// the centre minus the squared radius; for the point of the ray at t it is a t^2 + 2 b t + c. All numbers are
+// multiplied by powers of ray.unit.
 struct ExactSphere {
     ExactRay ray;
     Dyadic3 p;
@@ -98,7 +99,9 @@ struct ExactSphere {
     ExactSphere(const Point3& center, double radius, const RayFrame& frame) : ray(exact_ray(frame)) {
         p = ray.origin - ray.unit * to_dyadic(center);
         const Dyadic r = ray.unit * Dyadic(radius);
-        a = dot(ray.direction, ray.direction), b = dot(p, ray.direction), c = dot(p, p) - r * r;
+        a = dot(ray.direction, ray.direction);
+        b = dot(p, ray.direction);
+        c = dot(p, p) - r * r;
     }
 
     // Returns true if the moved ray is inside the sphere at t = `end`: if the power there is negative. The move E adds

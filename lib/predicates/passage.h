@@ -1,17 +1,17 @@
 // Passages of rays through surfaces, by a rule that decides every case: Edelsbrunner, Muecke, Simulation of Simplicity,
 // ACM TOG 9(1), 1990.
 //
-// The ray is treated as if it were moved by the vector (e, e^2, e^3), where e > 0 is smaller than any number. Its
-// direction is unchanged. A passage is an intersection of the moved ray with a surface, between its ends at t_min and
-// t_max, which move with it. In this position
+// The ray is treated as if it were moved by the vector (e, e^2, e^3), where e > 0 is smaller than any positive number.
+// Its direction is unchanged. Its ends at t_min and t_max move with it. A passage is an intersection of the moved ray,
+// between its ends, with a surface. In this position
 //   - the ray intersects no edge and no vertex, and it is in the plane of no face;
 //   - its ends are on no surface;
 //   - therefore the signs of its passages through a closed surface add up to the difference of the winding numbers at
 //     its ends.
 //
-// Every decision is the sign of a polynomial in the given coordinates and in e. For e = 0 this is the value for the
-// given ray; if the value is not 0, its sign decides. Otherwise the first coordinate that is not 0 of the polynomial's
-// slope, its derivative by the move, decides.
+// Every decision is the sign of a polynomial in the given coordinates and in e. Its value for the given ray decides if
+// it is not 0. Otherwise its slope decides, the derivative with respect to the move: the sign of the first coordinate
+// of the slope that is not 0.
 //   - The polynomials of flat shapes are linear in the move.
 //   - The sign for an edge is the same for all faces that share it. Therefore they agree on which side the ray passes.
 //   - A ray that touches a sphere misses it. If an end of the ray is on a sphere, the slope decides.
@@ -50,8 +50,8 @@ bool is_origin_on(const Point3& a, const Point3& b, const Point3& c, const RayFr
 bool is_origin_on(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame);
 bool is_origin_on(const Point3& center, double radius, const RayFrame& frame);
 
-// Returns the sign of n.d, where n = u x v and d is the direction of the ray. Returns 0 if double cannot tell. The
-// edges u and v may be off by a rounding.
+// Returns the sign of n.d, where n = u x v and d is the direction of the ray. Returns 0 if double precision cannot
+// prove the sign. The edges u and v may be off by a rounding.
 //
 // Let U, V and D be the largest magnitudes of the coordinates of u, v and d. In units of kRoundoff
 //   - each coordinate of n is off by 8 U V: 4 from the edges, 2 from its two products, 2 from their difference;

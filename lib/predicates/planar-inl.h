@@ -1,4 +1,4 @@
-// What the filters of triangles and quads share. The include guard is per target, as Highway requires.
+// Definitions that the filters of triangles and quads share. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_PLANAR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_PLANAR_INL_H
 #undef LIMN_PREDICATES_PLANAR_INL_H
@@ -116,12 +116,11 @@ struct InsideHit {
     N depth;             // difference between the largest and the smallest z of the shape
 };
 
-// Judges the hits of an inside and returns the result of the filter.
+// Compares the t of hits of the inside with the interval, and returns the result of the filter.
 //
 // The errors of the weights change z by at most 2 weight_error depth, since the weights add up to 1. The errors of the
-// vertices' z and the 8 operations change z by at most 2 E, because E >= 8 u M. A relative error of direction.z is one
-// of t.
-
+// vertices' z and the 8 operations change z by at most 2 E, because E >= 8 u M. The relative error of direction.z is
+// also one of t.
 template <class N>
 HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> missed, Mask<N> inside,
                                   const InsideHit<N>& h) {
@@ -134,8 +133,8 @@ HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& w
     return {.hit = hit, .miss = Mask<N>(missed | (inside & j.miss())), .t = t, .u = h.u, .v = h.v};
 }
 
-// Returns true if a plane is surely behind the ray's origin. A ray that leaves a surface needs this test for that
-// surface: its t is so close to 0 that its error bound seldom excludes t > 0.
+// Returns true if a plane is surely behind the ray's origin. A ray that starts on a surface needs this test for that
+// surface: the t of the hit is so close to 0 that its error bound seldom excludes t > 0.
 //
 // The plane is spanned by the edges u and v, whose coordinates are off by at most `edge_error`. The vector q goes from
 // the origin, which is off by `origin_error`, to a point of the plane. `against` is n.d < 0, where n = u x v and d is
@@ -158,7 +157,7 @@ HWY_INLINE Mask<N> is_behind(const Vector<N>& u, const Vector<N>& v, const Vecto
 }
 
 // Returns true if a plane is surely beyond the end of a search. A shadow ray needs this test for the plane of its
-// light: it ends just before the light, and if it arrives at a grazing angle, the error bound of t does not tell.
+// light: it ends just before the light, and at a grazing angle the error bound of t is too large to decide.
 //
 // The parameters are those of is_behind(). `rest` = q - t_max d is the vector from the end of the search to a point of
 // the plane. The plane is beyond the end if n.rest and n.d have the same sign.
@@ -179,8 +178,8 @@ HWY_INLINE Mask<N> is_beyond(const ShearedRay<N>& ray, const Vector<N>& u, const
     return is_as_given & (abs(product) > error) & !((product < 0.0) ^ against);
 }
 
-// Adds the misses that is_behind() and is_beyond() find to the result of a filter. They are tried for insides that the
-// filter leaves undecided, and for t_min >= 0 only.
+// Adds the misses that is_behind() and is_beyond() find to the result of a filter. They are tried only if the inside is
+// hit, the filter has not decided, and t_min >= 0.
 template <class N>
 HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> inside, const Vector<N>& u,
                              const Vector<N>& v, const Vector<N>& q, N edge_error, Mask<N> against,

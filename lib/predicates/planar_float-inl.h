@@ -103,8 +103,8 @@ HWY_INLINE EdgeValues<N> edge_values(const SeenTriangle<N>& p) {
 // Returns true if the plane of a shape is surely behind the ray's origin. \pre the hit is certain; `det` is the sum of
 // its edge values
 //
-// A ray that leaves a surface needs this test for that surface: its t is so close to 0 that the bounds on t seldom
-// exclude t > 0. The side of the plane that the origin is on tells.
+// A ray that starts on a surface needs this test for that surface: the t of the hit is so close to 0 that the bounds on
+// t seldom exclude t > 0. The side of the plane on which the origin is decides more often.
 //
 // Let n = u x v be the normal and q the vector from the origin to a vertex. n.q is a sum of products of three numbers.
 // Its error is at most the sum of
@@ -153,7 +153,7 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     const SeenTriangle<N> p(vertex, ray);
     const EdgeValues<N> w = edge_values<kQuad>(p);
     FloatHits<N> hits;
-    // Try the bound for the farthest vertex first: it is quicker and tells most misses.
+    // Try the bound for the farthest vertex first: it is quicker and finds most misses.
     hits.possible = there & !w.are_missed(mul_add(ray.coarse_slope, w.across, ray.coarse));
     if (HWY_LIKELY(!any(hits.possible))) return hits;
 

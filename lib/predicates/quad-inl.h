@@ -27,7 +27,7 @@ struct QuadPredicate {
     // Returns the outward normal, of any length.
     HWY_INLINE Vector<N> outward() const { return cross(edge_u, edge_v); }
 
-    // Returns what double can tell of the hit.
+    // Returns the hits and misses that double precision can prove. u and v are the coordinates along the edges.
     //
     // The filter solves corner + u edge_u + v edge_v = origin in the sheared plane by Cramer's rule: u = wu / det, v =
     // wv / det. All three determinants are off by at most e (ShearedRay). det - w is off by at most 3 e, including its
@@ -68,7 +68,7 @@ struct QuadPredicate {
                              .weight_error = 4 * e / det,
                              .depth = abs(eu.z) + abs(ev.z)};
         FilterResult<N> result = judged(ray, within, missed, inside, h);
-        // If t does not tell, the side of the plane may.
+        // If t is too uncertain, try the side of the plane on which the ray starts or ends.
         tell_by_side(ray, within, inside, at_u, at_v, to_corner, N(0.0), turned ^ (ray.direction.z < 0.0), result);
         return result;
     }

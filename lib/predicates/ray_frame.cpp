@@ -22,7 +22,9 @@ struct ExactInverse {
     explicit ExactInverse(const Transform& m) {
         const auto column = [&](std::size_t j) { return Dyadic3{m.rows[0][j], m.rows[1][j], m.rows[2][j]}; };
         const Dyadic3 a = column(0), b = column(1), c = column(2);
-        rows[0] = cross(b, c), rows[1] = cross(c, a), rows[2] = cross(a, b);
+        rows[0] = cross(b, c);
+        rows[1] = cross(c, a);
+        rows[2] = cross(a, b);
         determinant = dot(a, rows[0]);
         if (determinant.sign() > 0) return;
         determinant = -determinant;
@@ -61,8 +63,8 @@ bool is_singular(const Transform& m) {
 RayFrame::RayFrame(const RayFrame& outer_frame, const Transform& matrix, const Transform& object_from_world,
                    const InverseError& of_inverse)
     : ray(ray_inside(outer_frame.ray, matrix, object_from_world)), outer(&outer_frame), world_from_object(&matrix) {
-    // The error is that of this transformation, plus the transformed error of the outer ray. 1.25 covers that of the
-    // determinant in `norm`: 1 / (1 - 6/32) < 1.25.
+    // The error is that of this transformation, plus the transformed error of the outer ray. The factor 1.25 covers the
+    // error of the determinant in `norm`: 1 / (1 - 6/32) < 1.25.
     const Vec3 v = (outer_frame.ray.origin - Point3{}) - matrix.translation();
     const Vec3 d = outer_frame.ray.direction;
     origin_error = of_inverse.error * max_abs(v) + 1.25 * of_inverse.norm * outer_frame.origin_error + kTiny;

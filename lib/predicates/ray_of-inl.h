@@ -47,11 +47,11 @@ struct FilterResult {
     N t, u, v;          // of hits
 };
 
-// What is known of a t with a bound on its error.
+// The judgement of a t with a bound on its error: see judge().
 //
-// If t is neither `beyond` nor `accurate`, the exact fallback decides. A t that is not a float but may be one within
-// its error is not accurate: users choose such round numbers for t_min and t_max, so the exact t may be equal to an end
-// of the search.
+// If t is neither `beyond` nor `accurate`, the exact fallback decides. A t is not accurate if it is not a float but the
+// nearest float is within its error. The exact t may then be that float, and t_min and t_max are often such round
+// numbers.
 template <class N>
 struct Judgement {
     Mask<N> beyond;    // the exact t is surely outside the search

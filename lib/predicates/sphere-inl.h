@@ -42,9 +42,10 @@ struct SpherePredicate {
     // computed from the product of the roots.
     //
     // Error of the foot point. Let o be the origin, d the direction, c the centre, r the radius, p = o - c, L >= |p|
-    // (`reach`), and u = 2^-53. Let e be a bound on the length of the error of the origin (`absolute`), and s the error
-    // of each coordinate of the direction divided by the largest. The foot point relative to the centre is F = p - (p.d
-    // / d.d) d.
+    // (`reach`), and u = 2^-53. Let e be a bound on the length of the error of the origin (`absolute`). Let s be the
+    // error of each coordinate of the direction, divided by its largest coordinate. The foot point relative to the
+    // centre is
+    //     F = p - (p.d / d.d) d.
     //   - p is off by u L + e;
     //   - (p.d / d.d) d is off by 8 u L;
     //   - the sum is rounded by u L;
@@ -54,8 +55,8 @@ struct SpherePredicate {
     // Error of the discriminant. r^2 - F.F is off by at most E (2 |F| + E) + 6 u (r^2 + F.F). Its sign is right if its
     // magnitude exceeds D = E (4 r + E) + 32 u (r^2 + F.F):
     //   - If |F| <= 2 r, then D is larger than the error.
-    //   - If |F| > 2 r, the sign can only be wrong if E >= |F| - r. But then E (4 r + E) >= (|F| - r) (|F| + 3 r) > F.F
-    //     - r^2, so the magnitude does not exceed D.
+    //   - If |F| > 2 r, the sign can only be wrong if E >= |F| - r. But then the magnitude F.F - r^2 does not exceed D,
+    //     because E (4 r + E) >= (|F| - r) (|F| + 3 r) > (|F| - r) (|F| + r).
     //
     // Errors of the roots. They are t_F +- h with t_F = -p.d / d.d and h = sqrt((r^2 - F.F) / d.d).
     //   - t_F is off by E / |d|.

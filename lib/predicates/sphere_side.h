@@ -21,8 +21,8 @@ inline double sum_of_magnitudes(const Vec3& v) { return std::abs(v.x) + std::abs
 // p is off by `p_error` besides, this adds p_error (2 L + 3 p_error) and p_error M. The bounds are a little larger, for
 // their own rounding and for products that underflow.
 struct SphereSide {
-    int power;  // sign of p.p - r^2, or 0 if double cannot tell; negative inside the sphere
-    int along;  // sign of p.d, or 0 if double cannot tell; positive if d points away from the centre
+    int power;  // sign of p.p - r^2, negative inside the sphere; 0 if uncertain
+    int along;  // sign of p.d, positive if d points away from the centre; 0 if uncertain
 
     SphereSide(const Vec3& p, const Vec3& d, double radius, double p_error) {
         const auto sign = [](double x, double error) { return x > error ? 1 : x < -error ? -1 : 0; };
@@ -33,8 +33,9 @@ struct SphereSide {
     }
 };
 
-// The result of side_of(). missed: the ray surely misses the sphere. inside: the origin is surely inside, so that the
-// second root is after it and the first is not.
+// The result of side_of():
+//   - missed: the ray surely misses the sphere;
+//   - inside: the ray surely starts inside, so only the second root is after its origin.
 enum class Side { unknown, missed, inside };
 
 // Decides on which side of a sphere a ray starts and ends. \pre t_min is not negative

@@ -27,15 +27,15 @@ struct TrianglePredicate {
     // Returns the outward normal, of any length.
     HWY_INLINE Vector<N> outward() const { return cross(b - a, c - a); }
 
-    // Returns what double can tell of the hit. u and v are the weights of b and c.
+    // Returns the hits and misses that double precision can prove. u and v are the weights of b and c.
     //
     // The edge values wa, wb and wc are 2x2 determinants of sheared vertices, each off by at most e (ShearedRay). If
     // all three are above e or all three below -e, the ray passes through the inside. If one is above e and another
     // below -e, it misses. Otherwise the filter cannot decide.
     //
     // Let S = wa + wb + wc. A weight w / S is off by at most 5 e / |S|: e from w, 3 e from the terms of S, and less
-    // than e from the two roundings of S. The computed weights add up to 1. Therefore their errors change the mean z
-    // only by the differences between the z of two vertices and that of the third: by at most 2 (5 e / |S|) depth.
+    // than e from the two roundings of S. The computed weights add up to 1.Therefore only the differences z_b - z_a and
+    // z_c - z_a contribute to the error of the mean z: at most 2 (5 e / |S|) depth.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
         // Shear the vertices and compute the edge values.
         const Vector<N> at_a = ray.axes.permuted(a), at_b = ray.axes.permuted(b), at_c = ray.axes.permuted(c);
@@ -60,7 +60,7 @@ struct TrianglePredicate {
                              .weight_error = 5 * e / abs(det),
                              .depth = max(pa.z, max(pb.z, pc.z)) - min(pa.z, min(pb.z, pc.z))};
         FilterResult<N> result = judged(ray, within, missed, inside, h);
-        // If t does not tell, the side of the plane may.
+        // If t is too uncertain, try the side of the plane on which the ray starts or ends.
         const Vector<N> edge_b = at_b - at_a, edge_c = at_c - at_a;
         const auto against = !((det < 0.0) ^ (ray.direction.z < 0.0));
         tell_by_side(ray, within, inside, edge_b, edge_c, qa, kRoundoff * max(max_abs(edge_b), max_abs(edge_c)),

@@ -136,8 +136,8 @@ public:
         const N run = half.cosine * (volume_ * scale) - half.sine * (dot(b_, along) * scale);
         const N over = 1.0 / (rise * rise + run * run);
         const Vector<N> p = ((run * run - rise * rise) * over) * a_ + (2.0 * rise * run * over * scale) * along;
-        // Find the direction on the arc from b to p: 1 - cos of its angle to b is v times that of p. The latter is
-        // computed as |b - p|^2 / 2, which does not cancel if p is close to b.
+        // Find the direction on the arc from b to p. If x is the angle to b, the 1 - cos(x) of the direction is v times
+        // the 1 - cos(x) of p. For p it is computed as |b - p|^2 / 2, which does not cancel if p is close to b.
         const N fall = v * (length_squared(b_ - p) / 2.0);
         const Vector<N> aside = p - dot(b_, p) * b_;
         const N length_aside = sqrt(length_squared(aside));
