@@ -91,8 +91,8 @@ private:
 
     using Rays = RTCRayHitNt<kLanes>;
 
-    // Calls Embree. `rays` are `packets` packets of the type Rays. For shadow rays Embree reads only their first
-    // member.
+    // Calls Embree. `rays` are `packets` packets of the type Rays. For any-hit queries Embree reads only their
+    // member `ray`.
     void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
         const RTCScene scene = scene_.get();
         const bool any = set_->any;
