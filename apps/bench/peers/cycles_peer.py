@@ -52,7 +52,7 @@ def rgba(color):
 
 
 def image_of(values, space="Linear Rec.709"):
-    """Returns a Blender image of an array, whose rows go from the top. Those of Blender go from the bottom."""
+    """Returns a Blender image of an array. The rows of the array go from the top, those of Blender from the bottom."""
     height, width, _ = values.shape
     made = bpy.data.images.new("picture", width, height, float_buffer=True)
     made.colorspace_settings.name = space
@@ -73,7 +73,7 @@ def material_of(told, tinted=False):
             "Absorption Coefficients": told["density"] - scattering, "Scatter Coefficients": scattering,
             "Anisotropy": 0.0})})
         return made
-    # Or make the nodes of the colour and the normal.
+    # Make the nodes of a surface's colour and normal.
     color = shader.node("Attribute", attribute_name="tint") if tinted else shader.color(told.get("color", (1, 1, 1)))
     inputs = {"Color": color, "Roughness": math.sqrt(told.get("alpha", 0))}
     if "normal_map" in told:
