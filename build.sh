@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Everything that is done with limn, on a fresh Debian 12 too: installs what is missing, builds, runs.
+# Runs all commands of limn's development. Each installs the Debian packages that it needs, then builds and runs.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -36,12 +36,14 @@ TEXT
 
 as_root() { if [[ $EUID -eq 0 ]]; then "$@"; else sudo "$@"; fi; }
 
-# install_missing PACKAGE...: those that are not there yet; asks nothing. Other systems than Debian must have them.
+# install_missing PACKAGE... installs the packages that are not installed yet, without questions. It does nothing on
+# systems without dpkg-query, where the user must install them.
 install_missing() {
     local missing=() package architecture
     command -v dpkg-query >/dev/null || return 0
     for package in "$@"; do
-        # PACKAGE:ARCHITECTURE is one of another; there may be packages of the same name.
+        # A package of the same name may be installed for several architectures. Check that of PACKAGE:ARCHITECTURE, or
+        # else the machine's.
         [[ $package == *:* ]] && architecture=${package#*:} || architecture=$(dpkg --print-architecture)
         dpkg-query -W -f='${Architecture} ${db:Status-Status}\n' "$package" 2>/dev/null |
             grep -Ex "(all|$architecture) installed" >/dev/null || missing+=("$package")
@@ -53,18 +55,18 @@ install_missing() {
         apt-get install -y -q --no-install-recommends "${missing[@]}" >&2 </dev/null
 }
 
-# Compiler, what the libraries link and what the programs need.
+# Packages to build the library and the programs.
 program_packages=(
     g++ cmake ninja-build libopenimageio-dev libtinyobjloader-dev libstb-dev libtbb-dev libhwy-dev librandom123-dev libxxhash-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev xplanet-images)
 
-# And what the suite needs: the default targets are all of these.
+# Installs what the default targets need, which include the suite.
 install_needs() {
     install_missing "${program_packages[@]}" pkg-config python3 python3-dev python3-venv catch2 librapidcheck-dev \
         libboost-dev make parallel
 }
 
-# configure OPTION...: the usual build. g++ compiles in a tenth less time if it collects its garbage later.
+# configure OPTION... configures the release build. g++ takes a tenth less time if it collects its garbage later.
 configure() {
     local later=--param=ggc-min-heapsize=300000
     "${CXX:-c++}" -Werror "$later" -E -x c++ /dev/null >/dev/null 2>&1 || later=
@@ -89,7 +91,7 @@ figures() {
         "$program" --error 2e-3 -o "$out/$name.exr" -o "$out/$name.png" --report "$out/$name.json" </dev/null && continue
         status=$?
         echo "$name failed, exit status $status" >&2
-        [[ $status -lt 128 ]] || exit "$status"  # interrupted: so is the whole
+        [[ $status -lt 128 ]] || exit "$status"  # a signal ended the program: end too
         failed=1
     done
     local exr png
@@ -99,9 +101,10 @@ figures() {
     [[ $failed -eq 0 && $exr -eq 18 && $png -eq 18 ]]
 }
 
-# fuzz [READER ...] [--seconds N]
+# fuzz [READER ...] [--seconds N] fuzzes each reader for N seconds. By default it fuzzes all, half an hour each.
 fuzz() {
     local readers=() seconds=1800 reader failed=0
+    # Read the arguments.
     while [[ $# -gt 0 ]]; do
         case $1 in
             film | gltf | image | obj | ply | stl | rays) readers+=("$1") ;;
@@ -115,6 +118,7 @@ fuzz() {
         shift
     done
     [[ ${#readers[@]} -gt 0 ]] || readers=(film gltf image obj ply stl rays)
+    # Run the fuzzers.
     install_needs
     install_missing clang-14 libclang-rt-14-dev
     for reader in "${readers[@]}"; do
@@ -132,10 +136,11 @@ docs() {
     echo "build/docs/html/index.html"
 }
 
-# python SCRIPT [OPTION ...]: Debian's Python, for which the packages below are.
+# python SCRIPT [OPTION ...] runs a script by Debian's Python, which finds the packages below.
 python() { /usr/bin/python3 -B "$@"; }
 report_packages=(git python3 python3-markdown python3-matplotlib python3-numpy python3-openimageio)
 
+# Check the arguments that no script checks.
 [[ $# -ge 1 ]] || usage
 command=$1
 shift
@@ -145,6 +150,7 @@ case $command in
 esac
 [[ " $* " != *" --full "* ]] || export LIMN_FULL=1
 
+# Run the command.
 case $command in
     figures) figures ;;
     test)
@@ -170,7 +176,7 @@ case $command in
     convergence)
         build
         install_missing python3-venv "${report_packages[@]}"
-        # Mitsuba is slow without LLVM; not every Debian has this version.
+        # Mitsuba is slow without LLVM. Not every Debian has this version.
         ! apt-cache show libllvm19 >/dev/null 2>&1 || install_missing libllvm19
         python apps/bench/convergence.py "$@"
         ;;
@@ -180,7 +186,7 @@ case $command in
         [[ $# -gt 0 && " $* " != *" cluster "* ]] || install_missing slurm-wlm
         python apps/bench/reliability.py "$@"
         ;;
-    check)  # builds trees of its own
+    check)  # the script builds limn itself
         install_needs
         install_missing clang-14 clang-19 ccache valgrind dpkg-dev "${report_packages[@]}"
         if [[ " $* " == *" --aarch64 "* ]]; then

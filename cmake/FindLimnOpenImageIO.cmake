@@ -1,6 +1,6 @@
-# OpenImageIO as the imported target limn::openimageio. Looked for by hand, for Debian's package config stops where the
-# tools and Python bindings that it lists are not installed too, and names an include folder that it does not install.
-# Installed: limn's package config uses it too.
+# Finds OpenImageIO and defines the imported target limn::openimageio. It does not use the package config of Debian.
+# That config fails unless the tools and the Python bindings are installed too, and it names an include folder that
+# Debian does not install. This file is installed, because limn's own package config uses it.
 
 find_path(LimnOpenImageIO_INCLUDE_DIR OpenImageIO/imageio.h)
 find_library(LimnOpenImageIO_LIBRARY OpenImageIO)

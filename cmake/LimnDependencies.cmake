@@ -1,4 +1,4 @@
-# The libraries that limn links, as targets with clean include folders.
+# Finds the libraries that limn uses.
 
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED CONFIG)

@@ -1,4 +1,4 @@
-# Install rules and package files: find_package(limn CONFIG) and pkg-config. The installed tree may be moved.
+# Install rules, and the package files for find_package(limn CONFIG) and pkg-config. The installed tree may be moved.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -26,7 +26,7 @@ install(FILES "${PROJECT_BINARY_DIR}/limn-config.cmake" "${PROJECT_BINARY_DIR}/l
               "${PROJECT_SOURCE_DIR}/cmake/FindLimnOpenImageIO.cmake"
         DESTINATION "${package_dir}")
 
-# pkg-config finds the prefix from where limn.pc stands.
+# limn.pc gives the prefix relative to its own folder.
 file(RELATIVE_PATH prefix_from_pc "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
 set(requires "tbb libhwy")

@@ -1,4 +1,4 @@
-// Defines a material, velvet: its fibres shine if light or eye graze the surface. Writes custom_material.png.
+// Defines a material, velvet: its fibres shine if light and view are at grazing angles. Writes custom_material.png.
 #include <limn/limn.h>
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 using namespace limn;
 
-// f = (body + rim (1 - cos_in)(1 - cos_out)) / pi: symmetric in both directions, and it cannot return more light than
-// it gets while body + rim <= 1. Directions are drawn by the cosine alone; the weight makes up for the rest.
+// The scattering function is f = (body + rim (1 - cos_in)(1 - cos_out)) / pi. It is symmetric in the two directions. It
+// conserves energy if body + rim <= 1. Directions are sampled with a pdf that is proportional to the cosine.
 class Velvet final : public Material {
 public:
     Velvet(const Color& body, const Color& rim) : body_(body), rim_(rim) {}
@@ -22,7 +22,7 @@ public:
     ScatterValue value(const Surface& s, const Vec3& out, const Vec3& in) const override {
         const double cos_in = dot(in, s.shading_normal);
         const double cos_out = std::clamp(dot(out, s.shading_normal), 0.0, 1.0);
-        if (cos_in <= 0 || dot(in, s.normal) <= 0) return {};  // nothing goes through the surface
+        if (cos_in <= 0 || dot(in, s.normal) <= 0) return {};  // no transmission
         const double pdf = pdf_cosine_hemisphere(cos_in);
         return {.value = (body_ + (1 - std::min(cos_in, 1.0)) * (1 - cos_out) * rim_) * pdf, .pdf = pdf};
     }

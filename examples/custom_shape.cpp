@@ -1,4 +1,4 @@
-// Defines a shape by two functions. limn traces it like the built-in ones. Writes custom_shape.png.
+// Defines a shape by two functions, bounds() and hit(). limn traces it like a built-in shape. Writes custom_shape.png.
 #include <limn/limn.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ public:
                    .u = (radius - inner_) / (outer_ - inner_),
                    .v = (std::atan2(p.z, p.x) + kPi) / (2 * kPi),
                    .material = material_.get(),
-                   // t is one rounded division, which may move the point along the ray by this.
+                   // The division that gives t is rounded. This is how far that may move the point along the ray.
                    .position_error = kRoundoff * abs(t * ray.direction)};
     }
 

@@ -1,4 +1,4 @@
-// Defines a texture, wood: the rings of a trunk along the y axis. Writes custom_texture.png.
+// Defines a texture, wood: the annual rings of a trunk along the y axis. Writes custom_texture.png.
 #include <limn/limn.h>
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 using namespace limn;
 
-// A ring is light where it grew in spring and darkens towards autumn. Noise, itself a texture, bends the rings and
-// draws the fibres.
+// Each ring is light on its inner side, which grew in spring, and darkens towards autumn. The Noise texture distorts
+// the rings and adds the fibres.
 class Wood final : public Texture {
 public:
     explicit Wood(double rings) : rings_(rings) {}
@@ -18,7 +18,7 @@ public:
         const double from_pith = std::hypot(s.position.x, s.position.z) + 0.4 * bend_.value(stretched).r;
         const double age = from_pith * rings_;
         const double season = age - std::floor(age);
-        const double ring = 6.75 * season * season * (1 - season);  // 1 at two thirds of the year, 0 at its ends
+        const double ring = 6.75 * season * season * (1 - season);  // 1 after two thirds of the year, 0 at its ends
         const double dark = 0.7 * ring + 0.3 * fibre_.value(stretched).r;
         return (1 - dark) * spring_ + dark * autumn_;
     }
@@ -33,7 +33,7 @@ int main() {
     const auto wood = std::make_shared<Lambertian>(std::make_shared<Wood>(6));
     const auto table = std::make_shared<Lambertian>(Color{.6, .62, .6});
 
-    // The three faces of a block that the camera sees, cut from beside the pith, and a ball from further out.
+    // Add a block, of which only the three visible faces are needed, and a ball further from the pith.
     const Point3 corner{-.3, 0, -.3};
     const Vec3 x{1.6, 0, 0}, y{0, 1.6, 0}, z{0, 0, 1.6};
     Scene scene;

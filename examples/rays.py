@@ -10,7 +10,7 @@ scene.add_triangles(vertices, faces, limn.Lambertian((0.7, 0.2, 0.1)))
 scene.background = limn.Background.gradient((1, 1, 1), (0.5, 0.7, 1))
 compiled = scene.compile()
 
-rays = np.array([[-1, -1, -1, 1, 1, 1], [5, 5, 5, 1, 0, 0]], float)  # origin, direction: through a vertex, and away
+rays = np.array([[-1, -1, -1, 1, 1, 1], [5, 5, 5, 1, 0, 0]], float)  # origin, direction: one hits a vertex, one misses
 hits = compiled.cast_rays(rays)
 print(hits["t_hit"], hits["primitive_ids"], compiled.count_intersections(rays))
 print(compiled.contains(np.array([[0.2, 0.2, 0.2], [0, 0, 0], [1, 1, 1]], float)))

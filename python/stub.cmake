@@ -1,6 +1,6 @@
-# FROM to TO: stubs that say which arguments may be None. nanobind writes that of every argument, for each is bound as one
-# that takes None, so that refusing it names the argument (arguments.h). It is true where None is the default, or where
-# the argument's own type says so and it stands twice.
+# Writes the stubs FROM to TO without the "| None" of arguments that must not be None. nanobind writes "| None" for
+# every argument, because all of them are bound so that they accept None (arguments.h, given()). An argument may be None
+# only if None is its default, or if its own type says so and "| None" therefore occurs twice.
 file(READ "${FROM}" text)
 string(REPLACE " | None | None = None" " | None = None" text "${text}")
 string(REPLACE " | None = None" " ?= None" text "${text}")

@@ -1,7 +1,8 @@
-"""How often intersections are wrong, in limn and in others, group by group.
+"""Counts how many intersections are wrong, in limn and in other libraries.
 
-Run through ./build.sh accuracy. Writes build/results/accuracy.json and accuracy.html. The exit status is 1 if limn is
-wrong anywhere. An interrupted run goes on where it was. docs/accuracy.md says what the groups ask."""
+Run it by ./build.sh accuracy. It writes build/results/accuracy.json and accuracy.html. The exit status is 1 if limn has
+a wrong intersection. An interrupted run continues with the groups that are not measured yet. docs/accuracy.md describes
+the groups."""
 
 import argparse
 import sys
@@ -14,24 +15,25 @@ GROUPS = ("leaks", "quad-leaks", "spheres", "triangles", "quads", "slabs", "inst
           "bad-rays", "furnace", "queries")
 LIMIT_ULPS = 1
 LIMIT_FURNACE = 1e-3
-DEEP = "depth 1000"  # the furnace's column in which nothing that matters is cut and nothing ends by chance
+DEEP = "depth 1000"  # the furnace's column without Russian roulette, whose paths are long enough to lose no light
 WRONG = ("false_hits", "false_misses", "self_hits", "lost", "aborts")
-# 1e8 rays in each row of leaks would take two hours of two cores.
+# Numbers of rays. 1e8 rays in each row of leaks would take two hours on two cores.
 USUAL = ("--rays", "250000", "--leak-rays", "1000000")
 FULL = ("--rays", "1000000", "--leak-rays", "10000000")
 
 
 def is_wrong(measure, column, cell):
+    """Returns True if limn exceeds a limit in this cell."""
     if measure == "furnace":
         return (column == DEEP and abs(cell["figure"]) > LIMIT_FURNACE or
                 column == "unlimited" and abs(cell["figure"]) > LIMIT_FURNACE + 4.5 * cell["figure_error"])
-    # An error that is infinite or NaN is not within the limits.
+    # "not <=" is also true for an error of NaN.
     return column.startswith("limn") and (any(cell[key] for key in WRONG) or not cell["t_ulps"] <= LIMIT_ULPS
                                           or not cell["uv_ulps"] <= LIMIT_ULPS)
 
 
 def faults(groups):
-    """Returns a line for each row that was not judged in full, and for each cell of limn that is wrong."""
+    """Returns a line for each row that was not judged completely, and for each wrong cell of limn."""
     found = []
     for group in groups:
         for row in group["rows"]:
@@ -43,7 +45,7 @@ def faults(groups):
 
 
 def cell_text(measure, column, cell):
-    """Returns what is not 0 of a cell."""
+    """Returns the numbers of a cell that are not 0, as text."""
     if not cell["asked"]:
         return "–"
     name = lambda key: "wrong" if measure == "queries" else key.replace("_", " ")
@@ -59,7 +61,7 @@ def cell_text(measure, column, cell):
 
 
 def draw_leaks(group):
-    """Draws the leaks of the group, and returns what names the plot."""
+    """Draws the leaks of the group, and returns the Markdown that shows the plot."""
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True, layout="constrained")
     for axis, kind in zip(axes, ("vertices", "edges")):
         for k, column in enumerate(group["columns"]):
@@ -84,11 +86,13 @@ def main():
     options = parser.parse_args()
     if unknown := set(options.groups) - set(GROUPS):
         parser.error(f"there is no group {', '.join(unknown)}")
+    # Measure.
     head = origin(" ".join(["./build.sh accuracy", *sys.argv[1:]]))
     kept = Kept("accuracy", **head)
     measured = [kept(name, lambda: run_json(BIN / "limn_accuracy", name, *options.rays))
                 for name in options.groups or GROUPS]
     groups = [one["groups"][0] for one in measured]
+    # Write the page.
     found = faults(groups)
     rays = sum(row["rays"] for group in groups for row in group["rows"])
     parts = [f"{rays:,} rays, each judged by exact arithmetic. Embree: {measured[0]['embree'] or 'not installed'}. "

@@ -1,6 +1,7 @@
-"""Compares this tree with another commit: samples a second, rays a second, and instructions a sample of each scene.
+"""Compares the speed of this tree with another commit: samples, rays and instructions of each scene.
 
-Builds this tree's scenes against both libraries. A ratio over 1 is faster: the median of nine interleaved rounds."""
+Builds the scenes of this tree with the libraries of both. A ratio over 1 says that this tree is faster. It is the
+median of nine rounds in which both take turns."""
 
 import re
 import subprocess
@@ -17,6 +18,7 @@ CALLGRIND = "valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-c
 
 
 def run(*command, check=True):
+    """Runs a command and returns its output. Ends the program if the command fails and `check` is true."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
     if check and done.returncode != 0:
         sys.exit(f"against: {' '.join(map(str, command))}:\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
@@ -24,11 +26,14 @@ def run(*command, check=True):
 
 
 def build(source, folder):
-    """Returns this tree's program with the library of `source`, and the sources that can't be built."""
+    """Builds the program of this tree with the library of `source`. Returns its path and the source files that can't be
+    compiled with that library."""
+    # Build and install the library.
     run("cmake", "-S", source, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DLIMN_INSTALL=ON",
         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", f"-DCMAKE_INSTALL_PREFIX={folder}/installed",
         *(f"-DLIMN_{part}=OFF" for part in ("WITH_OPENIMAGEIO", "BUILD_APPS", "BUILD_EXAMPLES", "BUILD_TESTS")))
     run("cmake", "--build", folder / "build", "--target", "install")
+    # Compile this tree's source files.
     package = next((folder / "installed").glob("lib/**/limn.pc"))
     compiler = ["ccache", "g++", "-O3", "-no-pie", "-ffp-contract=off", *(f"-I{ROOT / f}" for f in FOLDERS),
                 f'-DLIMN_FIGURE_DATA_DIR="{ROOT}/examples/figures/data"',
@@ -36,7 +41,7 @@ def build(source, folder):
                 *run("pkg-config", "--cflags", package).stdout.split()]
     failed = [path.name for path in SOURCES
               if run(*compiler, "-c", path, "-o", folder / f"{path.name}.o", check=False).returncode != 0]
-    # A scene whose source is missing ends the program when it is made.
+    # Link those that compile. The program ends with an error if it makes a scene of another one.
     run(*compiler, *(folder / f"{path.name}.o" for path in SOURCES if path.name not in failed),
         *run("pkg-config", "--libs", package).stdout.split(), "-Wl,--unresolved-symbols=ignore-all,-z,lazy",
         "-o", folder / "against")
@@ -44,7 +49,8 @@ def build(source, folder):
 
 
 def numbers(program, what, name, spp):
-    """Returns what the program prints, or callgrind's count. Returns nothing if the program can't make the scene."""
+    """Returns the times that the program prints, or the instructions that callgrind counts, as a dict. The dict is
+    empty if the program can't make the scene."""
     done = run(*(CALLGRIND if what == "instructions" else ()), program, what, name, spp, check=False)
     if done.returncode == 0 and what == "instructions":
         return {what: int(re.search(r"Collected : (\d+)", done.stderr)[1])}
@@ -52,7 +58,7 @@ def numbers(program, what, name, spp):
 
 
 def measure(programs, kind, name):
-    """Returns the ratios of each number, round by round."""
+    """Returns for each time or count the list of its ratios, one for each round."""
     print(f"against: {name}", file=sys.stderr, flush=True)
     ratios, spp = {}, max(4, round(1.6 / numbers(programs[0], kind, name, 4).get("samples", 1)))  # about 0.4 s
     for what, count, rounds in [(kind, spp, 9)] + [("instructions", 4, 1)] * (kind == "samples"):
@@ -67,14 +73,17 @@ def main():
     commit = git("rev-parse", "--verify", "-q", "--short=8", f"{''.join(sys.argv[1:2])}^{{commit}}")
     if not commit:
         sys.exit("usage: ./build.sh against COMMIT [SCENE ...]; COMMIT must be one of this repository")
+    # Build both programs.
     head, there = origin(" ".join(["./build.sh against", commit, *sys.argv[2:]])), ROOT / "build/against" / commit
     if not (there / "source").exists():
         run("git", "-C", ROOT, "worktree", "add", "--force", "--detach", there / "source", commit)
     programs, failed = zip(build(ROOT, ROOT / "build/against/this"), build(there / "source", there))
+    # Measure the scenes.
     known = {name: kind for kind, name in map(str.split, run(programs[0]).stdout.splitlines())}
     if unknown := [name for name in sys.argv[2:] if name not in known]:
         sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(known)}")
     found = {name: measure(programs, known[name], name) for name in sys.argv[2:] or known}
+    # Write the table.
     rows, medians = [], {}
     for name, what, ratios in [(n, w, ratios) for n, each in found.items() for w, ratios in sorted(each.items())]:
         low, middle, high = quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3

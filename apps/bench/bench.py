@@ -1,7 +1,8 @@
-"""Rays a second beside Embree, building, memory, threads and growth; then queries beside other libraries.
+"""Compares limn with Embree in tracing and building, and with Open3D, trimesh and embreex in queries.
 
-Run through ./build.sh bench. Writes build/results/bench.json and bench.html. The exit status is 1 if a result is wrong.
-An interrupted run goes on where it was. Times say little on a machine that does something else meanwhile."""
+Run it by ./build.sh bench. It writes build/results/bench.json and bench.html. The exit status is 1 if a result is
+wrong. An interrupted run continues with what is not measured yet. The times mean little if the machine runs other
+programs."""
 
 import argparse
 import os
@@ -14,7 +15,7 @@ from results import BIN, ROOT, Kept, origin, run_json, table, write
 
 SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
 PARTS = (*SCENES, "growth", "queries")
-GROWTH = {"sphere": 2e6, "soup": 1e6}  # triangles with --scale 1
+GROWTH = {"sphere": 2e6, "soup": 1e6}  # number of triangles with --scale 1
 BATCHES = {"limn batch 1": 1, "limn batch 8": 8, "limn batch 64": 64, "limn batch": 4096, "limn batch 65536": 65536}
 LIMN_BENCH = (BIN / "limn", "bench", "--quiet", "--json", "-")
 RATIOS = (("limn", "Embree"), ("limn", "Embree robust"), ("batch", "best mode"))
@@ -25,7 +26,7 @@ mode` is the fastest of Embree's modes: single rays, packets of 4, 8 and 16, str
 
 
 def ask_peers(*arguments):
-    """Installs limn and the other libraries in an environment of their own, and returns what queries.py prints."""
+    """Installs limn and the other libraries in a virtual environment, and returns what queries.py prints."""
     raw, python = ROOT / "build/queries", ROOT / "build/query-peers/bin/python"
     pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     for command in ([sys.executable, "-m", "venv", python.parents[1]],
@@ -35,12 +36,13 @@ def ask_peers(*arguments):
                      f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={raw}/limn", ROOT]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     for package in PACKAGES:
-        subprocess.run([*pip, package])  # a library that can't be installed has no answers
+        subprocess.run([*pip, package])  # a library that can't be installed has no results
     return run_json(python, "-B", ROOT / "apps/bench/queries.py", *arguments)
 
 
 def subject(row, name):
-    """Returns one way to trace, or None. "batch" is the fastest of limn's batches, "best mode" of Embree's modes."""
+    """Returns the subject of a row that has the name, or None. "batch" is the fastest of limn's batches. "best mode" is
+    the fastest of Embree's modes."""
     fits = {"batch": lambda s: s["name"].startswith("limn batch"),
             "best mode": lambda s: s["name"].startswith("Embree") and s["name"] != "Embree robust"}
     found = filter(fits.get(name, lambda s: s["name"] == name), row["subjects"])
@@ -48,15 +50,17 @@ def subject(row, name):
 
 
 def ratio(a, b):
-    """Returns how much faster a is than b: quartiles of the ratios of the rounds."""
+    """Returns the quartiles over the rounds of the times b divided by the times a, or None if one is missing."""
     return a and b and quantiles([y / x for x, y in zip(a, b)], n=4, method="inclusive")
 
 
 def ray_ratio(row, ours, theirs):
+    """Returns the ratio of two subjects of a row."""
     return ratio(*((found := subject(row, name)) and found["seconds"] for name in (ours, theirs)))
 
 
 def rate(row, name):
+    """Returns million rays a second, or None if there is no such subject."""
     return (found := subject(row, name)) and found["million_a_second"]
 
 
@@ -69,11 +73,13 @@ def spread(r):
 
 
 def rows_of(scenes, threads=1):
+    """Returns the rows of a number of threads, with their titles."""
     return [(f"{scene['name']}, {row['rays']}", row) for scene in scenes for row in scene["rows"]
             if row["threads"] == threads]
 
 
 def summary(scenes):
+    """Returns a table of the mean ratios of each scene and of all."""
     def means(rows):
         found = [[r[1] for _, row in rows if (r := ray_ratio(row, *pair))] for pair in RATIOS]
         return [number(geometric_mean(ratios)) if ratios else "–" for ratios in found]
@@ -83,8 +89,8 @@ def summary(scenes):
 
 
 def ray_tables(scenes):
-    """Returns rates; batches over single rays, and limn over limn held to AVX2 if this processor has more; and what all
-    threads gain."""
+    """Returns three tables: rates; batches over single rays, and the processor's best instruction set over AVX2 if it
+    has a better one; all threads over one."""
     columns = ["limn", "batch", "Embree", "Embree robust", "best mode"]
     gains = [r for r in (("limn", "AVX2"), ("limn batch", "AVX2 batch")) if subject(scenes[0]["rows"][0], r[1])]
     rates, batches, threads = [], [], []
@@ -105,6 +111,7 @@ def ray_tables(scenes):
 
 
 def building(scenes):
+    """Returns a table of the time of building and of the memory."""
     rows = []
     for scene in scenes:
         for build in scene["builds"]:
@@ -119,7 +126,7 @@ def building(scenes):
 
 
 def query_tables(results):
-    """Returns wrong answers and rates. limn answers each question by the interface of another library."""
+    """Returns two tables: wrong answers, and rates. limn answers by the interfaces of the other libraries."""
     text = lambda x: "–" if x is None else f"{x:,.0f}" if x >= 100 else f"{x:.3g}"
     tables, libraries = {"wrong": [], "rates": []}, list(next(iter(results.values())))
     for mesh, answers in results.items():
@@ -135,18 +142,21 @@ def query_tables(results):
 
 
 def faults(results):
+    """Returns a line for each wrong result of limn."""
     found = [f"{t['scene']}, {t['rays']}: {t['wrong']} of {t['judged']} results are wrong: {t['first']}"
              for t in results.get("truth", []) if t["wrong"]]
     found += [f"{scene['name']}, {row['rays']}: {row['differences']} rays have other results in batches"
               for scene in results.get("rays", []) for row in scene["rows"] if row["differences"]]
     for mesh, answers in results.get("queries", {}).items():
-        for library, judged in (("limn.open3d", 2), ("limn.trimesh", 1)):  # nearest hits and counts; nearest hits
+        # Judge nearest hits and counts. By trimesh's interface counts differ, as it counts each triangle at an edge.
+        for library, judged in (("limn.open3d", 2), ("limn.trimesh", 1)):
             if not answers[library] or any(any(wrong[:judged]) for wrong in answers[library]["wrong"].values()):
                 found.append(f"{mesh}: {library} is wrong")
     return found
 
 
 def measure(kept, options, models):
+    """Measures what the options say, and returns the results by part."""
     results = {}
     chosen = options.scene or PARTS
     scenes = [name for name in chosen if name in SCENES]
@@ -175,10 +185,12 @@ def main():
     models = [Path(os.environ.get("LIMN_CALLER", ".")) / model for model in options.models]
     if missing := [str(model) for model in models if not model.is_file()]:
         parser.error(f"{', '.join(missing)}: there is no such file")
+    # Measure.
     head = origin(" ".join(["./build.sh bench", *sys.argv[1:]]))
     kept = Kept("bench", **head)
     results = measure(kept, options, models)
     found = faults(results)
+    # Write the page.
     parts = [f"**{fault}**" for fault in found]
     if "rays" in results:
         judged = sum(t["judged"] for t in results["truth"])

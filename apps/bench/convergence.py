@@ -1,8 +1,9 @@
-"""Seconds to an error, limn beside its peers: build/results/convergence.html, with --size 400 convergence-400.html.
+"""Measures the seconds to a relMSE, of limn and of other renderers.
 
-transport_scenes.cpp describes the scenes once, and peers/ writes them for each renderer that can express them. Each
-renderer renders a converged reference in two halves. Then all of them take turns at growing numbers of samples on one
-thread, with several seeds. On a machine that does something else meanwhile the seconds say little."""
+Writes build/results/convergence.json and convergence.html; with --size 400 their names are convergence-400.
+transport_scenes.cpp describes the scenes, and the modules of peers/ make them for each renderer that can express them.
+Each renderer first renders a converged reference in two halves. All of them then take turns with growing numbers of
+samples on one thread, with several seeds. The seconds mean little if the machine runs other programs."""
 
 import argparse
 import math
@@ -18,8 +19,8 @@ from results import RESULTS, Kept, origin, table, write
 
 LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-lights")
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
-ERROR = 1e-3  # relMSE whose seconds are stated
-DIFFERENT = 0.01  # difference of block means from which two renderers do not solve the same problem
+ERROR = 1e-3  # the relMSE for which seconds are stated
+DIFFERENT = 0.01  # smallest difference of block means that shows that two renderers solve different problems
 STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"),
           "luxcore": ("C2", "v-")}
 
@@ -44,12 +45,14 @@ def parse_arguments():
 
 
 def reference(renderer, folder, a):
-    """Two independent halves."""
+    """Renders two independent halves of the reference and returns their paths."""
     threads, spp = len(os.sched_getaffinity(0)), PILOT_SPP
-    for seed in (1, 2):  # the first one compiles if there is a compiler
+    # Measure the time of a pilot render. Render it twice, because some renderers compile in the first one.
+    for seed in (1, 2):
         seconds, _ = renderer.render(folder / "pilot.exr", a.size, spp, seed, threads)
     while spp < LARGEST_SPP and 1.5 * spp * seconds / PILOT_SPP < a.cap:
         spp *= 2
+    # Render the halves with as many samples as fit into the time.
     halves = [folder / f"{renderer.key}-{half}.exr" for half in "ab"]
     for seed, half in enumerate(halves, 1001):
         renderer.render(half, a.size, spp, seed, threads)
@@ -57,7 +60,7 @@ def reference(renderer, folder, a):
 
 
 def block_means(picture):
-    """A picture of the means of 10x10 pixels."""
+    """Writes a picture of the means of blocks of 10x10 pixels and returns its path."""
     from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
 
     image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
@@ -67,7 +70,8 @@ def block_means(picture):
 
 
 def agreement(ours, theirs):
-    """The rms relative difference of 10x10 blocks of two references in halves beyond noise, and the noise."""
+    """Returns how much two references differ. Each consists of two halves. The first number is the root mean square of
+    the relative differences of blocks of 10x10 pixels, less the noise. The second number is the noise."""
     (a, b), (c, d) = map(block_means, ours), map(block_means, theirs)
     against_ours, variance = compare(c, a, b), compare(c, d)["relmse"] / 2
     difference = max(0, against_ours["corrected_relmse"] - variance)
@@ -75,9 +79,10 @@ def agreement(ours, theirs):
 
 
 def measure(scene, renderers, a):
-    """A row for each renderer. One that cannot render the scene says why."""
+    """Returns a row for each renderer. If a renderer cannot render the scene, its row has the reason."""
     print(f"convergence: {scene}", file=sys.stderr, flush=True)
     rows, references = {}, {}
+    # Render the references.
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for renderer in renderers:
@@ -90,7 +95,7 @@ def measure(scene, renderers, a):
                 if renderer.key == "limn":
                     raise
                 row["failed"] = str(problem)
-        # Climb the ladders of samples. The renderers take turns at each rung and seed.
+        # Multiply the number of samples from rung to rung. The renderers take turns at each rung and seed.
         active, spp = [renderer for renderer in renderers if renderer.key in references], FIRST_SPP
         while active and spp <= LARGEST_SPP:
             for renderer in active:
@@ -103,7 +108,7 @@ def measure(scene, renderers, a):
                     rung["seconds"].append(seconds)
                     rung["errors"].append(compared["corrected_relmse"])
                     rung["reference_error"] = compared["reference_relmse"]
-            # Go on where the next rung is short enough, and this one is not better yet than its reference.
+            # Go on with a renderer if the next rung is short enough and its error is still above that of its reference.
             rungs = ((renderer, rows[renderer.key]["rungs"][-1]) for renderer in active)
             active = [renderer for renderer, rung in rungs if GROWTH * median(rung["seconds"]) <= a.cap
                       and mean(rung["errors"]) > rung["reference_error"]]
@@ -112,8 +117,8 @@ def measure(scene, renderers, a):
 
 
 def seconds_to(error, curve):
-    """Seconds to an error on a curve of (seconds, error), by the line error = c / seconds^p through the three points
-    that are nearest to it, and whether the error is outside of what was measured."""
+    """Returns the seconds to an error on a curve of (seconds, error), and True if they are extrapolated. The seconds
+    are found on the line error = c / seconds^p, which is fitted to the three points with the nearest errors."""
     known = [(math.log(s), math.log(e)) for s, e in curve if s > 0 and e > 0]
     if not known:
         return math.inf, True
@@ -122,13 +127,14 @@ def seconds_to(error, curve):
     x, y = (mean(axis) for axis in zip(*near))
     spread = sum((p[0] - x) ** 2 for p in near)
     slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
-    if not -3 < slope < -0.3:  # noise hides the convergence: take that of independent samples
+    if not -3 < slope < -0.3:  # the noise is too large for a fit: use the slope of independent samples
         slope = -1.0
     return math.exp(x + (goal - y) / slope), not min(e for _, e in known) <= goal <= max(e for _, e in known)
 
 
 def seconds_by_seed(error, rungs):
-    """In ascending order. A rung has the lists "seconds" and "errors" with an entry for each seed."""
+    """Returns the result of seconds_to for each seed, in ascending order. A rung has the lists "seconds" and "errors"
+    with an entry for each seed."""
     curves = zip(*([(median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
     return sorted(seconds_to(error, curve) for curve in curves)
 
@@ -138,6 +144,7 @@ def median_seconds(row):
 
 
 def solves_another_problem(difference, noise):
+    """Returns True if the difference of two renderers is too large for noise."""
     return difference > max(DIFFERENT, 2 * noise)
 
 
@@ -148,7 +155,7 @@ def seconds_cell(row):
 
 
 def ratio_cell(rows):
-    """limn's median seconds over those of the fastest peer that solves the same problem."""
+    """Returns limn's median seconds over those of the fastest peer that solves the same problem."""
     times = {key: median_seconds(row) for key, row in rows.items()
              if key in PEERS and row["rungs"] and not solves_another_problem(*row["agreement"])}
     best = min(times, key=times.get, default=None)
@@ -156,6 +163,8 @@ def ratio_cell(rows):
 
 
 def page(scenes, a, plot):
+    """Returns the page of results as Markdown."""
+    # Define the cells of the tables.
     keys = ["limn", *a.peer]
 
     def table_of(cell, *more):
@@ -172,6 +181,7 @@ def page(scenes, a, plot):
         text = f"{100 * difference:.2f} % ± {100 * noise:.2f}"
         return f"**{text}**" if solves_another_problem(difference, noise) else text
 
+    # Collect what the renderers say of themselves, and what failed.
     known = {f"- {key}: {row['about']}\n" for rows in scenes.values() for key, row in rows.items() if "about" in row}
     failed = "\n".join(f"- {scene}: {row['failed']}" for scene, rows in scenes.items() for row in rows.values()
                        if "failed" in row)
@@ -199,6 +209,7 @@ solves another problem and is not compared.
 
 
 def draw(scenes, path):
+    """Draws the error over the seconds for each scene."""
     import matplotlib.pyplot as plt
 
     lines = -(-len(scenes) // 2)

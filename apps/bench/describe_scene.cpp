@@ -14,7 +14,7 @@ namespace {
 
 using app::Json;
 
-// \throws Error if the scene has something that no file of peers/ writes
+// Throws an Error unless `told` is true. It says that the description for the peers has no `what`.
 void require(bool told, const char* what) {
     if (!told) throw Error(std::string("describe: the peers are not told of ") + what);
 }
@@ -24,13 +24,14 @@ Json triple(const Color& c) { return {c.r, c.g, c.b}; }
 Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
 Json pair(const Float2& uv) { return {uv.u, uv.v}; }
 
+// Returns an array of to_json(element) for all elements.
 Json list(const auto& elements, const auto& to_json) {
     Json all = Json::array();
     for (const auto& element : elements) all.push_back(to_json(element));
     return all;
 }
 
-// Row by row from the top, linear.
+// Returns an image as its size and its linear values times `scale`, row by row from the top.
 Json picture(const Image& image, double scale = 1) {
     const auto scaled = [scale](float v) { return Json(scale * static_cast<double>(v)); };
     return {{"width", image.width()}, {"height", image.height()}, {"values", list(image.values(), scaled)}};
@@ -38,14 +39,16 @@ Json picture(const Image& image, double scale = 1) {
 
 Json no_shapes() { return {{"spheres", Json::array()}, {"meshes", Json::array()}, {"media", Json::array()}}; }
 
-// Turns records to JSON, everything in the space of the world.
+// Converts scene records to JSON in world space.
 class Description {
 public:
     explicit Description(const SceneRecords& records) : records_(records) {}
 
-    // Adds the spheres, meshes and media of a BLAS to the lists of these names in `all`.
+    // Adds the spheres, meshes and media of a BLAS to the lists "spheres", "meshes" and "media" of `all`. `place` is
+    // its transform to world space.
     void add_shapes(BlasId id, const Transform& place, Json& all) const {
         for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
+            // Convert the primitives by their kind.
             if (range.kind == PrimitiveKind::instance) {
                 const InstanceRecord& instance = records_.instances[range.first_row];
                 require(!instance.moving, "moving instances");
@@ -73,7 +76,7 @@ public:
     }
 
 private:
-    // Neighbours of one material become one mesh: a box is closed.
+    // Adds quads as meshes. Adjacent quads of the same material become one mesh, so that a box is a closed mesh.
     void add_quads(std::span<const QuadRecord> quads, const Transform& place, Json& all) const {
         while (!quads.empty()) {
             const MaterialId id = quads.front().material;
@@ -89,6 +92,7 @@ private:
         }
     }
 
+    // Returns a mesh in world space.
     Json mesh(const MeshRecord& m, const Transform& place) const {
         const auto& slots = m.arrays.material_slots;
         require(std::ranges::adjacent_find(slots, std::not_equal_to()) == slots.end(), "meshes of several materials");
@@ -103,6 +107,7 @@ private:
                 {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
     }
 
+    // Returns a material: its lobe, and its normal map and opacity if it has them.
     Json material(MaterialId id) const {
         const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
         Json told = lobe(m);
@@ -113,6 +118,7 @@ private:
         return told;
     }
 
+    // Returns the scattering or emission of a material.
     Json lobe(const MaterialRecord& m) const {
         if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
         if (m.kind == "diffuse-light") {
@@ -128,11 +134,13 @@ private:
             return {{"kind", "glass"}, {"index", m.parameter}};
         }
         require(m.kind == "rough-conductor" || m.kind == "rough-dielectric", "materials of other classes");
+        // Microfacets remain. numbers[3] and numbers[4] are alpha along u and across it.
         const double alpha = m.details->numbers[3];
         require(alpha != 0 && alpha == m.details->numbers[4], "brushed or smooth microfacets");
         if (m.kind == "rough-dielectric") return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", alpha}};
         const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
         require(reflectance.kind == TextureKind::solid, "metals that are not of one colour");
+        // numbers[0] to numbers[2] are the edge tint.
         const auto& tint = m.details->numbers;
         return {{"kind", "rough-conductor"},
                 {"reflectance", triple(reflectance.color)},
@@ -140,7 +148,7 @@ private:
                 {"alpha", alpha}};
     }
 
-    // A colour, the two of a checker, or a picture.
+    // Returns a texture: a colour, a checkerboard or an image.
     Json texture(TextureId id) const {
         const TextureRecord& t = records_.textures.at(static_cast<std::size_t>(id));
         if (t.kind == TextureKind::solid) return triple(t.color);

@@ -1,4 +1,4 @@
-// Embree as a contender, in a module that `limn bench` loads if it is installed.
+// Embree as a contender of `limn bench`, which loads this module if it is installed.
 #include <embree3/rtcore.h>
 #include <immintrin.h>
 
@@ -16,8 +16,9 @@ namespace {
 
 alignas(64) constexpr int kAllLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 
-// Traces packets of kLanes rays (1: single rays), one by one or in streams of 64 rays. Embree writes results in place,
-// so that trace() copies rays. Converting rays into packets is not timed.
+// Traces rays in packets of kLanes. One lane means single rays. With kStreams it traces streams of 64 rays. prepare()
+// converts the rays into packets, which is not timed. Embree overwrites rays with results, so trace() copies each
+// packet first.
 template <int kLanes, bool kStreams>
 class EmbreeSubject final : public Subject {
 public:
@@ -25,24 +26,31 @@ public:
         : Subject(subject_name), scene_(std::move(scene)) {}
 
     void prepare(const RaySet& set) override {
+        // Make room for packets and results.
         set_ = &set;
         packets_.assign((set.rays.size() + kWidth - 1) / kWidth, {});
         t_.assign(packets_.size(), {});
         hits_.assign(set.any ? 0 : packets_.size(), {});
+        // Convert the rays. Lanes beyond the last ray repeat it.
         for (std::size_t i = 0; i < packets_.size() * kWidth; ++i) {
-            const limn::Ray& from = set.rays[std::min(i, set.rays.size() - 1)];  // lanes beyond the last ray repeat it
+            const limn::Ray& from = set.rays[std::min(i, set.rays.size() - 1)];
             RTCRayNt<kLanes>& to = packets_[i / kWidth];
             const std::size_t k = i % kWidth;
             const Float3 origin = to_float3(from.origin), direction = to_float3(from.direction);
-            to.org_x[k] = origin.x, to.org_y[k] = origin.y, to.org_z[k] = origin.z;
-            to.dir_x[k] = direction.x, to.dir_y[k] = direction.y, to.dir_z[k] = direction.z;
-            to.tnear[k] = static_cast<float>(from.t_min), to.tfar[k] = static_cast<float>(from.t_max);
+            to.org_x[k] = origin.x;
+            to.org_y[k] = origin.y;
+            to.org_z[k] = origin.z;
+            to.dir_x[k] = direction.x;
+            to.dir_y[k] = direction.y;
+            to.dir_z[k] = direction.z;
+            to.tnear[k] = static_cast<float>(from.t_min);
+            to.tfar[k] = static_cast<float>(from.t_max);
             to.mask[k] = 0xffffffff;
         }
     }
 
     void trace(std::size_t first, std::size_t count) override {
-        // Embree expects its callers to flush denormal numbers (FTZ and DAZ). limn must not be measured with that.
+        // Flush denormal numbers (FTZ and DAZ), as Embree expects. The mode is restored below for limn.
         const unsigned before = _mm_getcsr();
         _mm_setcsr(before | 0x8040);
         RTCIntersectContext context;
@@ -50,6 +58,7 @@ public:
         context.flags = set_->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         const std::size_t end = (first + count + kWidth - 1) / kWidth;
         for (std::size_t p = first / kWidth; p < end; p += kPackets) {
+            // Copy the packets.
             const std::size_t packets = std::min(kPackets, end - p);
             alignas(64) Rays rays[kPackets];
             for (std::size_t k = 0; k < packets; ++k) {
@@ -58,6 +67,7 @@ public:
                 std::fill_n(rays[k].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
                 std::fill_n(rays[k].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
             }
+            // Trace them and store the results.
             ask(context, rays, packets);
             for (std::size_t k = 0; k < packets; ++k) {
                 std::copy_n(rays[k].ray.tfar, kWidth, t_[p + k].data());
@@ -67,7 +77,7 @@ public:
         _mm_setcsr(before);
     }
 
-    // Only t, as u, v and primitives of peers aren't compared.
+    // Sets only t. The u, v and primitives of peers aren't compared.
     Answer answer(std::size_t i) const override {
         const std::size_t p = i / kWidth, k = i % kWidth;
         const double t = static_cast<double>(t_[p][k]);
@@ -77,11 +87,12 @@ public:
 
 private:
     static constexpr std::size_t kWidth = kLanes;
-    static constexpr std::size_t kPackets = kStreams ? 64 / kWidth : 1;
+    static constexpr std::size_t kPackets = kStreams ? 64 / kWidth : 1;  // packets of a call of Embree
 
     using Rays = RTCRayHitNt<kLanes>;
 
-    // A packet for any hits is the first part of one for closest hits.
+    // Calls Embree. `rays` are `packets` packets of the type Rays. For any-hit queries Embree reads only their
+    // member `ray`.
     void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
         const RTCScene scene = scene_.get();
         const bool any = set_->any;
@@ -108,17 +119,21 @@ private:
     const RaySet* set_ = nullptr;
     std::vector<RTCRayNt<kLanes>> packets_;
     std::vector<std::array<float, kWidth>> t_;
-    std::vector<RTCHitNt<kLanes>> hits_;  // empty for rays that only ask whether there is a hit
+    std::vector<RTCHitNt<kLanes>> hits_;  // empty for any-hit queries
 };
 
-// The memory that Embree holds, as its callback reports it.
+// The bytes of memory that Embree uses, as its memory monitor reports them.
 std::atomic<std::ptrdiff_t> bytes_held{0};
 
+// Returns the device, which is made at the first call.
 RTCDevice device() {
     static const RTCDevice the_device = [] {
         const RTCDevice made = rtcNewDevice("set_affinity=0");
         if (!made) throw Error("Embree does not start");
-        const auto count = [](void* /*user*/, ssize_t bytes, bool /*after*/) { return bytes_held += bytes, true; };
+        const auto count = [](void* /*user*/, ssize_t bytes, bool /*after*/) {
+            bytes_held += bytes;
+            return true;
+        };
         rtcSetDeviceMemoryMonitorFunction(made, count, nullptr);
         return made;
     }();
@@ -134,14 +149,15 @@ ScenePointer new_scene(RTCSceneFlags flags) {
     return {scene, rtcReleaseScene};
 }
 
-// Hands the geometry over to the scene.
+// Commits the geometry and adds it to the scene, which then owns it.
 void attach(const ScenePointer& scene, RTCGeometry geometry) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
 }
 
-// Gives the geometry a copy of the values. Embree pads it, as it reads 16 bytes of the last vertex.
+// Copies the values to a buffer of the geometry. Embree allocates the buffer with padding, because it reads 16 bytes of
+// the last vertex.
 template <class T>
 void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
     std::memcpy(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size()), values.data(),
@@ -187,9 +203,11 @@ void attach_instance(const ScenePointer& scene, const ScenePointer& inner, const
     attach(scene, geometry);
 }
 
+// Builds a scene with the subjects of Embree, or with the single subject of robust Embree.
 template <bool kRobust>
 BuiltScene build(const Geometry& geometry, Clock clock) {
     constexpr RTCSceneFlags kFlags = kRobust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    // Set up the geometries. This is not timed.
     const std::ptrdiff_t before = bytes_held;
     const ScenePointer scene = new_scene(kFlags), inner = geometry.places.empty() ? scene : new_scene(kFlags);
     if (geometry.mesh) {
@@ -199,12 +217,14 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
     if (!geometry.balls.empty()) attach_balls(scene, geometry.balls);
     if (!geometry.quads.empty()) attach_quads(scene, geometry.quads);
     for (const Transform& place : geometry.places) attach_instance(scene, inner, place);
-    const double begin = seconds(clock);  // only Embree's own work is timed
+    // Build.
+    const double begin = seconds(clock);
     if (inner != scene) rtcCommitScene(inner.get());
     rtcCommitScene(scene.get());
     BuiltScene built{.seconds = seconds(clock) - begin, .bytes = 0, .subjects = {}};
     if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw Error("Embree does not build " + geometry.name);
     built.bytes = static_cast<std::size_t>(bytes_held - before);
+    // Make the subjects.
     built.subjects.push_back(std::make_unique<EmbreeSubject<1, false>>(kRobust ? "Embree robust" : "Embree", scene));
     if (kRobust) return built;
     built.subjects.push_back(std::make_unique<EmbreeSubject<4, false>>("Embree 4", scene));

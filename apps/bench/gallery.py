@@ -1,5 +1,7 @@
-"""Renders the pictures of docs/gallery.md, the commands on that page and the figures, with their seconds and errors:
-build/results/gallery.html. The page shows the copies in docs/gallery."""
+"""Renders the pictures of docs/gallery.md: the figures and those that the commands on that page render.
+
+Writes build/results/gallery.json and gallery.html with the seconds and the estimated errors. The page shows the copies
+in docs/gallery."""
 
 import json
 import re
@@ -12,6 +14,7 @@ COMMAND = re.compile(r"^(build/release/bin/.*) -o (\w+)\.png$", re.MULTILINE)
 
 
 def main():
+    # Collect the commands.
     head = origin("./build.sh gallery")
     commands = {m[2]: shlex.split(m[1]) for m in COMMAND.finditer((ROOT / "docs/gallery.md").read_text())}
     commands |= {program.name: [program, "--error", "2e-3"] for program in sorted(BIN.glob("fig[0-9][0-9]_*"))}

@@ -1,10 +1,11 @@
-"""queries.py RAYS TIMED MODEL ...: wrong answers and speeds of limn and of other libraries, as JSON.
+"""Measures wrong answers and speeds of limn and of other libraries: queries.py RAYS TIMED MODEL ...
 
-Is run by bench.py in an environment with these libraries. Judges the answers to RAYS rays of each kind. Takes the time
-of TIMED rays or points. A library that fails or isn't installed has null.
+bench.py runs this script in a virtual environment with the libraries. The script judges the answers to RAYS rays of
+each kind, takes the time of TIMED rays or points, and prints the results as JSON. A library that fails or isn't
+installed has the result null.
 
-All coordinates of meshes and rays are whole multiples of 2^-GRID, so that float32 holds them exactly, all libraries get
-the same ones, and the truth can be computed exactly."""
+All coordinates of meshes and rays are multiples of 2^-GRID. float32 represents them exactly, so that all libraries get
+the same numbers and the truth can be computed exactly."""
 
 import importlib
 import json
@@ -15,7 +16,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: its products here are small
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # must be set before numpy is loaded; the products are small
 
 import numpy as np  # noqa: E402
 
@@ -24,9 +25,9 @@ from meshes import icosphere, voxels  # noqa: E402
 
 GRID = 16
 KINDS = ("at random", "at vertices", "along edges", "in planes of faces")
-ROUNDS, LONG = 3, 10  # the least of some rounds, of which none begins after so many seconds
-TOLERANCE = 1e-4  # of t: float32 after some roundings; a wrong triangle is much farther away
-# The most rays or points of slow libraries and questions.
+ROUNDS, LONG = 3, 10  # largest number of rounds, of which the fastest counts; seconds after which none begins
+TOLERANCE = 1e-4  # largest relative error of t, for float32 after some roundings; a wrong triangle has a larger error
+# The largest numbers of rays or points for slow libraries and queries.
 MOST = {"trimesh": 200, "compute_closest_points": 20000, "compute_signed_distance": 20000}
 ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")
 OPEN3D = ("cast_rays", "test_occlusions", "list_intersections", "count_intersections", *ON_POINTS[:3])
@@ -37,19 +38,20 @@ QUESTIONS = {library: OPEN3D if library.endswith("open3d") else TRIMESH for libr
 
 
 def floats(whole):
-    """Returns whole numbers of the grid as float32."""
+    """Returns whole numbers times 2^-GRID as float32."""
     return (whole * 2.0 ** -GRID).astype(np.float32)
 
 
 def meshes(models):
-    """Returns vertices as whole numbers, in the cube from -1 to 1, and faces, by name."""
-    # A ball and a ring of a grid's cells have edges that four faces share, and many faces in a plane.
+    """Returns the meshes by name: vertices as whole numbers of the grid, in the cube from -1 to 1, and faces."""
+    # Make a ball and a ring of voxels. They have edges that four faces share, and many faces in the same plane.
     x, y, z = (np.indices((24, 24, 24)) + 0.5) / 12 - 1
     cells = (x * x + y * y + z * z < 0.3) ^ ((np.hypot(x, y) - 0.7) ** 2 + z * z < 0.05)
     found = {"icosphere": icosphere(6), "voxels": voxels(cells)}
     for path in models:
         mesh = importlib.import_module("trimesh").load(path, force="mesh", process=False)
         found[path.stem] = mesh.vertices, mesh.faces
+    # Scale the meshes to the cube and round the vertices.
     for name, (vertices, faces) in found.items():
         lower, upper = vertices.min(axis=0), vertices.max(axis=0)
         scaled = (vertices.astype(float) - (lower + upper) / 2) * 2 / (upper - lower).max()
@@ -58,7 +60,7 @@ def meshes(models):
 
 
 def is_closed(vertices, faces):
-    """Returns whether each edge, by its positions, is used as often one way as the other."""
+    """Returns True if each edge occurs equally often in both directions. Vertices of the same position are the same."""
     _, number = np.unique(vertices, axis=0, return_inverse=True)
     ends = number.reshape(-1)[faces[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2)
     ends = ends[ends[:, 0] != ends[:, 1]]
@@ -83,13 +85,14 @@ def make_rays(kind, vertices, faces, count, seed):
 
 
 def meets(triangles, origin, direction):
-    """Returns t >= 0 of each triangle that the ray meets, and whether that is on an edge. Triangles in whose plane the
-    ray lies are left out. Only t is rounded: products of three numbers below 2^20 have sums of six below 2^63."""
+    """Returns t >= 0 for each triangle that the ray hits, and True for each hit on an edge. Leaves out triangles whose
+    plane contains the ray. Only t is rounded: a sum of six products of three numbers below 2^20 is below 2^63."""
     corners = triangles - origin
     assert max(np.abs(corners).max(), np.abs(direction).max()) < 1 << 20
     a, b, c = corners.transpose(1, 0, 2)
     ab = np.cross(a, b)
-    # Six times the signed volumes of the direction with each edge, and of the triangle with the origin.
+    # Compute six times the signed volumes of tetrahedra: of each edge and the direction, and of the triangle and the
+    # origin.
     parts = np.stack([np.cross(b, c) @ direction, np.cross(c, a) @ direction, ab @ direction])
     volume, total = (ab * c).sum(axis=1), parts.sum(axis=0)
     met = (total != 0) & ((parts >= 0).all(axis=0) | (parts <= 0).all(axis=0))
@@ -98,7 +101,8 @@ def meets(triangles, origin, direction):
 
 
 def is_inside(triangles, point, rng):
-    """Returns the parity along a ray that meets no edge, or -1 for a point on the surface."""
+    """Returns 1 for a point inside, 0 for a point outside, and -1 for a point on the surface. Counts the hits of random
+    rays until one hits no edge."""
     while True:
         t, on_edge = meets(triangles, point, rng.integers(-1 << GRID, 1 << GRID, 3))
         if (t == 0).any():
@@ -108,7 +112,8 @@ def is_inside(triangles, point, rng):
 
 
 def truth(vertices, faces, rays):
-    """Returns t of the nearest hit, inf for none; and whether the origin is inside, -1 if that is undefined."""
+    """Returns for each ray t of the nearest hit, or inf, and 1 if the origin is inside, 0 if it is outside, and -1 if
+    it is on the surface or the mesh is open."""
     rng, triangles, closed = np.random.default_rng(1), vertices[faces], is_closed(vertices, faces)
     hits = [meets(triangles, ray[:3], ray[3:])[0] for ray in rays]
     inside = [is_inside(triangles, ray[:3], rng) if closed else -1 for ray in rays]
@@ -116,7 +121,7 @@ def truth(vertices, faces, rays):
 
 
 def tracer(library, vertices, faces, threads):
-    """Returns a function that answers a question."""
+    """Returns a function ask(question, *arguments) that calls the library for the mesh."""
     module = importlib.import_module(MODULES[library])
     if library.endswith("open3d"):
         scene = module.t.geometry.RaycastingScene(threads)
@@ -129,14 +134,14 @@ def tracer(library, vertices, faces, threads):
 
 
 def given(library, question, rays):
-    """Returns the arguments of a question. Points are those that the rays aim at."""
+    """Returns the arguments of a question. Points are the points of the rays at t = 1."""
     if question in ON_POINTS:
         return [rays[:, :3] + rays[:, 3:]]
     return [rays] if library.endswith("open3d") else np.split(rays.astype(float), 2, axis=1)
 
 
 def answers(library, mesh, rays):
-    """Returns t of the nearest hits, inf for none, and counts of hits."""
+    """Returns for each ray t of the nearest hit, or inf, and the number of hits."""
     ask = tracer(library, *mesh, 0)
     if library.endswith("open3d"):
         return ask("cast_rays", rays)["t_hit"].numpy(), ask("count_intersections", rays).numpy()
@@ -148,8 +153,8 @@ def answers(library, mesh, rays):
 
 
 def wrong(library, mesh, rays, nearest, inside):
-    """Returns wrong answers a million: of nearest hits, and of counts whose parity contradicts `inside`, which is null
-    if no origin has a truth."""
+    """Returns two rates of wrong answers, in a million rays: of nearest hits, and of counts whose parity contradicts
+    `inside`. The second is None if nothing is known of any origin."""
     t, counts = answers(library, mesh, rays)
     met, known = np.isfinite(nearest), inside >= 0
     with np.errstate(invalid="ignore"):
@@ -161,7 +166,7 @@ def wrong(library, mesh, rays, nearest, inside):
 def rate(library, mesh, question, threads, rays):
     """Returns million rays or points a second."""
     ask = tracer(library, *mesh, threads)
-    ask(question, *given(library, question, rays[:100]))  # so that what is built on demand is built
+    ask(question, *given(library, question, rays[:100]))  # some libraries build at the first query
     arguments, seconds, started = given(library, question, rays), [], time.perf_counter()
     while len(seconds) < ROUNDS and time.perf_counter() - started < LONG:
         begin = time.perf_counter()
@@ -171,6 +176,7 @@ def rate(library, mesh, question, threads, rays):
 
 
 def measure(library, mesh, judged, timed):
+    """Returns the rates of wrong answers and the speeds of a library."""
     results = {"wrong": {}, "rates": {}}
     for kind, parts in judged.items():
         results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
@@ -184,15 +190,17 @@ def measure(library, mesh, judged, timed):
 def main(count, timed, *models):
     results = {}
     for name, (vertices, faces) in meshes(map(Path, models)).items():
+        # Make the rays and compute the truth.
         judged = {}
         for kind in KINDS:
             rays = make_rays(kind, vertices, faces, count, 7)
             judged[kind] = floats(rays), *truth(vertices, faces, rays)
         rays = floats(make_rays("at random", vertices, faces, timed, 8))
+        # Ask the libraries.
         found = results[f"{name}, {len(faces):,} triangles"] = dict.fromkeys(QUESTIONS)
         for library in QUESTIONS:
             print(f"bench: queries of {library}", file=sys.stderr, flush=True)
-            try:  # in a process of its own
+            try:  # run in a new process, so that a crash ends only that process
                 with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
                     found[library] = pool.submit(measure, library, (floats(vertices), faces), judged, rays).result()
             except Exception as problem:

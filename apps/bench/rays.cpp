@@ -11,19 +11,21 @@
 namespace limn::bench {
 namespace {
 
-constexpr std::size_t kTile = 8;
-constexpr std::uint64_t kMostPasses = 64;  // over the picture, to gather the rays of deep paths
-constexpr double kOcclusionReach = 0.1;    // of the scene's diagonal
+constexpr std::size_t kTile = 8;           // width and height of a tile in pixels
+constexpr std::uint64_t kMostPasses = 64;  // largest number of passes over the picture to gather enough rays
+constexpr double kOcclusionReach = 0.1;    // t_max of occlusion rays over the diagonal of the scene
 
-// Indices into ray_kinds(). Diffuse rays have one for each depth.
+// Indices into ray_kinds(). Diffuse rays have the indices kDiffuse to kDiffuse + 2, one for each depth.
 constexpr std::size_t kPrimary = 0, kDiffuse = 1, kOcclusion = 4, kShadow = 5;
 
+// A path from the camera.
 struct Path {
-    Ray ray;
-    std::uint64_t number;         // seeds its random numbers
-    std::optional<Surface> at{};  // where the ray before this one hit
+    Ray ray;                      // the last ray
+    std::uint64_t number;         // the index of the path's random numbers
+    std::optional<Surface> at{};  // the hit of the last ray that follow() has traced
 };
 
+// Returns random number `dimension` of path `number`.
 double random(std::uint64_t number, std::uint64_t dimension) { return random_number(1, number, dimension); }
 
 // Returns a path through each pixel, tile by tile.
@@ -32,8 +34,9 @@ std::vector<Path> primary_paths(const CameraRays& camera, std::size_t side, std:
     const std::size_t tiles = side / kTile;
     for (std::size_t tile = 0; tile < tiles * tiles; ++tile) {
         for (std::size_t k = 0; k < kTile * kTile; ++k) {
-            // The k-th pixel in Z-order, so that any 4, 16 and 64 rays are a square.
+            // Find the k-th pixel of the tile in Z-order. Each aligned group of 4, 16 or 64 rays then covers a square.
             const std::size_t x = (k & 1) | (k >> 1 & 2) | (k >> 2 & 4), y = (k >> 1 & 1) | (k >> 2 & 2) | (k >> 3 & 4);
+            // Make its ray, rounded to float32.
             const std::uint64_t number = pass * side * side + paths.size();
             Ray ray = camera.ray(static_cast<double>(tile % tiles * kTile + x) + random(number, 0),
                                  static_cast<double>(tile / tiles * kTile + y) + random(number, 1), 0, 0, 0);
@@ -45,7 +48,7 @@ std::vector<Path> primary_paths(const CameraRays& camera, std::size_t side, std:
     return paths;
 }
 
-// Moves each path to where its ray hits. Paths that leave the scene end.
+// Traces the last ray of each path and sets Path::at to its hit. Removes paths without a hit.
 void follow(const CompiledScene& scene, std::vector<Path>& paths) {
     tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
         const auto hit = scene.closest_hit(paths[i].ray);
@@ -54,13 +57,15 @@ void follow(const CompiledScene& scene, std::vector<Path>& paths) {
     std::erase_if(paths, [](const Path& path) { return !path.at; });
 }
 
-// `dimension` is the first of two random numbers.
+// Returns a direction from the path's hit with a pdf proportional to the cosine. Uses random numbers `dimension` and
+// `dimension` + 1.
 Vec3 cosine_direction(const Path& path, std::uint64_t dimension) {
     const Vec3 local = sample_cosine_hemisphere(random(path.number, dimension), random(path.number, dimension + 1));
     return Frame(Vec3(path.at->normal)).to_world(local);
 }
 
-// spawn_ray leaves the surface in double. The largest error of rounding to float32 is added to that.
+// Returns a ray with float32 coordinates that leaves a surface. spawn_ray moves the origin off the surface by its error
+// in double. This function moves it further by the largest error of rounding it to float32.
 Ray leave(const Surface& from, const Vec3& direction, double t_min) {
     Ray ray = from.spawn_ray(direction, 0);
     const Vec3 out = dot(direction, Vec3(from.normal)) < 0 ? -Vec3(from.normal) : Vec3(from.normal);
@@ -79,12 +84,13 @@ const std::vector<std::string>& ray_kinds() {
 }
 
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count) {
+    // Set up camera and light.
     const Box box = describe(geometry).bounds();
     const double size = length(box.diagonal());
     const Point3 light = to_float32(geometry.light.value_or(box.center() + size * Vec3(-0.7, 1.1, 0.8)));
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)) / kTile)) * kTile;
     const CameraRays camera(geometry.camera.value_or(frame_box(box)), static_cast<int>(side), static_cast<int>(side));
-    // Make a set for each kind.
+    // Make an empty set for each kind.
     std::vector<RaySet> sets;
     for (const std::string& kind : ray_kinds()) sets.push_back({.name = kind, .rays = {}});
     sets[kPrimary].coherent = true;
@@ -92,26 +98,26 @@ std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& sce
     const auto add = [&](std::size_t kind, const Ray& ray) {
         if (sets[kind].rays.size() < count) sets[kind].rays.push_back(ray);
     };
-    // Pass over the picture until the sets are full.
+    // Trace paths through all pixels, again and again until the sets are full.
     const auto is_full = [&](const RaySet& set) { return set.rays.size() == count; };
     for (std::uint64_t pass = 0; pass < kMostPasses && !std::ranges::all_of(sets, is_full); ++pass) {
         std::vector<Path> paths = primary_paths(camera, side, pass);
         for (const Path& path : paths) add(kPrimary, path.ray);
         follow(scene, paths);
         if (paths.empty()) break;
-        // At the first hits, ask for occluders and for the light.
+        // Make occlusion rays and shadow rays at the first hits.
         for (const Path& path : paths) {
             Ray ray = leave(*path.at, cosine_direction(path, 2), geometry.t_min);
             ray.t_max = to_float32(kOcclusionReach * size);
             add(kOcclusion, ray);
             const Vec3 to_light = light - path.at->position;
-            if (dot(Vec3(path.at->normal), to_light) <= 0) continue;  // its own surface is in the way
-            // The light is at t = 1. A smaller t_max keeps the surface that holds the light out of the way.
+            if (dot(Vec3(path.at->normal), to_light) <= 0) continue;  // the surface faces away from the light
+            // The light is at t = 1. t_max is smaller, so that the ray does not hit a surface through the light.
             ray = leave(*path.at, to_light, geometry.t_min);
             ray.t_max = 1 - 0x1p-10;
             add(kShadow, ray);
         }
-        // Scatter.
+        // Scatter the paths diffusely.
         for (std::size_t kind = kDiffuse; kind < kOcclusion; ++kind) {
             for (Path& path : paths) {
                 path.ray = leave(*path.at, cosine_direction(path, 2 + 2 * kind), geometry.t_min);
@@ -120,6 +126,7 @@ std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& sce
             follow(scene, paths);
         }
     }
+    // Remove empty sets.
     std::erase_if(sets, [](const RaySet& set) { return set.rays.empty(); });
     return sets;
 }

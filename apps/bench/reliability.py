@@ -1,6 +1,7 @@
-"""What checkpoints cost, and what becomes of long renders under faults: build/results/reliability.html.
+"""Measures the cost of checkpoints, and checks that long renders survive faults.
 
-Run through ./build.sh reliability [films|faults|cluster ...]. Exit status 0 only if nothing was lost."""
+Run it by ./build.sh reliability [films|faults|cluster ...]. It writes build/results/reliability.json and
+reliability.html. The exit status is 0 only if nothing was lost."""
 
 import json
 import statistics
@@ -19,14 +20,14 @@ PAIRS = 5
 
 
 def render_seconds(folder, *options):
-    """Renders figure 16 in 400x400 pixels."""
+    """Renders figure 16 in 400x400 pixels and returns the seconds."""
     command = [BIN / "fig16_volume_cornell_box", "--quiet", "--spp", "160", "-o", "a.exr", "--report", "-", *options]
     done = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE)
     return json.loads(done.stdout)["seconds"]["render"]
 
 
 def films():
-    """Milliseconds that a checkpoint costs a render on all processors, and the size of its film."""
+    """Measures the time that a checkpoint costs a render on all processors, and the size of its film. Returns rows."""
     costs = []
     with tempfile.TemporaryDirectory() as name:
         film = Path(name) / "a.film"

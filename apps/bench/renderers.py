@@ -1,7 +1,8 @@
-"""Who renders in `./build.sh convergence`: limn's program, and its peers in processes of their own.
+"""The renderers of `./build.sh convergence`: limn's program, and its peers, which run in other processes.
 
-Each has a `key`. open(scene) makes it ready and returns its name, version and settings. Its render(picture, size, spp,
-seed, threads) writes an EXR file and returns the seconds of rendering and the samples a pixel."""
+A renderer is a class with three members. `key` is its short name. open(scene) prepares it for a scene and returns its
+name, version and settings. render(picture, size, spp, seed, threads) writes an EXR file and returns the seconds of
+rendering and the mean samples of a pixel."""
 
 import json
 import multiprocessing
@@ -12,11 +13,11 @@ from results import BIN, ROOT
 
 SCENES = ("cornell-empty", "cornell", "lamps", "three-spheres", "depth-of-field", "still-spheres", "smoke", "mesh",
           "glass-mesh", "many-lights", "rough-copper", "rough-glass", "still-life", "window")
-SCENES_OF_LIMN = ("bouncing", "glass", "fireflies")  # no peer can express them
+SCENES_OF_LIMN = ("bouncing", "glass", "fireflies")  # scenes that no peer can express
 PROGRAM = BIN / "limn_transport"
 VENV = ROOT / "build/peers"
-PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # and their packages on PyPI
-UNIFORM = "uniform"  # limn with the same number of samples in every pixel
+PEERS = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}  # package on PyPI by key
+UNIFORM = "uniform"  # the key of limn with the same number of samples in every pixel
 
 
 class Failed(Exception):
@@ -39,13 +40,16 @@ def limn(scene, picture, size, *options):
 
 
 def compare(*pictures):
-    """Compares a picture with a reference, or with its two halves."""
+    """Compares a picture with a reference, or with the two halves of one. Returns what `limn compare` prints."""
     return json.loads(checked(BIN / "limn", "compare", *pictures, "--json", "-"))
 
 
 class Limn:
+    """limn, with adaptive or uniform sampling."""
+
     def __init__(self, key):
-        # An error that is never reached: the given number of samples on average, but more where a pixel is noisier.
+        # --error with an error that is never reached makes limn sample adaptively up to the given mean number of
+        # samples.
         self.key, self.options = key, [] if key == UNIFORM else ["--error=1e-300"]
 
     def open(self, scene):
@@ -58,7 +62,7 @@ class Limn:
 
 
 class Peer:
-    """Runs peers/worker.py in the environment of the peers, a process for each scene."""
+    """A peer. It runs peers/worker.py in the virtual environment of the peers, one process for each scene."""
 
     def __init__(self, key):
         self.key = key
@@ -67,7 +71,7 @@ class Peer:
                 "--only-binary=:all:", PEERS[key], "numpy")
 
     def open(self, scene):
-        self.pipe, theirs = multiprocessing.Pipe()  # the worker of the scene before ends
+        self.pipe, theirs = multiprocessing.Pipe()  # closing the old pipe ends its worker
         worker = [VENV / "bin/python", "-B", ROOT / "apps/bench/peers/worker.py", self.key, str(theirs.fileno())]
         with open(VENV / f"{self.key}.log", "w") as log:
             subprocess.Popen(worker, pass_fds=[theirs.fileno()], stdout=log, stderr=log)
@@ -75,6 +79,7 @@ class Peer:
         return self.ask(checked(PROGRAM, scene, "--describe"))
 
     def ask(self, request):
+        """Sends a request to the worker and returns the result. Raises Failed if it fails or crashes."""
         try:
             self.pipe.send(request)
             fine, answer = self.pipe.recv()

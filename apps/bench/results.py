@@ -1,4 +1,4 @@
-"""Writes what a command has measured: numbers to build/results/NAME.json, tables and plots to NAME.html."""
+"""Writes the results of a measuring command: numbers to build/results/NAME.json, tables and plots to NAME.html."""
 
 import datetime
 import json
@@ -21,7 +21,8 @@ def git(*arguments):
 
 
 def origin(command):
-    """States where numbers come from. "-dirty" means that more than documents differs from the commit."""
+    """Returns where numbers come from: command, date, commit and machine. "-dirty" after the commit means that files
+    other than documents differ from it."""
     model = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     changed = git("status", "--porcelain", "--", ".", ":!docs", ":!*.md")
     return {"command": command, "date": str(datetime.date.today()),
@@ -30,7 +31,8 @@ def origin(command):
 
 
 def run_json(*command):
-    """Returns what a program prints. Its exit status may say that a result is wrong."""
+    """Runs a program and returns the JSON that it prints. An exit status of 1 may mean a wrong result and is no
+    error."""
     print(*command, file=sys.stderr, flush=True)
     run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
     if run.returncode not in (0, 1) or not run.stdout:
@@ -39,8 +41,8 @@ def run_json(*command):
 
 
 class Kept:
-    """The parts that an interrupted command has measured already. A run with the same origin goes on after them; any
-    other run begins again."""
+    """The results of parts of a command, kept in a file until it has finished. If the command is interrupted, the next
+    run with the same key uses the results. A run with another key measures all parts again."""
 
     def __init__(self, name, **key):
         self.path = RESULTS / f"{name}.part.json"
@@ -49,7 +51,7 @@ class Kept:
         self.parts = kept["parts"] if kept.get("key") == self.key else {}
 
     def __call__(self, part, measure):
-        """Returns the value of a part, measured now or before."""
+        """Returns the result of a part. Calls `measure` unless the result is kept."""
         if part not in self.parts:
             self.parts[part] = json.loads(json.dumps(measure()))
             RESULTS.mkdir(parents=True, exist_ok=True)
@@ -59,17 +61,18 @@ class Kept:
         return self.parts[part]
 
     def forget(self):
+        """Deletes the kept results."""
         self.path.unlink(missing_ok=True)
 
 
 def table(columns, rows):
-    """A Markdown table: the first column is left-aligned, the others right-aligned."""
+    """Returns a Markdown table. The first column is left-aligned, the others are right-aligned."""
     lines = [columns, ["---", *["---:"] * (len(columns) - 1)], *rows]
     return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
 
 
 def write(name, title, head, raw, text):
-    """Writes the numbers `raw` and the page. `text` is Markdown; plots are files in RESULTS that it names."""
+    """Writes the numbers `raw` and the page. `text` is Markdown. It may name plots, which are files in RESULTS."""
     import markdown  # Debian's python3-markdown
 
     RESULTS.mkdir(parents=True, exist_ok=True)

@@ -16,16 +16,18 @@
 namespace limn::bench {
 namespace {
 
+// Returns count * scale, at least 1.
 std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
 
 std::shared_ptr<const Mesh> mesh_of(MeshData data) { return std::make_shared<Mesh>(std::move(data), nullptr); }
 
+// A plane wave of the hills.
 struct Wave {
     Vec3 frequency;
     double phase, height;
 };
 
-// Returns a point of a closed ball with hills: r = 1 + a sum of waves.
+// Returns the point in the given unit direction of a ball with hills: its radius is 1 plus a sum of waves.
 Vec3 on_hills(const Vec3& direction) {
     static const std::array<Wave, 32> waves = [] {
         std::array<Wave, 32> made;
@@ -41,17 +43,19 @@ Vec3 on_hills(const Vec3& direction) {
     return r * direction;
 }
 
-// The faces of a cube, cut into squares and blown up to a ball. Points on the cube's edges belong to several faces and
-// are worked out from the same whole numbers in each, so that they have the same bits: the surface is closed.
+// Returns a ball with hills. Its mesh is a cube whose faces are divided into squares and projected to the ball. A point
+// on an edge of the cube belongs to several faces. Each face computes it from the same whole numbers and gets the same
+// bits, so that the surface is closed.
 Geometry displaced_sphere(double scale) {
     const auto cuts = static_cast<std::uint32_t>(std::max(1.0, std::round(std::sqrt(2e6 * scale / 12))));
     MeshData data;
     for (int face = 0; face < 6; ++face) {
+        // Add the vertices of the face.
         const auto first = static_cast<std::uint32_t>(data.vertices.size());
         const int axis = face / 2, side = face % 2;
         for (std::uint32_t j = 0; j <= cuts; ++j) {
             for (std::uint32_t i = 0; i <= cuts; ++i) {
-                // tan() of equal steps gives squares of much the same size on the ball.
+                // Use tan() of equal steps, which gives squares of similar size on the ball.
                 const auto along = [cuts](std::uint32_t k) {
                     return std::tan(std::numbers::pi / 4 * (2 * static_cast<double>(k) - cuts) / cuts);
                 };
@@ -62,6 +66,7 @@ Geometry displaced_sphere(double scale) {
                 data.vertices.push_back(to_float3(on_hills(normalize(Vec3(p[0], p[1], p[2])))));
             }
         }
+        // Add its triangles, two for each square, counter-clockwise seen from outside.
         for (std::uint32_t j = 0; j < cuts; ++j) {
             for (std::uint32_t i = 0; i < cuts; ++i) {
                 const std::uint32_t a = first + j * (cuts + 1) + i, b = a + 1, c = a + cuts + 1, d = c + 1;
@@ -74,7 +79,8 @@ Geometry displaced_sphere(double scale) {
     return {.name = "displaced sphere", .mesh = mesh_of(std::move(data))};
 }
 
-// A triangle of any direction. `dimension` is the first of six random numbers.
+// Adds a triangle whose vertices are random points of a sphere of radius `size`. u(k) is random number k. The function
+// uses six, from `dimension` on.
 void add_triangle(MeshData& data, const Vec3& center, double size, const auto& u, std::uint64_t dimension) {
     const auto first = static_cast<std::uint32_t>(data.vertices.size());
     for (std::uint64_t k = dimension; k < dimension + 6; k += 2)
@@ -82,8 +88,8 @@ void add_triangle(MeshData& data, const Vec3& center, double size, const auto& u
     data.triangles.push_back({first, first + 1, first + 2});
 }
 
-// Triangles of any direction, scattered over the unit cube. Their size goes with their distance from one another, so
-// that as many overlap whatever their number.
+// Returns triangles with random orientations at random points of the unit cube. Their size is proportional to the mean
+// distance between neighbours, so that the overlap does not depend on their number.
 Geometry soup(double scale) {
     const std::size_t count = scaled(1e6, scale);
     const double size = 0.03 / std::cbrt(scale);
@@ -95,7 +101,7 @@ Geometry soup(double scale) {
     return {.name = "soup", .mesh = mesh_of(std::move(data))};
 }
 
-// As many as in the book's last picture, standing still.
+// Returns spheres on the ground, at scale 1 as many as in the last picture of Shirley, Ray Tracing in One Weekend.
 Geometry spheres(double scale) {
     Geometry g{.name = "spheres"};
     g.balls.push_back({{0, -1000, 0}, 1000});
@@ -115,6 +121,7 @@ Geometry spheres(double scale) {
     return g;
 }
 
+// Adds the six quads of a box with one corner at the origin, transformed by `place`.
 void add_box(Geometry& g, const Vec3& size, const Transform& place) {
     const auto quad = [&](const Point3& corner, const Vec3& u, const Vec3& v) {
         g.quads.push_back({to_float32(transform_point(place, corner)), to_float32(transform_vector(place, u)),
@@ -122,11 +129,15 @@ void add_box(Geometry& g, const Vec3& size, const Transform& place) {
     };
     const Vec3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
     const Point3 low{}, high = low + size;
-    quad(low, y, x), quad(low, z, y), quad(low, x, z);
-    quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x);
+    quad(low, y, x);
+    quad(low, z, y);
+    quad(low, x, z);
+    quad(high, -x, -y);
+    quad(high, -y, -z);
+    quad(high, -z, -x);
 }
 
-// Five walls, a lamp and two boxes: 18 quads, whatever the scale.
+// Returns the Cornell box: five walls, a lamp and two boxes, 18 quads at any scale.
 Geometry cornell_box() {
     Geometry g{.name = "cornell box"};
     const Vec3 x{555, 0, 0}, y{0, 555, 0}, z{0, 0, 555};
@@ -139,7 +150,7 @@ Geometry cornell_box() {
     return g;
 }
 
-// A trunk of long triangles and a crown of leaves, one high.
+// Returns a tree of height 1 with `count` triangles: a trunk of long triangles and a crown of leaves.
 MeshData tree(std::size_t count) {
     constexpr std::uint32_t kSides = 16;
     MeshData data;
@@ -157,6 +168,7 @@ MeshData tree(std::size_t count) {
     return data;
 }
 
+// Returns instances of a tree on a grid, each with a random offset, rotation and size.
 Geometry forest(double scale) {
     Geometry g{.name = "forest", .mesh = mesh_of(tree(scaled(1e4, scale)))};
     const int side = std::max(1, static_cast<int>(std::round(100 * std::sqrt(scale))));
@@ -194,8 +206,8 @@ Geometry make_scene(const std::string& name, double scale) {
 }
 
 Geometry load_scene(const std::string& path) {
-    const Model model = load_obj(path, {.textures = false});
-    return {.name = std::filesystem::path(path).filename().string(), .mesh = model.meshes.front()};  // an OBJ gives one
+    const Model model = load_obj(path, {.textures = false});  // has one mesh
+    return {.name = std::filesystem::path(path).filename().string(), .mesh = model.meshes.front()};
 }
 
 Scene describe(const Geometry& geometry) {

@@ -1,5 +1,5 @@
 /// \file
-/// The scenes and rays that limn and its peers are given. Every number is a float32, so that all trace the same.
+/// The scenes and rays that limn and its peers trace. Every number is a float32, so that all of them trace the same.
 #pragma once
 
 #include <cstdint>
@@ -26,53 +26,57 @@ struct Parallelogram {
     Vec3 edge_u, edge_v;
 };
 
+// A scene without materials.
 struct Geometry {
     std::string name;
-    std::shared_ptr<const Mesh> mesh{};  // or null
-    std::vector<Transform> places{};     // world from object: instances of the mesh; empty: the mesh itself
+    std::shared_ptr<const Mesh> mesh{};  // may be null
+    std::vector<Transform> places{};     // world from object for each instance of the mesh; empty: the mesh itself
     std::vector<Ball> balls{};
     std::vector<Parallelogram> quads{};
-    std::optional<Camera> camera{};  // by default the one that frames all
-    std::optional<Point3> light{};   // by default above, to the left in front
-    // The least t of rays that leave a surface. limn needs 0. Embree needs more for large spheres, where a ray hits the
-    // surface that it leaves.
+    std::optional<Camera> camera{};  // by default frame_box() of all objects
+    std::optional<Point3> light{};   // by default above the objects, in front of them to the left
+    // t_min of rays that leave a surface. limn needs 0. Embree needs more for large spheres, or a ray hits the surface
+    // that it leaves.
     double t_min = 0;
 };
 
-// The names that make_scene knows.
+// Returns the names that make_scene accepts.
 const std::vector<std::string>& scene_names();
-// `scale` multiplies the number of primitives.
+// Returns the scene of a name. `scale` multiplies the number of primitives. \throws ArgumentError for another name
 Geometry make_scene(const std::string& name, double scale);
-// \throws FileError
+// Returns the mesh of an OBJ file. \throws FileError
 Geometry load_scene(const std::string& path);
-// The description that limn compiles.
+// Returns the scene that limn compiles.
 Scene describe(const Geometry& geometry);
+// Returns the number of triangles, balls, quads and instances.
 std::size_t stored_primitives(const Geometry& geometry);
 
+// The rays of a kind.
 struct RaySet {
     std::string name;
-    bool any = false;       // whether there is a hit; else the nearest
-    bool coherent = false;  // neighbours go much the same way
+    bool any = false;       // true for any-hit queries, false for closest-hit queries
+    bool coherent = false;  // true if neighbouring rays are similar
     std::vector<Ray> rays;
 };
 
-// "primary", "diffuse1" to "diffuse3", "occlusion" and "shadow".
+// Returns the names of the kinds: "primary", "diffuse1" to "diffuse3", "occlusion" and "shadow".
 const std::vector<std::string>& ray_kinds();
-// Returns `count` rays of each kind, the same ones each time. They are fewer where paths leave the scene too soon. A
-// kind without rays has no set. limn's exact hits say where the next rays begin.
+// Returns `count` rays of each kind, the same ones at each call. There are fewer if too many paths leave the scene. A
+// kind without rays has no set. Diffuse, occlusion and shadow rays start at hits that limn finds.
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count);
 
+// Returns the coordinates as float32.
 inline Float3 to_float3(const auto& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-// The nearest float32, as a double.
+// Returns the nearest float32 as a double.
 inline double to_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
 inline Vec3 to_float32(const Vec3& v) { return {to_float32(v.x), to_float32(v.y), to_float32(v.z)}; }
 inline Point3 to_float32(const Point3& p) { return {to_float32(p.x), to_float32(p.y), to_float32(p.z)}; }
 
-// Returns a number in [0, 1), a function of its arguments alone, by the mixer SplitMix64 (Steele, Lea, Flood, Fast
-// Splittable Pseudorandom Number Generators, 2014).
+// Returns a pseudorandom number in [0, 1) that depends on the arguments alone. `dimension` is below 64. The mixer is
+// SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014).
 inline double random_number(std::uint64_t seed, std::uint64_t place, std::uint64_t dimension) {
     std::uint64_t x = seed + 0x9e3779b97f4a7c15 * (place * 64 + dimension + 1);
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;

@@ -18,11 +18,11 @@ namespace {
 
 using app::Json;
 
-// limn by its public queries: ray by ray, or in batches.
+// limn's public queries, of single rays or of batches.
 class LimnSubject final : public Subject {
 public:
-    // \param batch the rays of each query; 0 for the query of a single ray
-    // \param targets the instruction sets that limn may use
+    // \param batch number of rays of each query; 0: single rays
+    // \param targets instruction sets that limn may use, as Highway's bits
     LimnSubject(const std::string& subject_name, std::shared_ptr<const CompiledScene> scene, std::size_t batch,
                 std::int64_t targets)
         : Subject(subject_name), scene_(std::move(scene)), batch_(batch), targets_(targets) {}
@@ -65,13 +65,14 @@ private:
     std::vector<std::uint8_t> occluded_;
 };
 
-constexpr double kSameT = 1e-3;  // relative: a larger difference is another surface
+constexpr double kSameT = 1e-3;  // largest relative difference of t of the same surface
 
-// A measurement lasts at least this long, so that starting threads and reading clocks do not count.
+// The least time of a measurement. It is long enough that starting threads and reading clocks hardly count.
 constexpr double kLeastSeconds = 0.004;
 
+// Traces all rays of the prepared set.
 void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
-    // Every thread gets several parts.
+    // Divide the rays so that each thread gets several parts. A part has a multiple of 64 rays.
     const std::size_t share = rays / (8 * static_cast<std::size_t>(arena.max_concurrency())) / 64 * 64;
     const std::size_t size = std::clamp<std::size_t>(share, 64, 65536);
     arena.execute([&] {
@@ -80,7 +81,7 @@ void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     });
 }
 
-// Returns the time of one pass over the rays.
+// Returns the seconds in which the rays are traced once.
 double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     const Clock clock = arena.max_concurrency() == 1 ? Clock::thread : Clock::wall;
     const double begin = seconds(clock);
@@ -93,7 +94,7 @@ double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
 }  // namespace
 
 BuiltScene build_limn(const Geometry& geometry, Clock clock) {
-    const Scene description = describe(geometry);  // is not timed
+    const Scene description = describe(geometry);  // not timed
     const double begin = seconds(clock);
     const auto scene = std::make_shared<const CompiledScene>(compile(description));
     BuiltScene built{.seconds = seconds(clock) - begin, .bytes = scene->stats().memory_bytes, .subjects = {}};
@@ -145,6 +146,7 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
     tbb::task_arena arena(threads);
     const std::size_t rays = set.rays.size();
     std::vector<Timing> timings;
+    // Trace with each subject, and compare its results with those of the first.
     for (const auto& subject : subjects) {
         subject->prepare(set);
         trace_all(*subject, rays, arena);
@@ -157,6 +159,7 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
         }
         if (!keep_going()) return timings;
     }
+    // Take the times.
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t s = 0; s < subjects.size(); ++s) {
             timings[s].seconds.push_back(time_of(*subjects[s], rays, arena));
@@ -168,13 +171,15 @@ std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, 
 
 namespace {
 
-// A few rounds of building a small scene say little: building is repeated until one of these is reached.
+// Building a small scene takes so little time that a few rounds are not enough. It is repeated for this many seconds,
+// but at most this many times.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
+// The format of a row of the table.
 constexpr char kLine[] = "  {:<10} {:>2} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}  {:<18} {:<18} {:<18} {:>8}\n";
 
-// Returns the fastest subject whose name fits, or null.
+// Returns the timing of the fastest subject for whose name `fits` returns true, or null.
 template <class Fits>
 const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
     const auto median = [&](const Timing& t) {
@@ -184,14 +189,17 @@ const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
     return best != timings.end() && median(*best) < kInfinity ? &*best : nullptr;
 }
 
+// Returns how many times faster a is than b, with quartiles, as text.
 std::string ratio_text(const Timing* a, const Timing* b) {
     if (a == nullptr || b == nullptr) return "-";
     const Spread r = ratio(*a, *b);
     return fmt::format("{:.2f} ({:.2f}..{:.2f})", r.median, r.low, r.high);
 }
 
+// Returns the rate in million rays a second.
 double million_a_second(const Timing& timing, double rays) { return 1e-6 * rays / spread_of(timing.seconds).median; }
 
+// Returns a row of the table.
 std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& timings) {
     const auto find = [&](const char* name) { return fastest(timings, [&](const auto& s) { return s == name; }); };
     const Timing *single = find("limn"), *plain = find("Embree"), *robust = find("Embree robust");
@@ -208,6 +216,7 @@ std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& 
                        ratio_text(single, robust), ratio_text(batch, best), differ(plain) + "/" + differ(robust));
 }
 
+// A run of `limn bench`.
 struct Session {
     const Plan& plan;
     const std::vector<Contender>& contenders;
@@ -215,8 +224,8 @@ struct Session {
     Results results{};
     Json scenes = Json::array();
     double scenes_done = 0;
-    double part = 0;  // of the scene's measurements that is done
-    bool going = true;
+    double part = 0;    // part of the current scene's measurements that is done, 0 to 1
+    bool going = true;  // false if `watch` has returned false
 
     Results run() {
         for (const std::string& name : plan.scenes)
@@ -229,16 +238,19 @@ struct Session {
         return std::move(results);
     }
 
+    // Reports the progress. Returns false if the run must end.
     bool goes_on() {
         const auto count = static_cast<double>(plan.scenes.size() + plan.models.size());
         going = going && watch((scenes_done + part) / count);
         return going;
     }
 
+    // Measures a scene and adds its results to the table and to `scenes`.
     void measure_scene(const Geometry& geometry) {
         const std::size_t primitives = stored_primitives(geometry);
         Json bytes = Json::object(), builds = Json::array(), rows = Json::array();
         results.table += fmt::format("{}: {} primitives", geometry.name, primitives);
+        // Build it for each contender.
         std::vector<std::unique_ptr<Subject>> subjects;
         for (const Contender& contender : contenders) {
             BuiltScene built = contender.build(geometry, Clock::wall);
@@ -248,6 +260,7 @@ struct Session {
             std::ranges::move(built.subjects, std::back_inserter(subjects));
         }
         results.table += '\n';
+        // Measure building and rays.
         for (const int threads : plan.threads) builds.push_back(measure_builds(geometry, threads));
         if (goes_on()) rows = measure_rays(geometry, subjects);
         scenes.push_back({{"name", geometry.name},
@@ -259,12 +272,14 @@ struct Session {
         part = 0;
     }
 
+    // Measures building with a number of threads.
     Json measure_builds(const Geometry& geometry, int threads) {
         std::vector<Timing> timings;
         for (const Contender& contender : contenders) timings.push_back({.subject = contender.name});
-        // This limits Embree's threads too.
+        // Limit the threads, also those of Embree.
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
+        // Build in rounds.
         const Clock clock = threads == 1 ? Clock::process : Clock::wall;
         const int most = plan.build_rounds == 0 ? 0 : std::max(plan.build_rounds, kMostBuilds);
         double spent = 0;
@@ -274,6 +289,7 @@ struct Session {
                 spent += timings[i].seconds.back();
             }
         }
+        // Store the times.
         Json seconds = Json::object();
         std::string text;
         for (const Timing& t : timings) {
@@ -287,6 +303,7 @@ struct Session {
         return {{"threads", threads}, {"seconds", seconds}};
     }
 
+    // Measures the rays of each kind with each number of threads.
     Json measure_rays(const Geometry& geometry, const std::vector<std::unique_ptr<Subject>>& subjects) {
         std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan.rays);
         if (!plan.kinds.empty())
@@ -306,9 +323,10 @@ struct Session {
         return rows;
     }
 
+    // Adds a row to the table and returns it as JSON. Sets `results.fault` if batches and single rays differ.
     Json row(const RaySet& set, int threads, const std::vector<Timing>& timings) {
         Json subjects = Json::array();
-        std::size_t differences = 0;  // of limn's batches
+        std::size_t differences = 0;  // rays for which a subject of limn differs from single rays
         for (const Timing& t : timings) {
             if (!t.subject.starts_with("Embree")) differences += t.differences;
             if (t.seconds.empty()) continue;

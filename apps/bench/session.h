@@ -1,6 +1,6 @@
 /// \file
-/// What `limn bench` measures: scene by scene, the building and then the rays of each kind. In each round all renderers
-/// take their turn, so that other load of the machine falls on all alike.
+/// The measurements of `limn bench`. For each scene it measures building and then the rays of each kind. The contenders
+/// take turns in each round, so that other load of the machine affects all of them alike.
 #pragma once
 
 #include <functional>
@@ -11,48 +11,53 @@
 
 namespace limn::bench {
 
+// The times and the results of a subject for a set of rays.
 struct Timing {
     std::string subject;
-    std::vector<double> seconds{};  // one a round
-    // The number of rays that differ from the first subject: by hit or miss or by a thousandth of t, and by any bit.
-    std::size_t mismatches = 0, differences = 0;
+    std::vector<double> seconds{};  // the time of each round
+    // Number of rays that differ from the first subject by hit or miss, or by more than a thousandth of t.
+    std::size_t mismatches = 0;
+    // Number of rays that differ from the first subject in any bit of the result.
+    std::size_t differences = 0;
 };
 
-// The median and quartiles of some numbers.
+// The median and the lower and upper quartile of some numbers.
 struct Spread {
     double median = 0, low = 0, high = 0;
 };
 Spread spread_of(std::vector<double> values);
 
-// How much faster a is than b, round by round.
+// Returns the spread over the rounds of the time of b divided by the time of a.
 Spread ratio(const Timing& a, const Timing& b);
 
-// Traces the set with each subject once and compares the results with those of the first subject. Then traces it
-// `rounds` times and takes the time. Measures fewer rounds, or none, if `keep_going` returns false.
+// Traces the set once with each subject and compares the results with those of the first subject. Then traces it
+// `rounds` times with each and takes the time. Ends early if `keep_going` returns false.
 std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
                             int rounds, const std::function<bool()>& keep_going);
 
+// The options of `limn bench`.
 struct Plan {
-    std::vector<std::string> scenes;  // names that make_scene knows
-    std::vector<std::string> models;  // files
-    double scale = 1;
-    std::size_t rays = std::size_t{1} << 18;
-    std::vector<std::string> kinds;  // of rays; empty: all
-    int rounds = 7;
-    int build_rounds = 3;
-    std::vector<int> threads;
+    std::vector<std::string> scenes;          // names that make_scene accepts
+    std::vector<std::string> models;          // paths of OBJ files
+    double scale = 1;                         // factor of the number of primitives of `scenes`
+    std::size_t rays = std::size_t{1} << 18;  // number of rays of each kind
+    std::vector<std::string> kinds;           // kinds of rays; empty: all
+    int rounds = 7;                           // number of times that the rays are traced
+    int build_rounds = 3;                     // number of times that the scene is built; 0: building is not measured
+    std::vector<int> threads;                 // numbers of threads
 };
 
 struct Results {
-    std::string table;
+    std::string table;  // text for the terminal
     app::Json json = app::Json::object();
-    std::string fault;  // says where batches and single rays of limn have different results; empty: nowhere
+    std::string fault;  // the rays for which limn's batches and single rays differ; empty if they never do
 };
 
-// Is given the share of the plan that is done after each measurement. Returns false to stop.
+// A function that is called after each measurement with the part of the plan that is done, 0 to 1. It returns false to
+// end the session.
 using Watch = std::function<bool(double)>;
 
-// Returns the results so far if it is stopped.
+// Measures what the plan says. Returns the results so far if `watch` ends the session.
 Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch);
 
 }  // namespace limn::bench

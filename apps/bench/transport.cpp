@@ -1,4 +1,5 @@
-// Renders a scene of ./build.sh convergence as a figure's program does, or describes it for limn's peers.
+// Renders a scene of ./build.sh convergence as the programs of the figures do. With --describe it prints the scene as
+// JSON for limn's peers.
 #include <algorithm>
 #include <iostream>
 

@@ -27,19 +27,20 @@ Figure figure_of(Scene scene, const Camera& camera) {
 
 Figure cornell_empty() { return figure_of(figures::cornell_room(figures::cornell_lamp()), figures::cornell_camera()); }
 
-// Figure 12 on grey stone.
+// Returns figure 12 with a grey material instead of marble.
 Figure lamps() {
     Figure figure = figures::fig12_emissive();
     figure.scene = figures::stone_under_lamps(matte({.5, .5, .5}));
     return figure;
 }
 
+// Returns a figure of three balls with Fresnel's equations, and with a mirror instead of fuzzy metal.
 Figure with_mirror(Figure figure) {
     figure.scene = figures::three_balls(glass(), std::make_shared<Metal>(Color{.8, .6, .2}, 0));
     return figure;
 }
 
-// Figure 1 without motion and fuzz.
+// Returns figure 1 without motion, without fuzz, and with Fresnel's equations.
 Figure still_spheres() {
     auto balls = figures::read_bouncing_spheres(figures::data_file("bounce_spheres.csv"));
     for (figures::BouncingSphere& ball : balls) {
@@ -51,20 +52,21 @@ Figure still_spheres() {
     return figure;
 }
 
-// A ball with hills, of 69312 triangles.
+// Returns a ball with hills, a mesh of 69312 triangles.
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
     MeshData data = make_scene("sphere", 0.035).mesh->data();
     for (Float3& v : data.vertices) v = to_float3(center + radius * Vec3{v.x, v.y, v.z});
     return std::make_shared<Mesh>(std::move(data), std::move(material));
 }
 
+// Returns the empty Cornell box with a ball with hills.
 Figure ball_in_room(std::shared_ptr<const Material> material) {
     Figure figure = cornell_empty();
     figure.scene.add(hilly_ball({278, 200, 278}, 150, std::move(material)));
     return figure;
 }
 
-// 200 small square lamps, turned any way, in the upper half of the Cornell box.
+// Returns the Cornell box with 200 small square lamps of random orientation in its upper half.
 Figure many_lights() {
     constexpr std::uint64_t kCount = 200;
     constexpr double kSide = 6;
@@ -83,13 +85,14 @@ Figure many_lights() {
     return figure_of(std::move(scene), figures::cornell_camera());
 }
 
-// A sky whose sun is in its map, in the pixels within two degrees of it, with the same irradiance.
+// Returns the map of a sky that includes the sun. The sun covers the pixels within two degrees of its direction and has
+// the irradiance of the SunLight.
 EnvironmentMap sky_with_sun() {
     const SkySettings settings;
     const Sky sky = make_sky(settings);
     Image map = *sky.environment->image();
     const double row = std::numbers::pi / map.height(), column = 2 * std::numbers::pi / map.width();
-    // Find the pixels by the directions of their middles.
+    // Find the pixels whose centres are within two degrees of the sun.
     std::vector<std::pair<int, int>> disc;
     double solid_angle = 0;
     for (int y = 0; y < map.height(); ++y) {
@@ -101,12 +104,13 @@ EnvironmentMap sky_with_sun() {
             solid_angle += (std::cos(row * y) - std::cos(row * (y + 1))) * column;
         }
     }
-    // Give them the sun's light.
+    // Add the sun's light to them.
     const Color radiance = sky.sun.irradiance / (solid_angle * sky.environment->scale());
     for (const auto& [x, y] : disc) map.set(x, y, map.at(x, y) + radiance);
     return EnvironmentMap(std::move(map), {}, sky.environment->scale());
 }
 
+// Returns a ball of rough copper under a sky with a sun.
 Figure rough_copper() {
     Scene scene;
     scene.add(std::make_shared<Quad>(Point3{-20, -1, -20}, Vec3{0, 0, 40}, Vec3{40, 0, 0}, matte({.4, .4, .4})));
@@ -115,7 +119,7 @@ Figure rough_copper() {
     return figure_of(std::move(scene), {.look_from = {0, 1.5, 5}, .look_at = {0, -.1, 0}, .vertical_fov = 30});
 }
 
-// A ball of ground glass in the Cornell box.
+// Returns the Cornell box with a ball of ground glass.
 Figure rough_glass() {
     Figure figure = cornell_empty();
     figure.scene.add(figures::tall_box(matte(kLightGrey)));
@@ -123,7 +127,7 @@ Figure rough_glass() {
     return figure;
 }
 
-// The glTF model of the gallery: normal maps, alpha and rough metal.
+// Returns the glTF model of the gallery, which has normal maps, alpha and rough metal.
 Figure still_life() {
     const Model model = gallery::load("still_life.glb");
     Scene scene;
@@ -132,7 +136,8 @@ Figure still_life() {
     return figure_of(std::move(scene), model.cameras.front().camera);
 }
 
-// A small bright lamp behind a screen: the floor gets its light by way of a fuzzy mirror alone, in rare bright samples.
+// Returns a floor with a small bright lamp. A screen shadows the floor, so that it gets light only by a fuzzy mirror.
+// The samples with this light are rare and bright.
 Figure fireflies() {
     Scene scene;
     scene.background = Background::constant({.05, .06, .08});
@@ -144,6 +149,7 @@ Figure fireflies() {
     return figure_of(std::move(scene), {.look_from = {0, 3, 6}, .look_at = {0, .8, -1}, .vertical_fov = 45});
 }
 
+// All scenes by name. The first fourteen can be rendered by limn's peers.
 constexpr std::pair<const char*, Figure (*)()> kScenes[] = {
     {"cornell-empty", cornell_empty},
     {"cornell", [] { return figures::fig15_cornell_box(); }},

@@ -1,5 +1,5 @@
 /// \file
-/// The scenes of `./build.sh convergence`. Only public headers of limn, the figures and the gallery are needed.
+/// The scenes of `./build.sh convergence`. They use only limn's public headers, the figures and the gallery.
 #pragma once
 
 #include <string>
@@ -13,15 +13,17 @@ class Json;  // in json_output.h
 
 namespace limn::bench {
 
-// Metal and glass of the first fourteen follow Fresnel's equations, smooth or with the same microfacets: limn and its
-// peers can all express these scenes. The others are for limn alone.
+// Returns the names of the scenes. limn and its peers can all express the first fourteen: their metal and glass follow
+// Fresnel's equations and are smooth or have the same microfacets. Only limn renders the others.
 std::vector<std::string> transport_scene_names();
 
-// \throws ArgumentError for another name, FileError if the figures' data cannot be read
+// Returns the scene of a name. \throws ArgumentError for another name, FileError if a data file of the figures cannot
+// be read
 Figure make_transport_scene(const std::string& name);
 
-// Returns camera, lights and objects as one JSON object, in world space and in double. apps/bench/peers writes the
-// scenes of other renderers from it. The numbers come from the records that `compile` reads.
+// Returns camera, lights and objects as a JSON object, in world space and with float64 numbers. The modules in
+// apps/bench/peers make the scenes of other renderers from it. The numbers are those of the records that `compile`
+// reads.
 // \throws Error if no peer can express the scene
 app::Json describe_scene(const Figure& figure);
 

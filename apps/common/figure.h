@@ -1,5 +1,5 @@
 /// \file
-/// A picture to make, and the main function of the programs that make one.
+/// Figures: scenes with a camera and settings, each rendered by a program of its own.
 #pragma once
 
 #include <functional>
@@ -14,23 +14,23 @@
 
 namespace limn {
 
-/// A scene, and how it is pictured unless the command line says otherwise.
+/// A scene to render, with a camera and settings. Options on the command line replace parts of the camera and settings.
 struct Figure {
-    std::string name;  ///< goes into the report and the picture's header
+    std::string name;  ///< written to the report and the picture's header
     Scene scene;
     Camera camera;
     RenderSettings settings;
 };
 
-/// What a figure reads.
+/// The files that a figure reads.
 struct FigureInputs {
-    std::string texture;
+    std::string texture;  ///< path of a picture, or empty
     Encoding texture_encoding = Encoding::automatic;
 };
 
-/// The whole of a figure's program: reads the options (see render_options.h), calls `make`, renders, and writes
-/// NAME.exr and NAME.png or what -o names. Never throws.
-/// \param defaults given: the program takes --texture and --texture-encoding, and these are what it uses without them
+/// Runs the program of a figure: reads the options (see render_options.h), calls `make`, renders, and writes NAME.exr
+/// and NAME.png or the files of -o. Never throws.
+/// \param defaults if given, the program has the options --texture and --texture-encoding with these defaults
 /// \returns the exit status: 0, 1, 2, 130 or 143 (see program.h)
 int figure_main(int argc, char** argv, std::string_view name, const std::function<Figure(const FigureInputs&)>& make,
                 const std::optional<FigureInputs>& defaults = std::nullopt);

@@ -34,7 +34,7 @@ void add_texture_options(app::Options& options, FigureInputs& inputs) {
                 app::file_name("--texture", inputs.texture));
     options.add({.name = "--texture-encoding",
                  .value = "auto|srgb|raw",
-                 .help = "How its values are decoded to linear ones: auto by what the file says, raw not at all",
+                 .help = "How its values are converted to linear ones: auto, as the file says; srgb; raw, not at all",
                  .preset = name_of(inputs.texture_encoding)},
                 [&inputs](const std::string& text) { inputs.texture_encoding = parse_encoding(text); });
 }
@@ -45,6 +45,7 @@ int figure_main(int argc, char** argv, std::string_view name, const std::functio
                 const std::optional<FigureInputs>& defaults) {
     const std::string program(name);
     return app::run_program(program, [&] {
+        // Describe the options.
         const std::string exr = program + ".exr", png = program + ".png";
         app::Options command(program, "Renders the figure.");
         app::RenderOptions options;
@@ -55,9 +56,10 @@ int figure_main(int argc, char** argv, std::string_view name, const std::functio
         const auto state = [&] {
             try {
                 app::state_presets(command, make(defaults.value_or(FigureInputs{})));
-            } catch (const Error&) {  // a file is missing, which --help can do without
+            } catch (const Error&) {  // a file is missing; --help then says "the scene's own" in place of values
             }
         };
+        // Parse the command line and render.
         if (!command.parse(argc, argv, state)) return app::kDone;
         app::check_together(options, {exr, png});
 

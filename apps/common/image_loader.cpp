@@ -1,5 +1,5 @@
-// The codec of limn's programs: that of a module, which is loaded when a picture is to be read or written. OpenImageIO
-// comes with 260 libraries, which take a fifth of a second and more to load.
+// The image codec of limn's programs. It is in a module that is loaded when the first picture is read or written,
+// because OpenImageIO depends on 260 libraries, which take at least a fifth of a second to load.
 #include "io/image_codec.h"
 #include "module.h"
 
@@ -7,6 +7,7 @@ namespace limn {
 
 namespace {
 
+// Returns the codec, and loads its module at the first call. \throws Error if the module cannot be loaded
 const ImageCodec& codec() {
     static const auto* const loaded = static_cast<const ImageCodec*>(app::load_module("limn_openimageio"));
     return *loaded;
@@ -14,7 +15,7 @@ const ImageCodec& codec() {
 
 }  // namespace
 
-// Called before a picture is rendered, so that a missing module is reported in time.
+// This is called before a picture is rendered, so a missing module is reported early.
 bool can_encode(FileFormat format) { return codec().can_encode(format); }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) { return codec().encode(job, path); }

@@ -1,4 +1,4 @@
-// The codec through OpenImageIO, as a module.
+// The module with the image codec that uses OpenImageIO: see image_loader.cpp.
 #include "io/image_codec.h"
 #include "module.h"
 

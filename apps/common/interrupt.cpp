@@ -7,9 +7,10 @@ namespace limn::app {
 
 namespace {
 
-std::atomic<int> caught = 0;  // read by the threads of a render
+std::atomic<int> caught = 0;  // atomic, because the threads of a render read it
 static_assert(std::atomic<int>::is_always_lock_free);
 
+// Stores the signal, and restores the default handlers, so that the next signal ends the program.
 extern "C" void remember_signal(int signal) {
     caught = signal;
     std::signal(SIGINT, SIG_DFL);
@@ -21,7 +22,7 @@ extern "C" void remember_signal(int signal) {
 void catch_interrupts() {
     struct sigaction action = {};
     action.sa_handler = remember_signal;
-    action.sa_flags = SA_RESTART;  // reading a model goes on undisturbed
+    action.sa_flags = SA_RESTART;  // a signal does not make reading a model fail
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);

@@ -1,13 +1,13 @@
 /// \file
-/// SIGINT and SIGTERM: the first stops the render and saves, a second one ends the program at once.
+/// Handling of SIGINT and SIGTERM. The first signal stops the render and saves it. A second one ends the program.
 #pragma once
 
 namespace limn::app {
 
-/// Installs the handlers, also where a parent process had the signals ignored.
+/// Installs the handlers, even if the parent process set the signals to be ignored.
 void catch_interrupts();
 
-/// The signal that came, or 0.
+/// Returns the signal that was caught, or 0. Thread-safe.
 int caught_signal();
 
 }  // namespace limn::app

@@ -12,6 +12,7 @@ namespace {
 
 using Written = nlohmann::ordered_json;
 
+// Converts a Json to nlohmann's type.
 struct Writer {
     Written operator()(const Json& json) const { return std::visit(*this, json.value()); }
     Written operator()(const Json::Array& values) const {
@@ -30,7 +31,7 @@ struct Writer {
     }
 };
 
-// Of a pair in braces: a name and a value.
+// True if a value is an array of two, the first of them a string: the form of a member in an initializer list.
 bool is_member(const Json& json) {
     const auto* pair = std::get_if<Json::Array>(&json.value());
     return pair != nullptr && pair->size() == 2 && std::holds_alternative<std::string>(pair->front().value());
@@ -60,7 +61,7 @@ void Json::update(const Json& object) {
 }
 
 std::string json_text(const Json& json) {
-    // Names of files need not be UTF-8.
+    // Names of files may not be UTF-8, so replace invalid bytes instead of throwing.
     return Writer{}(json).dump(2, ' ', false, Written::error_handler_t::replace) + "\n";
 }
 

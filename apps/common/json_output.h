@@ -1,5 +1,5 @@
 /// \file
-/// Results as JSON, beside a table or in place of it.
+/// Results as JSON, in addition to a table or instead of it.
 #pragma once
 
 #include <concepts>
@@ -14,8 +14,8 @@
 
 namespace limn::app {
 
-/// A JSON value, put together to be written; members of objects stay in order. The writing is done by nlohmann's
-/// library, which json_output.cpp alone includes: each source that does takes three seconds more to compile.
+/// A JSON value that is built to be written. The members of an object keep their order. nlohmann's library writes it;
+/// only json_output.cpp includes that library, because it adds three seconds to the compilation of a source.
 class Json {
 public:
     using Array = std::vector<Json>;
@@ -32,17 +32,17 @@ public:
     Json(std::string text) : value_(std::move(text)) {}
     template <class T>
     Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
-    /// An object where all are pairs of a name and a value, else an array.
+    /// Makes an object if all values are pairs of a name and a value, otherwise an array.
     Json(std::initializer_list<Json> values);
 
     static Json array() { return Json(Value(Array{})); }
     static Json object() { return Json(Value(Object{})); }
 
-    /// To an array.
+    /// Appends to an array. \pre this is an array
     void push_back(Json value) { std::get<Array>(value_).push_back(std::move(value)); }
-    /// The member of an object, which is added where it lacks.
+    /// Returns a member of an object; adds it as null if there is none of that name. \pre this is an object
     Json& operator[](const std::string& name);
-    /// Adds the members of another object.
+    /// Adds the members of another object; replaces members of the same name. \pre both are objects
     void update(const Json& object);
 
     using Value = std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string, Array, Object>;
@@ -54,19 +54,20 @@ private:
     Value value_ = nullptr;
 };
 
-/// As text; what is not a finite number is null.
+/// Returns the value as text that ends in a line break. Infinities and NaN become null.
 std::string json_text(const Json& json);
 
-/// The option --json FILE of the commands that print a table; - is standard output, in place of the table.
+/// The option --json FILE of the commands that print a table. With - as FILE, the JSON is printed instead of the table.
 class JsonOption {
 public:
-    /// Must outlive the parsing.
+    /// Adds the option. This object must outlive the parsing.
     explicit JsonOption(Options& options);
 
-    /// \throws ArgumentError, FileError if the file cannot be written, or is one of the `inputs` or other `outputs`
+    /// Checks the file of the option, if it is given.
+    /// \throws ArgumentError if it is one of the `inputs` or other `outputs`, FileError if it cannot be written
     void check(const std::vector<std::string>& inputs, std::vector<std::string> outputs = {}) const;
 
-    /// Writes the table, and the JSON if its option is given. \throws FileError
+    /// Prints the table, and writes the JSON if the option is given. \throws FileError
     void write(const std::string& table, const Json& json) const;
 
 private:

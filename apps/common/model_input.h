@@ -1,4 +1,5 @@
 /// \file
+/// Models from files or standard input.
 #pragma once
 
 #include <string>
@@ -7,16 +8,16 @@
 
 namespace limn::app {
 
-/// What a command names in place of a file to read from standard input.
+/// The path that stands for standard input.
 inline constexpr const char* kStandardInput = "-";
 
-/// All bytes of standard input.
+/// Reads standard input to its end.
 std::string read_standard_input();
 
-/// The model in a file, or from standard input. \throws as load_model
+/// Reads a model from a file, or from standard input if `path` is kStandardInput. Throws what load_model throws.
 Model read_model(const std::string& path, const ModelOptions& options = {});
 
-/// The path if it names a file that is read, otherwise empty.
+/// Returns the path, or an empty string if it is kStandardInput: a file that no output may replace.
 std::string input_file(const std::string& path);
 
 }  // namespace limn::app

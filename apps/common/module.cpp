@@ -13,9 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns limn_module; null where `path` does not have it, for the reason in `problem`.
+// Returns the address of limn_module in the module at `path`. If there is none, returns null and sets `problem`.
 void* load(const fs::path& path, std::string& problem) {
-    std::error_code unknown;  // dlopen then says what is wrong
+    // Load the file. If it is unknown whether the file exists, dlopen reports the problem.
+    std::error_code unknown;
     if (!fs::exists(path, unknown) && !unknown) {
         problem = "is not there";
         return nullptr;
@@ -25,6 +26,7 @@ void* load(const fs::path& path, std::string& problem) {
         problem = std::string("cannot be loaded (") + dlerror() + ")";
         return nullptr;
     }
+    // Check that the module was built for this program.
     const auto* const id = static_cast<const char*>(dlsym(module, "limn_module_id"));
     if (id == nullptr || std::string(id) != LIMN_MODULE_ID) {
         problem = id ? "is a module of limn " + std::string(id) + ", not of " LIMN_MODULE_ID : "is no module of limn";

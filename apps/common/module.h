@@ -1,18 +1,19 @@
 /// \file
-/// Modules: parts of limn's programs that are loaded when they are needed, and with them the libraries that they link.
+/// Modules: shared objects that limn's programs load when they need them, together with the libraries that these link.
 #pragma once
 
 #include <string>
 
 namespace limn::app {
 
-/// Loads the module `name`.so: beside the program, as built, or from where it is installed. Nothing else is searched.
-/// The module stays loaded. A second call returns the same.
-/// \returns the address of what the module exports as limn_module
-/// \throws Error naming the paths tried, and what is wrong with each
+/// Loads the module `name`.so. It is searched in two folders: that of the program (for a build), and LIMN_MODULE_FOLDER
+/// relative to it (for an installation). The module stays loaded. A second call returns the same address.
+/// \returns the address of the module's symbol limn_module
+/// \throws Error with the paths that were tried and the problem of each
 void* load_module(const std::string& name);
 
 }  // namespace limn::app
 
-/// Each module exports it: limn's version and a digest of the headers between program and module (apps/CMakeLists.txt).
+/// The id that each module exports: limn's version and a digest of the headers that program and module share
+/// (apps/CMakeLists.txt). A module with another id than the program's is refused.
 extern "C" const char limn_module_id[];

@@ -14,7 +14,7 @@ namespace limn::app {
 
 namespace {
 
-// How many letters to change, add or leave out (Levenshtein's distance).
+// Returns the number of letters to change, insert or delete to turn a into b (Levenshtein's distance).
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -29,13 +29,15 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+// Returns the description of an option in --help.
 std::string described(const std::string& help, const std::string& preset) {
     return preset.empty() ? help : help + " (default: " + preset + ")";
 }
 
 constexpr std::size_t kHelpWidth = 96;  // columns
 
-// The text in lines of at most kHelpWidth columns. The first line begins in column `begin`, the others in `indent`.
+// Returns the text broken into lines of at most kHelpWidth columns. The first line begins in column `begin`, the others
+// in column `indent`.
 std::string wrapped(const std::string& text, std::size_t begin, std::size_t indent) {
     std::string lines;
     std::size_t column = begin;
@@ -54,7 +56,7 @@ std::string wrapped(const std::string& text, std::size_t begin, std::size_t inde
     return lines;
 }
 
-// CLI11 2.1 does not wrap.
+// Formats --help with wrapped lines. CLI11 2.1 does not wrap them.
 class WrappedHelp final : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_argument) const override {
@@ -73,9 +75,10 @@ public:
 
 struct Options::Parser {
     CLI::App app;
-    std::map<std::string, std::pair<CLI::Option*, std::string>> options;  // by name, with their help
-    std::vector<std::string> names{"--help"};                             // as they are typed
+    std::map<std::string, std::pair<CLI::Option*, std::string>> options;  // by Option::name, with the help text
+    std::vector<std::string> names{"--help"};                             // single names, for did_you_mean
 
+    // Stores an option under its name and each of its single names.
     void keep(const std::string& name, CLI::Option* option, const std::string& help) {
         options[name] = {option, help};
         for (std::size_t begin = 0; begin <= name.size();) {
@@ -85,8 +88,9 @@ struct Options::Parser {
         }
     }
 
+    // Returns the message for an error of CLI11.
     std::string problem(const CLI::ParseError& error) const {
-        // First, because the option that was meant may be reported as missing.
+        // Look for unknown options first. CLI11 may report the option that was meant as missing instead.
         for (const std::string& word : app.remaining())
             if (word.size() > 1 && word.starts_with('-')) {
                 const std::string name = word.substr(0, word.find('='));
@@ -114,7 +118,7 @@ Options::Options(std::string program, const std::string& description, const std:
 Options::~Options() = default;
 
 void Options::add(const Option& o, Use use) {
-    // The texts as they are: CLI11's own types read "{}" and "[a]" as lists.
+    // Take the raw texts. CLI11's own conversion would read "{}" and "[a]" as lists.
     const auto take = [use = std::move(use), is_repeatable = o.repeatable,
                        name = o.name.substr(0, o.name.find(','))](const CLI::results_t& texts) {
         if (texts.size() > 1 && !is_repeatable)
@@ -125,7 +129,7 @@ void Options::add(const Option& o, Use use) {
     CLI::Option* const option = parser_->app.add_option(o.name, take, described(o.help, o.preset));
     option->type_name(o.value)->required(o.required)->group(o.group);
     if (o.repeatable) option->expected(1, CLI::detail::expected_max_vector_size);
-    // One value after each -o, but any number of arguments.
+    // A repeatable option takes one value each time; a repeatable argument takes any number of words.
     const bool is_argument = !o.name.starts_with('-');
     option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(o.repeatable && is_argument);
     parser_->keep(o.name, option, o.help);

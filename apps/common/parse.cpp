@@ -11,7 +11,7 @@ namespace limn::app {
 
 namespace {
 
-// Parts with commas between them.
+// Splits the text at its commas into `count` parts. `form` is named in the message if there are more or fewer.
 template <std::size_t count>
 std::array<std::string_view, count> divide(std::string_view option, std::string_view text, const std::string& form) {
     std::array<std::string_view, count> parts;
@@ -107,6 +107,7 @@ Size parse_size(std::string_view option, std::string_view text) {
 }
 
 std::string command_line(int argc, const char* const* argv) {
+    // Quote each word that has other characters than these.
     constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
     std::string line;
     for (int i = 0; i < argc; ++i) {

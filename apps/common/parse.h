@@ -1,6 +1,6 @@
 /// \file
-/// Values of command-line options, read strictly: the whole text is one finite value within its range. Everything
-/// throws ArgumentError with a message that holds the option and the text. The locale plays no part.
+/// Parsing of the values of command-line options. Parsing is strict: the whole text must be one finite value in its
+/// range. All functions throw an ArgumentError that names the option and the text. They do not depend on the locale.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace limn::app {
 
-/// \throws ArgumentError "OPTION TEXT: PROBLEM", always
+/// Throws ArgumentError("OPTION TEXT: PROBLEM").
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view problem);
 
-/// A decimal integer in [lowest, highest].
+/// Parses a decimal integer in [lowest, highest].
 template <class Integer>
 Integer parse_integer(std::string_view option, std::string_view text, Integer lowest, Integer highest) {
     Integer value{};
@@ -31,33 +31,36 @@ Integer parse_integer(std::string_view option, std::string_view text, Integer lo
     return value;
 }
 
-/// The name of a file, which must not be empty, or of several: for Options::add.
+/// Returns a function for Options::add that stores the name of a file, which must not be empty.
 Use file_name(std::string option, std::string& path);
+/// Returns a function for Options::add that appends the name of a file, which must not be empty.
 Use file_names(std::string option, std::vector<std::string>& paths);
 
-/// The same of pictures to be written: what is wrong with the name alone is wrong in the arguments.
+/// Returns a function for Options::add that appends the name of a picture to write. Refuses an unknown suffix.
 Use picture_names(std::string option, std::vector<std::string>& paths);
 
+/// Parses a finite number.
 double parse_number(std::string_view option, std::string_view text);
-/// Over 0.
+/// Parses a finite number over 0.
 double parse_positive(std::string_view option, std::string_view text);
 
-/// Three numbers with commas between them.
+/// Parses three finite numbers, separated by commas.
 std::array<double, 3> parse_triple(std::string_view option, std::string_view text);
 
-/// No side is longer than this: a mistyped size is refused at once and not when memory runs out.
+/// The longest side of a picture in pixels. With this limit a mistyped size is refused early, not when memory runs out.
 inline constexpr int kLongestSide = 65536;
 
+/// The size of a picture in pixels.
 struct Size {
     int width = 0, height = 0;
 };
-/// WIDTHxHEIGHT in pixels.
+/// Parses WIDTHxHEIGHT. Each side is in 1 to kLongestSide.
 Size parse_size(std::string_view option, std::string_view text);
 
-/// LEFT,TOP,RIGHT,BOTTOM in pixels, of which there is at least one.
+/// Parses LEFT,TOP,RIGHT,BOTTOM in pixels, each in 0 to kLongestSide. Refuses bounds without pixels.
 PixelBounds parse_bounds(std::string_view option, std::string_view text);
 
-/// The arguments as one line that a shell would read back.
+/// Returns the arguments as one line, quoted for a shell.
 std::string command_line(int argc, const char* const* argv);
 
 }  // namespace limn::app

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kOfFirstHits = "albedo, normal, position, depth, object, primitive";
 
-// Names of channels with commas between them, each once.
+// Parses a list of different names of channels, separated by commas.
 std::vector<std::string> parse_channels(const std::string& text, bool has_scene) {
     std::vector<std::string> names;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -39,7 +39,7 @@ std::vector<std::string> parse_channels(const std::string& text, bool has_scene)
     return names;
 }
 
-// A lamp brighter than half can hold must not cost the picture.
+// Clamps values that half cannot store. Without this, save_image would throw, and a bright lamp would lose the picture.
 Image clamped_to_half(Image image, const Console& console) {
     constexpr float kLargestHalf = 65504;
     std::size_t clamped = 0;
@@ -52,7 +52,7 @@ Image clamped_to_half(Image image, const Console& console) {
     return image;
 }
 
-// Below eight samples a pixel no error is known: then that channel is NaN.
+// Returns the further channels. The channel "error" is NaN if there is no estimate.
 std::vector<ImageLayer> layers_of(const PixelMaps& maps, const std::optional<FirstHits>& hits,
                                   const PictureOptions& options) {
     std::vector<ImageLayer> layers;
@@ -73,6 +73,7 @@ std::optional<PartOf> part_of(const FilmInfo& info) {
     return PartOf{info.crop->left, info.crop->top, info.width, info.height};
 }
 
+// Saves all pictures. Returns true if all were saved; errors are printed.
 bool save_images(const Image& image, const SaveOptions& save, const PictureOptions& options, const Console& console) {
     bool all = true;
     for (const std::string& path : options.outputs) try {
@@ -84,6 +85,7 @@ bool save_images(const Image& image, const SaveOptions& save, const PictureOptio
     return all;
 }
 
+// Returns the line that is printed at the end.
 std::string summary(const RenderResult& result, const FilmInfo& info, const PictureOptions& options) {
     const RenderReport& r = result.report;
     const ErrorEstimate& e = result.error;
@@ -92,7 +94,7 @@ std::string summary(const RenderResult& result, const FilmInfo& info, const Pict
     const std::string missed = e.target && !e.reached ? fmt::format("; {:.2g} was not reached", *e.target) : "";
     std::vector<std::string> files = options.outputs;
     if (!options.film.empty()) files.push_back(options.film);
-    if (files.empty()) files.push_back(info.scene);  // a checkpoint or a plan alone is written
+    if (files.empty()) files.push_back(info.scene);  // only a checkpoint or a plan is written
     return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}{}", r.complete ? "" : "interrupted; ",
                        fmt::join(files, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds, error, missed);
 }
@@ -107,6 +109,7 @@ std::vector<std::string> PictureOptions::all_outputs() const {
 }
 
 void add_picture_options(Options& options, PictureOptions& o, bool has_scene, const std::string& outputs) {
+    // Add the files of pictures and film.
     options.add({.name = "-o,--output",
                  .value = "FILE",
                  .help = "A picture to write, .exr or .png; may be repeated",
@@ -115,24 +118,24 @@ void add_picture_options(Options& options, PictureOptions& o, bool has_scene, co
                 picture_names("-o", o.outputs));
     options.add({.name = "--film",
                  .value = "FILE",
-                 .help = "Write the film, which --resume and limn merge read; without -o no picture is written then",
+                 .help = "Write the film, which --resume and limn merge read. Without -o, no picture is written then",
                  .preset = "none"},
                 file_name("--film", o.film));
+    // Add the contents of pictures.
     options.add({.name = "--channels",
                  .value = "LIST",
                  .help = fmt::format(
-                     "Further channels of an EXR, with commas between them: error, each pixel's estimated relMSE; "
-                     "samples, how many it has; {}",
-                     has_scene ? fmt::format("of the surface that the camera sees first {}", kOfFirstHits)
-                               : "the others of a render are of the scene, which no film holds"),
+                     "Further channels of an EXR, separated by commas: error, each pixel's estimated relMSE; samples, "
+                     "its number of samples{}",
+                     has_scene ? fmt::format("; {} of the surface that the camera sees first", kOfFirstHits)
+                               : ". The other channels of limn render need the scene, which is not in a film"),
                  .preset = "none"},
                 [&o, has_scene](const std::string& s) { o.channels = parse_channels(s, has_scene); });
-    options.add({.name = "--exposure",
-                 .value = "STOPS",
-                 .help = "Show a PNG brighter, by 2 to the STOPS, or darker",
-                 .preset = "0"},
-                [&o](const std::string& s) { o.exposure = parse_number("--exposure", s); });
+    options.add(
+        {.name = "--exposure", .value = "STOPS", .help = "Multiply the colours of a PNG by 2^STOPS", .preset = "0"},
+        [&o](const std::string& s) { o.exposure = parse_number("--exposure", s); });
     options.add_flag("--half", o.half, "Write EXR with 16 bits a value instead of 32");
+    // Add what is printed or reported.
     options.add({.name = "--report",
                  .value = "FILE.json",
                  .help = "Write a report of the render as JSON; - for standard output",
@@ -159,6 +162,7 @@ bool wants_first_hits(const PictureOptions& options) { return std::ranges::any_o
 
 bool save_pictures(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
                    const Console& console, const std::optional<FirstHits>& hits) {
+    // Save the pictures and measure the time.
     const auto begin = std::chrono::steady_clock::now();
     bool saved = true;
     if (!options.outputs.empty()) {
@@ -172,6 +176,7 @@ bool save_pictures(const RenderResult& result, const FilmInfo& info, const Pictu
             save_images(options.half ? clamped_to_half(result.image, console) : result.image, save, options, console);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    // Print the summary and write the report.
     if (saved) console.note(summary(result, info, options));
     if (!options.report.empty()) write_text(options.report, report_json(result, seconds.count()));
     return saved;

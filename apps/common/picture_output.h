@@ -1,5 +1,5 @@
 /// \file
-/// From a film to pictures and a report: what renders and merges share.
+/// Writing pictures and the report of a film. Renders and merges share it.
 #pragma once
 
 #include <optional>
@@ -14,40 +14,42 @@
 
 namespace limn::app {
 
-/// What the command line says about outputs.
+/// The options of outputs.
 struct PictureOptions {
-    std::vector<std::string> outputs;   ///< pictures
-    std::vector<std::string> channels;  ///< that an EXR gets beside its colours
-    double exposure = 0;                ///< in stops, of PNG
-    bool half = false;
-    bool quiet = false;
-    std::string report;        ///< path, "-" or empty
-    std::string film;          ///< path or empty
-    std::string command_line;  ///< for the picture's header
+    std::vector<std::string> outputs;   ///< paths of the pictures
+    std::vector<std::string> channels;  ///< further channels of EXR pictures
+    double exposure = 0;                ///< of PNG pictures, in stops
+    bool half = false;                  ///< true: EXR pictures have 16 bits per value
+    bool quiet = false;                 ///< true: only errors are printed
+    std::string report;                 ///< path, "-" or empty
+    std::string film;                   ///< path or empty
+    std::string command_line;           ///< the whole command, which is written to the picture's header
 
-    /// The pictures, the report and the film.
+    /// Returns the paths of the pictures, the report and the film.
     std::vector<std::string> all_outputs() const;
 };
 
-/// Adds the options, bound to `values`, which must outlive the parsing.
-/// \param has_scene whether --channels can be of the first hits
-/// \param outputs what is written without -o and --film, for --help; empty: nothing
+/// Adds the options. Parsing stores their values in `values`, which must outlive it.
+/// \param has_scene true if --channels may name first hits, which need the scene
+/// \param outputs the pictures that are written without -o and --film, as text for --help; empty if there are none
 void add_picture_options(Options& options, PictureOptions& values, bool has_scene, const std::string& outputs = "");
 
-/// Whether one of the channels is of the scene's first hits.
+/// True if one of the channels is of the scene's first hits.
 bool wants_first_hits(const PictureOptions& options);
 
-/// Refuses what can be known to fail: channels that no output has a place for, files that cannot be written.
-/// \throws ArgumentError, FileError
+/// Checks that the pictures, the report and the film can be written.
+/// \throws ArgumentError if there are channels but no picture that can store them, FileError if a file cannot be
+/// written
 void check_picture_options(const PictureOptions& options);
 
-/// Saves each picture and the report, whatever becomes of the others: hours of rendering may be in them.
-/// \param hits where they are wanted
-/// \returns whether all were saved; what was not is said on the console
+/// Saves the pictures and then the report. If a picture cannot be saved, the others are saved nevertheless: they may
+/// have taken hours. A FileError of the report is thrown.
+/// \param hits must be given if wants_first_hits
+/// \returns true if all pictures were saved; errors are printed on the console
 bool save_pictures(const RenderResult& result, const FilmInfo& info, const PictureOptions& options,
                    const Console& console, const std::optional<FirstHits>& hits = {});
 
-/// Saves what a job that still runs has of each picture.
+/// Saves the pictures of a job that may be running, without further channels.
 void save_preview(const RenderJob& job, const FilmInfo& info, const PictureOptions& options, const Console& console);
 
 }  // namespace limn::app

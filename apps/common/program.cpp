@@ -16,7 +16,7 @@ void Console::error(const std::string& message) const {
 }
 
 int run_program(const std::string& program, const std::function<int()>& body) noexcept {
-    // Writing to a pipe that nobody reads becomes an error of that write.
+    // Ignore SIGPIPE, so that writing to a pipe without a reader fails with an error instead of ending the program.
     std::signal(SIGPIPE, SIG_IGN);
     const Console console{.program = program};
     try {

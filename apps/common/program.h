@@ -9,23 +9,23 @@
 
 namespace limn::app {
 
-// Exit status.
+// The exit status of a program. A program that SIGINT or SIGTERM has stopped returns 128 plus the signal's number.
 inline constexpr int kDone = 0;
-inline constexpr int kFailed = 1;        ///< something is wrong in files, memory or environment
-inline constexpr int kBadArguments = 2;  ///< something is wrong in the arguments alone
-inline constexpr int kUnfinished = 3;    ///< limn merge: another round is to be rendered
+inline constexpr int kFailed = 1;        ///< an error in files, memory or the environment
+inline constexpr int kBadArguments = 2;  ///< an error in the arguments themselves
+inline constexpr int kUnfinished = 3;    ///< limn merge: another round has to be rendered
 
-/// Writes to stderr, each line with the name of the program before it.
+/// Writes messages to stderr, with the name of the program before each.
 struct Console {
     std::string program;
-    bool quiet = false;  ///< errors only
+    bool quiet = false;  ///< true: only errors are written
 
     void note(const std::string& message) const;
     void error(const std::string& message) const;
 };
 
-/// Runs a step whose arguments come out of files: what a library function refuses there is a fault of those files, not
-/// of the command line.
+/// Runs a step whose arguments come from files, and returns its result. An ArgumentError of the step is rethrown as an
+/// Error, because the files are wrong and not the command line.
 template <class Step>
 auto from_files(const Step& step) {
     try {
@@ -35,7 +35,8 @@ auto from_files(const Step& step) {
     }
 }
 
-/// Runs `body` and turns what it throws into a message on stderr and an exit status.
+/// Runs `body` and returns its exit status. If it throws, prints the message on stderr and returns kBadArguments for an
+/// ArgumentError, kFailed for everything else. Sets SIGPIPE to be ignored.
 int run_program(const std::string& program, const std::function<int()>& body) noexcept;
 
 }  // namespace limn::app

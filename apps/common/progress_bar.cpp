@@ -10,9 +10,10 @@ namespace limn::app {
 
 namespace {
 
-constexpr double kSecondsBetween = 0.2;  // often enough to look alive, seldom enough to cost nothing
-constexpr int kCells = 30;
+constexpr double kSecondsBetween = 0.2;  // the shortest time between two updates, which makes their cost negligible
+constexpr int kCells = 30;               // the width of the bar in characters
 
+// Returns a time in the unit that suits it.
 std::string duration(double seconds) {
     if (seconds < 60) return fmt::format("{:.0f} s", seconds);
     if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
@@ -29,7 +30,7 @@ void ProgressBar::update(const Progress& progress) {
     if (fraction > 0) left = fmt::format(", {} left", duration(progress.seconds * (1 - fraction) / fraction));
     const std::string line = fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %  {}{}\033[K", "", full, "", kCells - full,
                                          100 * fraction, duration(progress.seconds), left);
-    // A terminal may go away while the render goes on: what cannot be written is not worth a picture.
+    // Ignore errors: the render continues even if the terminal is closed.
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
     drawn_ = true;

@@ -18,10 +18,12 @@ constexpr std::pair<const char*, Projection> kProjections[] = {{"perspective", P
                                                                {"orthographic", Projection::orthographic},
                                                                {"panorama", Projection::panorama}};
 
-// Stands for what only the scene can tell: see state_presets.
+// The default in --help until state_presets replaces it by that of a figure.
 constexpr const char* kOfScene = "the scene's own";
 
+// Adds the options with the figure's RenderSettings.
 void add_numbers(Options& options, RenderOptions& o) {
+    // Add the pixels to render.
     options.add({.name = "--size", .value = "WxH", .help = "Size of the picture in pixels", .preset = kOfScene},
                 [&o](const std::string& s) { o.size = parse_size("--size", s); });
     options.add({.name = "--crop",
@@ -30,6 +32,7 @@ void add_numbers(Options& options, RenderOptions& o) {
                          "to Y1 - 1",
                  .preset = "all"},
                 [&o](const std::string& s) { o.crop = parse_bounds("--crop", s); });
+    // Add what ends the render.
     options.add({.name = "--spp",
                  .value = "N",
                  .help = "Samples per pixel; with --error or --time-limit the upper limit of their average",
@@ -49,6 +52,7 @@ void add_numbers(Options& options, RenderOptions& o) {
                 [&o](const std::string& s) { o.time_limit = parse_positive("--time-limit", s); });
     options.add_flag("--uniform", o.uniform,
                      "Take the same number of samples in every pixel (with --error or --time-limit)");
+    // Add how it is rendered.
     options.add({.name = "--seed",
                  .value = "N",
                  .help = "Seed of the random numbers: the same seed gives the same picture",
@@ -94,6 +98,7 @@ Shard parse_shard(const std::string& text) {
     return {.index = parse_integer("--shard", std::string_view(text).substr(0, slash), 1, count), .count = count};
 }
 
+// Adds the options of long renders.
 void add_films(Options& options, RenderOptions& o) {
     const auto add = [&options](const char* name, const char* value, const char* help, const char* preset,
                                 const Use& use) {
@@ -103,11 +108,11 @@ void add_films(Options& options, RenderOptions& o) {
         file_name("--checkpoint", o.checkpoint));
     add("--every", "SECONDS", "Time between two checkpoints", "60",
         [&o](const std::string& s) { o.every = parse_positive("--every", s); });
-    add("--preview", "SECONDS", "Write the pictures of -o also while they are rendered, each whole, in this interval",
-        "none", [&o](const std::string& s) { o.preview = parse_positive("--preview", s); });
+    add("--preview", "SECONDS", "Write the pictures of -o also during the render, at this interval", "none",
+        [&o](const std::string& s) { o.preview = parse_positive("--preview", s); });
     add("--resume", "FILE",
-        "Continue the render of this film. Threads, outputs, --spp, --error and --time-limit may differ. A film "
-        "that is also written need not exist yet",
+        "Continue the render of this film. Threads, outputs, --spp, --error and --time-limit may differ. If the film "
+        "is also written, it need not exist yet",
         "none", file_name("--resume", o.resume));
     add("--shard", "I/N", "Render part I of N, with --film or --checkpoint; limn merge joins the parts", "1/1",
         [&o](const std::string& s) { o.shard = parse_shard(s); });
@@ -125,6 +130,7 @@ void add_camera(Options& options, CameraOptions& o) {
     const auto add = [&options](const char* name, const char* value, const char* help, const Use& use) {
         options.add({.name = name, .value = value, .help = help, .preset = kOfScene, .group = "Camera"}, use);
     };
+    // Add the position and direction.
     add("--look-from", "x,y,z", "Position of the eye", [&o](const std::string& s) {
         const auto [x, y, z] = parse_triple("--look-from", s);
         o.look_from = Point3{x, y, z};
@@ -138,6 +144,7 @@ void add_camera(Options& options, CameraOptions& o) {
         o.up = Vec3{x, y, z};
         if (*o.up == Vec3{}) refuse("--vup", s, "must not be zero");
     });
+    // Add the projection.
     add("--vfov", "DEG", "Vertical field of view, from the bottom to the top of the picture",
         [&o](const std::string& s) {
             o.vertical_fov = parse_number("--vfov", s);
@@ -149,6 +156,7 @@ void add_camera(Options& options, CameraOptions& o) {
         [&o](const std::string& s) { o.projection = parse_projection(s); });
     add("--height", "H", "Height of an orthographic view in world units",
         [&o](const std::string& s) { o.view_height = parse_positive("--height", s); });
+    // Add the lens.
     add("--aperture-angle", "DEG", "Full angle of the lens, seen from the plane in focus; 0 makes everything sharp",
         [&o](const std::string& s) {
             o.aperture_angle = parse_number("--aperture-angle", s);
@@ -234,11 +242,12 @@ void state_presets(Options& options, const Figure& figure) {
 }
 
 void apply(const RenderOptions& o, Figure& figure) {
+    // Replace the settings. A new size determines the aspect ratio.
     RenderSettings& settings = figure.settings;
     if (o.size) {
         settings.width = o.size->width;
         settings.height = o.size->height;
-        figure.camera.aspect_ratio.reset();  // that of the new size
+        figure.camera.aspect_ratio.reset();
     }
     replace(settings.samples_per_pixel, o.samples_per_pixel);
     replace(settings.max_samples_per_pixel, o.samples_per_pixel);
@@ -254,6 +263,7 @@ void apply(const RenderOptions& o, Figure& figure) {
     replace(settings.estimator, o.estimator);
     replace(settings.sampler, o.sampler);
     if (o.no_antialias) settings.antialias = false;
+    // Replace the camera, and check that the options belong to its projection.
     replace_camera(figure.camera, o.camera);
     const auto require = [](bool holds, const char* what) {
         if (!holds) throw ArgumentError(what);

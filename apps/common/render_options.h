@@ -14,6 +14,7 @@
 
 namespace limn::app {
 
+/// The options of the camera. An option that is not given is empty.
 struct CameraOptions {
     std::optional<Point3> look_from, look_at;
     std::optional<Vec3> up;
@@ -21,12 +22,13 @@ struct CameraOptions {
     std::optional<Projection> projection;
 };
 
-/// What the command line says; empty where it says nothing.
+/// The options of a render. An option that is not given is empty.
 struct RenderOptions : PictureOptions {
     std::optional<Size> size;
     std::optional<int> samples_per_pixel, threads, max_depth;
     std::optional<std::uint64_t> seed;
-    std::optional<double> error, time_limit;
+    std::optional<double> error;       ///< RenderSettings::error
+    std::optional<double> time_limit;  ///< in seconds
     std::optional<Shard> shard;
     std::string checkpoint, resume, plan;  ///< paths or empty
     std::optional<double> every;           ///< seconds between two checkpoints
@@ -39,26 +41,27 @@ struct RenderOptions : PictureOptions {
     bool no_antialias = false;
 };
 
-/// See RenderOptions::every.
+/// The default of RenderOptions::every, in seconds.
 inline constexpr double kEvery = 60;
 
-/// Adds the options, bound to `values`, which must outlive the parsing. A value that cannot be right is refused while
-/// parsing, with an ArgumentError that names it.
-/// \param outputs what is written without -o and --film, for --help; empty: one of them is required
+/// Adds the options. Parsing stores their values in `values`, which must outlive it. It throws an ArgumentError that
+/// names an invalid value.
+/// \param outputs the pictures that are written without -o and --film, as text for --help; empty if there are none
 void add_render_options(Options& options, RenderOptions& values, const std::string& outputs = "");
 
-/// Says in --help what the figure has where the command line says nothing.
+/// States the figure's settings in --help as defaults of the options.
 void state_presets(Options& options, const Figure& figure);
 
-/// Refuses options that contradict each other, and a command line that names nothing to write, of which `outputs` are
-/// written without -o and --film. \throws ArgumentError
+/// Checks that the options do not contradict each other and that something is written. Sets options.outputs to
+/// `outputs` if neither -o nor --film is given and the whole picture is rendered. \throws ArgumentError
 void check_together(RenderOptions& options, const std::vector<std::string>& outputs = {});
 
-/// Replaces what the command line names. \throws ArgumentError if the camera has no such thing
+/// Replaces the figure's settings by the options that are given.
+/// \throws ArgumentError if an option does not fit the figure's projection or size
 void apply(const RenderOptions& options, Figure& figure);
 
-/// Refuses a camera that is impossible whatever the figure: eye equal to target, up along the view.
-/// \throws ArgumentError
+/// Checks the camera's options as far as that is possible without a figure: eye and target must differ, and the up
+/// direction must not be parallel to the view direction. \throws ArgumentError
 void check_camera_alone(const CameraOptions& options);
 
 }  // namespace limn::app

@@ -1,5 +1,5 @@
 /// \file
-/// The whole way from options to files.
+/// Running a render, from its options to its files.
 #pragma once
 
 #include <functional>
@@ -12,18 +12,22 @@
 
 namespace limn::app {
 
+/// The figure to render and the files that it reads.
 struct RenderTask {
-    /// Reads files, each step within from_files, and describes the scene.
+    /// Reads the files and returns the figure. Errors in the files must not be ArgumentErrors: see from_files.
     std::function<Figure()> make;
-    /// Files that `make` reads, which no output may replace; empty names do not count.
+    /// The files that `make` reads. No output may replace them. Empty paths are ignored.
     std::vector<std::string> inputs;
 };
 
-/// Checks everything that can be known, makes the figure, renders it, with checkpoints if their option is given, saves
-/// the film and every picture, then the report. Nothing is created before there are pixels to save. SIGINT and SIGTERM
-/// end the render early; what is done is saved.
+/// Runs a render:
+/// - checks the options and outputs as far as possible,
+/// - makes the figure and renders it, with checkpoints and previews if they are asked for,
+/// - saves the films, the pictures and the report.
+/// No film or picture is created before there are pixels to save. SIGINT and SIGTERM end the render early; the pixels
+/// so far are saved.
 /// \returns the exit status
-/// \throws ArgumentError, FileError, Error for what is found wrong before rendering
+/// \throws ArgumentError, FileError or Error if a check before rendering fails
 int run_render_task(const RenderTask& task, const RenderOptions& options, const Console& console);
 
 }  // namespace limn::app

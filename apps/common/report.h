@@ -1,5 +1,5 @@
 /// \file
-/// What is known of a render: the JSON of --report, and the facts in a picture's header.
+/// The report of a render: the JSON of --report, and the facts in a picture's header.
 #pragma once
 
 #include <string>
@@ -10,10 +10,12 @@
 
 namespace limn::app {
 
-/// One JSON object. What is not a finite number is null.
+/// Returns the report as one JSON object. Infinities and NaN are null.
+/// \param save_seconds the time that saving the pictures took
 std::string report_json(const RenderResult& result, double save_seconds);
 
-/// The same under the same names as far as it is known before saving, and how the picture was made.
+/// Returns the facts for a picture's header, as names and texts: most of the report under the same names, the settings
+/// and the command line.
 std::vector<std::pair<std::string, std::string>> picture_facts(const RenderResult& result, const FilmInfo& info,
                                                                const std::string& command_line);
 

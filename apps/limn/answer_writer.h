@@ -1,5 +1,5 @@
 /// \file
-/// The results of `limn trace`.
+/// Writing the results of `limn trace`.
 #pragma once
 
 #include <cstdint>
@@ -7,27 +7,27 @@
 
 namespace limn::app {
 
-/// Results on standard output. As text one a line, with the 17 digits that bring every float64 back; as binary
-/// little-endian float64.
+/// Writes results to standard output. As text, each result is a line; numbers have 17 digits, so that reading them
+/// gives the same float64. As binary, a result is one or four little-endian float64.
 class AnswerWriter {
 public:
     explicit AnswerWriter(bool binary) : binary_(binary) {}
 
-    /// `t face u v`, or four numbers.
+    /// Adds the result `t face u v`, four numbers in binary.
     void hit(double t, std::uint32_t face, double u, double v);
-    /// `miss`, or infinity, -1, 0, 0.
+    /// Adds the result `miss`; in binary infinity, -1, 0, 0.
     void miss();
-    /// 1 or 0.
+    /// Adds the result 1 or 0.
     void occluded(bool is_hit);
 
-    /// Writes the results since the last call. \throws FileError
+    /// Writes the results that were added since the last call. \throws FileError
     void flush();
 
 private:
     void number(double value);
 
     bool binary_;
-    std::string block_;
+    std::string block_;  // results that are not written yet
 };
 
 }  // namespace limn::app

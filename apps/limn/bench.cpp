@@ -31,12 +31,13 @@ module was built. best is its fastest mode: single rays, packets of 4, 8 or 16, 
 rays (1M) or of packets (16M). differ/M is the number of rays in a million on which Embree and
 limn differ.)";
 
+// Returns a function for Options::add that stores an integer in [lowest, highest].
 template <class Integer>
 auto integer_option(const char* option, Integer lowest, Integer highest, Integer& value) {
     return [=, &value](const std::string& text) { value = parse_integer(option, text, lowest, highest); };
 }
 
-// A repeatable option for some of `names`.
+// Adds a repeatable option whose values are among `names`. They are appended to `chosen`.
 void add_choice(Options& options, const std::string& name, const std::string& help, const std::string& preset,
                 const std::vector<std::string>& names, std::vector<std::string>& chosen) {
     options.add({.name = name,
@@ -52,6 +53,7 @@ void add_choice(Options& options, const std::string& name, const std::string& he
 }
 
 void add_options(Options& options, Plan& plan, bool& quiet) {
+    // Add what is measured.
     const auto text = [](const auto& value) { return fmt::format("{}", value); };
     options.add({.name = "MODEL",
                  .value = "",
@@ -70,6 +72,7 @@ void add_options(Options& options, Plan& plan, bool& quiet) {
                     plan.scale = parse_number("--scale", s);
                     if (!(plan.scale > 0 && plan.scale <= 100)) refuse("--scale", s, "must lie in (0, 100]");
                 });
+    // Add how it is measured.
     options.add({.name = "--rays", .value = "N", .help = "Rays of each kind", .preset = text(plan.rays)},
                 integer_option("--rays", std::size_t{1}, std::size_t{1} << 26, plan.rays));
     options.add({.name = "--rounds", .value = "N", .help = "Rounds of each measurement", .preset = text(plan.rounds)},
@@ -87,6 +90,7 @@ void add_options(Options& options, Plan& plan, bool& quiet) {
 }  // namespace
 
 int bench_command(int argc, const char* const* argv) {
+    // Read the options.
     Options options("limn bench", "Measures rays per second, and Embree on the same rays where it is installed.",
                     kMeaning);
     Plan plan;
@@ -102,10 +106,13 @@ int bench_command(int argc, const char* const* argv) {
             plan.threads.push_back(static_cast<int>(all));
     }
 
+    // Load Embree, if its module was built.
     const Console console{.program = "limn", .quiet = quiet};
     std::vector<std::string> notes;
     const std::vector<bench::Contender> contenders = bench::load_contenders(notes);
     for (const std::string& note : notes) console.note(note);
+
+    // Measure with a progress bar. A signal ends the measurement.
     catch_interrupts();
     ProgressBar bar(!quiet && stderr_is_terminal());
     const auto begin = std::chrono::steady_clock::now();
@@ -115,6 +122,8 @@ int bench_command(int argc, const char* const* argv) {
         return caught_signal() == 0;
     };
     const bench::Results results = from_files([&] { return bench::run_session(plan, contenders, watch); });
+
+    // Write the results, also those of an interrupted measurement.
     bar.clear();
     json.write(results.table, results.json);
     if (caught_signal() != 0) return 128 + caught_signal();

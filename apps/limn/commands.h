@@ -1,5 +1,5 @@
-// The subcommands. Each takes the arguments from its own name on, and returns the exit status; what it throws becomes
-// one (see program.h).
+// The subcommands of limn. argv[0] is the name of the subcommand. Each function returns the exit status. run_program
+// (program.h) turns an exception into an exit status.
 #pragma once
 
 namespace limn::app {

@@ -21,6 +21,7 @@ struct Arguments {
     std::vector<std::string> outputs;
 };
 
+// The metrics and the error image of `test` against the reference.
 struct Measured {
     ImageMetrics metrics;
     Image error;
@@ -34,11 +35,11 @@ Measured measure(const Arguments& a) {
         const Image half = load_image(a.reference_b);
         return {compare_images(test, reference, half), error_image(test, reference, half)};
     } catch (const ArgumentError& e) {
-        throw Error(a.test + ": " + e.what());  // the sizes come out of the files
+        throw Error(a.test + ": " + e.what());  // the sizes differ, which is an error in the files
     }
 }
 
-// As numbers where the format keeps them, else in false colours.
+// Saves the error of each value as numbers in an EXR, in false colours in other formats.
 void save_error(const Image& error, const std::string& path) {
     save_image(image_holds_layers(path) ? error : false_colour(error), path);
 }
@@ -64,7 +65,7 @@ std::string table(const ImageMetrics& m) {
     return text;
 }
 
-// Infinity, which the PSNR of equal images is, is null.
+// Returns the metrics as JSON. The PSNR of equal images is infinite, which becomes null.
 Json json(const ImageMetrics& m, const Arguments& a) {
     Json json = {
         {"test", a.test},
@@ -90,6 +91,7 @@ Json json(const ImageMetrics& m, const Arguments& a) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
+    // Read the options.
     Options options(
         "limn compare",
         "Prints the error of an image against a reference. The reference may come in two independent halves: "
@@ -112,10 +114,13 @@ int compare_command(int argc, const char* const* argv) {
         picture_names("-o", a.outputs));
     const JsonOption json_option(options);
     if (!options.parse(argc, argv)) return kDone;
+
+    // Check that the outputs can be written, before anything is read.
     const std::vector<std::string> inputs = {a.test, a.reference, a.reference_b};
     json_option.check(inputs, a.outputs);
     for (const std::string& path : a.outputs) check_writable(path);
 
+    // Measure, and write the results.
     const auto [metrics, error] = measure(a);
     for (const std::string& path : a.outputs) save_error(error, path);
     json_option.write(table(metrics), json(metrics, a));

@@ -19,6 +19,7 @@ namespace limn::app {
 
 namespace {
 
+// The content of a file, as a table and as JSON.
 struct Description {
     std::string table;
     Json json;
@@ -26,7 +27,8 @@ struct Description {
 
 const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-// Vertices are float32: as such they have few digits. Their instances may lie beyond all floats.
+// Returns a corner of a bounding box as text. Coordinates are written as float32, like the vertices of a model, because
+// they have fewer digits then. A coordinate of an instance outside the range of float32 is written as float64.
 std::string corner(const Point3& p) {
     const auto text = [](double x) {
         const auto rounded = static_cast<float>(x);
@@ -35,11 +37,11 @@ std::string corner(const Point3& p) {
     return fmt::format("({}, {}, {})", text(p.x), text(p.y), text(p.z));
 }
 
-// What all meshes of a model are together, each once.
+// Sums over the meshes of a model. A mesh with several instances counts once.
 struct MeshSums {
     std::size_t triangles = 0;
     EdgeCounts edges;
-    bool has_normals = false, has_uvs = false;  // any
+    bool has_normals = false, has_uvs = false;  // true if any mesh has them
 };
 
 MeshSums sums_of(const Model& model) {
@@ -63,7 +65,7 @@ std::vector<std::string> camera_names(const Model& model) {
     return names;
 }
 
-// "object/group", or one of the two.
+// Returns the names of the parts: "object/group", or one of the two if the other is empty.
 std::vector<std::string> part_names(const Model& model) {
     std::vector<std::string> names;
     for (const ModelPart& part : model.parts)
@@ -75,6 +77,7 @@ Description describe_model(const std::string& path, const Model& model) {
     const auto& [triangles, edges, has_normals, has_uvs] = sums_of(model);
     const Box box = model.bounds();
 
+    // Write the table.
     Description d;
     const auto row = [&d](const char* name, const auto& value) {
         d.table += table_row(name, fmt::format("{}", value));
@@ -93,13 +96,14 @@ Description describe_model(const std::string& path, const Model& model) {
     row("texture coordinates", yes_or_no(has_uvs));
     if (!model.parts.empty()) row("parts", fmt::format("{}", fmt::join(part_names(model), ", ")));
     row("materials", model.materials.empty() ? "none" : fmt::format("{}", fmt::join(model.materials, ", ")));
-    // What an OBJ has none of.
+    // Add what only some files have.
     if (model.meshes.size() > 1) row("meshes", model.meshes.size());
     if (model.instances.size() > 1) row("instances", model.instances.size());
     if (!model.cameras.empty()) row("cameras", fmt::format("{}", fmt::join(camera_names(model), ", ")));
     if (!model.lights.empty()) row("lights", model.lights.size());
     for (const std::string& warning : model.warnings) row("warning", warning);
 
+    // Write the same as JSON.
     d.json = {
         {"file", path},
         {"kind", "model"},
@@ -127,7 +131,7 @@ Description describe_model(const std::string& path, const Model& model) {
     return d;
 }
 
-// The type of all channels, or of each where they differ.
+// Returns the type of the channels: one if all have the same, otherwise a list.
 std::string pixel_type(const std::vector<ImageChannel>& channels) {
     std::vector<std::string> types;
     for (const ImageChannel& channel : channels) types.push_back(channel.type);
@@ -160,13 +164,14 @@ Description describe_image(const std::string& path, ImageInfo image) {
     return d;
 }
 
-// All of the film is read, so that this tells whether it is whole.
 Description describe_film(const std::string& path) {
+    // Read the whole film, which fails if it is damaged or cut short.
     const Film film = Film::load(path);
     const FilmInfo& info = film.info();
     const Film::Counts counts = film.counts();
     const std::string shard = fmt::format("{}/{}", info.shard.index, info.shard.count);
 
+    // Write the table.
     Description d;
     const auto row = [&d](const char* name, const auto& value) {
         d.table += table_row(name, fmt::format("{}", value));
@@ -183,7 +188,8 @@ Description describe_film(const std::string& path) {
     row("seconds", film.seconds());
     row("bound to its program", yes_or_no(info.program != Hash128{}));
 
-    Json crop;  // null: all of the picture
+    // Write the same as JSON. `crop` is null if the film is of the whole picture.
+    Json crop;
     if (const auto& c = info.crop) crop = {c->left, c->top, c->right, c->bottom};
     d.json = {{"file", path},
               {"kind", "film"},
@@ -202,7 +208,7 @@ Description describe_film(const std::string& path) {
     return d;
 }
 
-// Loads a model first, for which no library of images is loaded, and an image if the file holds no model.
+// Describes a file that is a model or an image. The model is tried first, because it needs no module for images.
 template <class GetModel, class GetImage>
 Description describe_either(const std::string& path, GetModel get_model, GetImage get_image) {
     try {
@@ -212,7 +218,7 @@ Description describe_either(const std::string& path, GetModel get_model, GetImag
             return describe_image(path, get_image());
         } catch (const Error& no_image) {
             const std::string image_fault = no_image.what(), model_fault = no_model.what();
-            if (image_fault == model_fault) throw;  // the file cannot be opened
+            if (image_fault == model_fault) throw;  // both are the same if the file cannot be opened
             throw Error(image_fault + "; as a model: " + model_fault);
         }
     }

@@ -24,6 +24,7 @@ struct Arguments : PictureOptions {
     std::string plan;
 };
 
+// Checks that the options fit together and the outputs can be written. \throws ArgumentError, FileError
 void check(const Arguments& a) {
     if (a.error.has_value() == a.plan.empty()) throw ArgumentError("--error and --plan: each needs the other");
     std::vector<std::string> outputs = a.all_outputs();
@@ -34,6 +35,7 @@ void check(const Arguments& a) {
     if (!a.plan.empty()) check_text_path(a.plan);
 }
 
+// Writes the plan of the next round. \throws FileError
 void save_plan(const Film& film, const RenderResult& result, const Arguments& a) {
     if (film.fewest_samples() < SamplePlan::kFirstPass)
         throw FileError(fmt::format("{}", fmt::join(a.films, ", ")),
@@ -44,6 +46,7 @@ void save_plan(const Film& film, const RenderResult& result, const Arguments& a)
 }  // namespace
 
 int merge_command(int argc, const char* const* argv) {
+    // Read the options.
     Options options(
         "limn merge",
         "Joins the films of the parts of a render (see --shard of limn render) to one film and its picture. "
@@ -72,11 +75,14 @@ int merge_command(int argc, const char* const* argv) {
     if (!options.parse(argc, argv)) return kDone;
     check(a);
 
+    // Merge the films and estimate the error.
     const Console console{.program = "limn", .quiet = a.quiet};
     const Film film = Film::merge(a.films);
     if (!a.film.empty()) film.save(a.film);
     const RenderResult result = render_result(film, a.error);
     const bool is_unfinished = a.error && !result.error.reached;
+
+    // Save the pictures and the report, and the plan if the error is not reached.
     const bool saved = save_pictures(result, film.info(), a, console);
     if (is_unfinished) save_plan(film, result, a);
     return !saved ? kFailed : is_unfinished ? kUnfinished : kDone;

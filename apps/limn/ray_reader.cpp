@@ -18,9 +18,11 @@ namespace limn::app {
 
 namespace {
 
-// Large enough that a read costs nothing beside the tracing of its rays, small enough to stay in a processor's cache.
+// The size of the buffer in bytes. It is large enough that reading takes far less time than tracing the rays, and small
+// enough for the processor's cache.
 constexpr std::size_t kBlock = std::size_t{1} << 20;
-// Eight numbers in full, of at most some 800 digits each, are far shorter. There must be room for one in a block.
+// The longest line in bytes. Eight numbers with all their digits, about 800 each at most, are far shorter. It must be
+// less than kBlock.
 constexpr std::size_t kLongestLine = std::size_t{1} << 16;
 
 constexpr std::size_t kNumbers = 8;
@@ -39,7 +41,7 @@ double from_little_endian(const char* bytes) {
 
 std::string system_message() { return std::generic_category().message(errno); }
 
-// Removes the first word of `rest` and returns it, without what separates it; empty if there is none.
+// Removes the first word and the blanks before it from `rest`, and returns the word. It is empty if there is none.
 std::string_view next_word(std::string_view& rest) {
     constexpr const char* kBlanks = " \t\r";
     rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
@@ -48,7 +50,7 @@ std::string_view next_word(std::string_view& rest) {
     return word;
 }
 
-// For a message: what may be binary does not reach the terminal, nor end the message.
+// Returns a word for a message: in quotes, without control characters, and shortened. The input may be binary.
 std::string quoted(std::string_view word) {
     constexpr std::size_t kEnough = 40;
     std::string text(word.substr(0, kEnough));
@@ -57,9 +59,9 @@ std::string quoted(std::string_view word) {
     return "'" + text + (word.size() > kEnough ? "...'" : "'");
 }
 
-// What is wrong with the word, or nothing.
+// Reads a number. Returns what is wrong with the word, or an empty string.
 std::string read_number(std::string_view word, double& value) {
-    // from_chars knows no plus sign; one before another sign must not pass.
+    // from_chars does not accept a plus sign. Skip it, but not in "+-".
     const bool plus = word.starts_with('+') && !word.starts_with("+-");
     const char* const last = word.data() + word.size();
     const auto [end, problem] = std::from_chars(word.data() + (plus ? 1 : 0), last, value);
@@ -69,7 +71,7 @@ std::string read_number(std::string_view word, double& value) {
     return {};
 }
 
-// What is wrong with the line, or nothing.
+// Appends the ray of a line, if it has one, to `rays`. Returns what is wrong with the line, or an empty string.
 std::string read_line(std::string_view line, std::vector<Ray>& rays) {
     if (line.size() > kLongestLine) return "the line is longer than " + std::to_string(kLongestLine) + " bytes";
     Numbers numbers{0, 0, 0, 0, 0, 0, 0, kInfinity};
@@ -116,9 +118,11 @@ std::optional<double> RayReader::fraction() const {
 }
 
 void RayReader::fill() {
+    // Move what is not parsed yet to the beginning of the buffer.
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     begin_ = 0;
+    // Append what can be read.
     ssize_t count;
     do count = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
     while (count < 0 && errno == EINTR);
@@ -135,7 +139,8 @@ void RayReader::take() {
         take_lines();
 }
 
-// A line that is wrong stays where it is until it is the first.
+// If a line is invalid and there are rays before it, these are returned first. The line is read again in the next call,
+// which throws.
 void RayReader::take_lines() {
     while (begin_ != end_) {
         const std::string_view rest = waiting();

@@ -1,5 +1,5 @@
 /// \file
-/// The rays that `limn trace` reads.
+/// Reading the rays of `limn trace`.
 #pragma once
 
 #include <cstddef>
@@ -14,29 +14,34 @@
 
 namespace limn::app {
 
-/// Rays from a file or standard input, given as they arrive. A program that sends a ray and waits for its result gets
-/// it, and memory does not grow with their number.
+/// Reads rays from a file or standard input and returns them as soon as they arrive. So a program can send a ray and
+/// wait for its result. The memory that is needed does not depend on the number of rays.
 ///
-/// As text one a line, `ox oy oz dx dy dz [tmin tmax]`; blank lines and those that begin with # are skipped. As
-/// binary eight little-endian float64 each, in the same order.
+/// - As text, a ray is a line `ox oy oz dx dy dz [tmin tmax]`: its origin, direction and interval. By default the
+///   interval is from 0 to infinity. Blank lines and lines that begin with # are skipped.
+/// - As binary, a ray is eight little-endian float64 in the same order.
 class RayReader {
 public:
     /// \param path a file, or - for standard input
-    /// \throws FileError
+    /// \throws FileError if the file cannot be opened or is a folder
     RayReader(const std::string& path, bool binary);
     ~RayReader();
     RayReader(const RayReader&) = delete;
     RayReader& operator=(const RayReader&) = delete;
 
-    /// Waits for a whole ray, and gives all that have come by then; none at the end. Valid until the next call.
-    /// \throws FileError that names the line, once the rays before what is wrong have been given
+    /// Waits until a whole ray has arrived, and returns all rays that have arrived by then. The result is empty at the
+    /// end. It is valid until the next call.
+    /// \throws FileError if the input is invalid, after the rays before the error have been returned. In text, it names
+    /// the line
     std::span<const Ray> next();
 
-    /// How much of a regular file has been read, 0 to 1; empty for a pipe or a terminal, whose end nobody knows.
+    /// Returns the part of a regular file that has been read, 0 to 1. Empty for a pipe or a terminal.
     std::optional<double> fraction() const;
 
 private:
+    // Reads at least one byte into the buffer, or sets ended_.
     void fill();
+    // Moves all whole rays of the buffer to rays_.
     void take();
     void take_lines();
     void take_binary();
@@ -45,13 +50,13 @@ private:
     std::string name_;
     bool binary_;
     int file_ = -1;
-    std::uint64_t file_size_ = 0;  // 0: not a regular file
+    std::uint64_t file_size_ = 0;  // in bytes; 0 if it is not a regular file
     std::vector<char> buffer_;
-    std::size_t begin_ = 0, end_ = 0;  // in buffer_: what has been read and not been taken
-    bool ended_ = false;
+    std::size_t begin_ = 0, end_ = 0;  // the bytes of buffer_ that are not parsed yet
+    bool ended_ = false;               // true at the end of the input
     std::uint64_t bytes_read_ = 0;
-    std::uint64_t line_ = 1;  // that comes next
-    std::vector<Ray> rays_;
+    std::uint64_t line_ = 1;  // the number of the next line
+    std::vector<Ray> rays_;   // the result of next()
 };
 
 }  // namespace limn::app

@@ -22,18 +22,19 @@ struct Arguments : RenderOptions {
     std::string model, camera_name, environment;
     std::optional<Color> background;
     bool no_background = false, no_ground = false;
-    std::optional<double> crease;
+    std::optional<double> crease;  // in degrees: ModelOptions::crease
 };
 
-// Without -o or options.
+// Returns a figure without scene, with the settings that hold without options.
 Figure default_figure() {
     Figure figure;
     figure.camera.vertical_fov = 30;
-    figure.settings.samples_per_pixel = 8;  // a picture within seconds, which knows its error
+    figure.settings.samples_per_pixel = 8;  // the fewest for which the error is estimated
     return figure;
 }
 
-// The camera of a model with that name. Where it has a shape of its own and the options none, the picture gets that.
+// Sets the figure's camera to the one of the model that --camera names. If that camera has an aspect ratio and --size
+// is not given, the picture gets this aspect ratio and keeps its height. \throws FileError if there is no such camera
 void take_camera(const Model& model, const Arguments& a, Figure& figure) {
     const auto found = std::ranges::find(model.cameras, a.camera_name, &ModelCamera::name);
     if (found == model.cameras.end()) {
@@ -51,7 +52,8 @@ void take_camera(const Model& model, const Arguments& a, Figure& figure) {
     figure.settings.width = static_cast<int>(std::max(width, 1.0));
 }
 
-// step() uses what the file at `path` holds, and whatever argument it refuses is a fault of that file.
+// Returns step(), which uses the content of the file at `path`. An ArgumentError becomes a FileError that names the
+// file.
 template <class Step>
 auto from_file(const std::string& path, const Step& step) {
     try {
@@ -66,6 +68,7 @@ std::shared_ptr<const EnvironmentMap> load_environment(const std::string& path) 
     return from_file(path, [&] { return std::make_shared<EnvironmentMap>(std::move(image)); });
 }
 
+// Returns the figure of a model: its scene, camera and settings before the options of RenderOptions are applied.
 Figure view_of(const Arguments& a, const Model& model) {
     Figure figure = default_figure();
     const Size size = a.size.value_or(Size{figure.settings.width, figure.settings.height});
@@ -84,6 +87,7 @@ Figure view_of(const Arguments& a, const Model& model) {
     return figure;
 }
 
+// Reads the model and returns its figure. Prints the model's warnings.
 Figure read_figure(const Arguments& a, const Console& console) {
     const Model model = from_files([&] { return read_model(a.model, {.crease = a.crease}); });
     check_distinct(a.all_outputs(), model.files);
@@ -96,8 +100,10 @@ void add_view_options(Options& command, Arguments& a) {
                                 const Use& use) {
         command.add({.name = name, .value = value, .help = help, .preset = preset, .group = "View"}, use);
     };
+    // Add the light.
     add("--background", "R,G,B|none",
-        "Color of what is behind the model, which is light as well; none: the sky is light, and the picture gets alpha",
+        "Colour of the background, which also lights the model; none: the sky lights it, but is transparent in the "
+        "picture",
         "a sky", [&a](const std::string& text) {
             a.no_background = text == "none";
             if (a.no_background) return;
@@ -108,12 +114,14 @@ void add_view_options(Options& command, Arguments& a) {
     add("--environment", "FILE",
         "Light the model by an environment map, an equirectangular picture, in place of the key light and the sky",
         "none", file_name("--environment", a.environment));
-    add("--ground", "none", "Nothing for the model to stand on", "a ground", [&a](const std::string& text) {
+    // Add the ground, the shading and the camera.
+    add("--ground", "none", "Leave out the ground under the model", "a ground", [&a](const std::string& text) {
         if (text != "none") refuse("--ground", text, "must be none");
         a.no_ground = true;
     });
-    add("--smooth", "DEG", "Smooth meshes without normals where their triangles turn by less than that",
-        "they stay flat", [&a](const std::string& text) {
+    add("--smooth", "DEG",
+        "Shade meshes without normals smoothly across edges at which the triangles turn by less than DEG",
+        "flat shading", [&a](const std::string& text) {
             a.crease = parse_number("--smooth", text);
             if (!(*a.crease >= 0 && *a.crease <= 180)) refuse("--smooth", text, "must lie in 0 .. 180 degrees");
         });
@@ -127,6 +135,7 @@ void add_view_options(Options& command, Arguments& a) {
 }  // namespace
 
 int render_command(int argc, const char* const* argv) {
+    // Read the options.
     Options command("limn render",
                     "Renders a model (OBJ, PLY, STL, glTF) on a ground, under a key light and a sky. The camera stands "
                     "at the front right unless its options say otherwise.");
@@ -148,6 +157,7 @@ int render_command(int argc, const char* const* argv) {
     if (a.background && !a.environment.empty())
         throw ArgumentError("--environment: is the background, and so is --background");
 
+    // Render.
     const Console console{.program = "limn", .quiet = a.quiet};
     const RenderTask task{.make = [&] { return read_figure(a, console); },
                           .inputs = {input_file(a.model), a.environment}};

@@ -39,7 +39,7 @@ struct Arguments {
     bool any = false, binary = false, quiet = false;
 };
 
-// A model ready for queries.
+// A model and its compiled scene. The model maps triangles back to the faces of the file.
 struct Traceable {
     Model model;
     CompiledScene scene;
@@ -54,7 +54,7 @@ Traceable load(const Arguments& a, const Console& console) {
     return {std::move(model), std::move(compiled)};
 }
 
-// Returns how many rays were unusable.
+// Writes the nearest hit of each ray. Returns the number of unusable rays.
 std::size_t answer_closest(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
     std::vector<RayHit> hits(rays.size());
     const std::size_t unusable = in.scene.closest_hit(rays, hits);
@@ -67,6 +67,7 @@ std::size_t answer_closest(const Traceable& in, std::span<const Ray> rays, Answe
     return unusable;
 }
 
+// Writes for each ray if it hits anything. Returns the number of unusable rays.
 std::size_t answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWriter& answers) {
     std::vector<std::uint8_t> occluded(rays.size());
     const std::size_t unusable = in.scene.any_hit(rays, occluded);
@@ -74,17 +75,19 @@ std::size_t answer_any(const Traceable& in, std::span<const Ray> rays, AnswerWri
     return unusable;
 }
 
-// A bar makes sense only if the end is known and the results do not scroll through it.
+// True if a progress bar can be shown: the end of the input is known, and no results are printed on the terminal.
 bool wants_bar(const Arguments& a, const RayReader& reader) {
     return !a.quiet && reader.fraction() && stderr_is_terminal() && ::isatty(STDOUT_FILENO) == 0;
 }
 
 void trace(const Arguments& a, const Console& console) {
+    // Open the rays before the model is loaded, so that a wrong name is reported early.
     RayReader reader(a.rays, a.binary);
     const Traceable in = from_files([&] { return load(a, console); });
     AnswerWriter answers(a.binary);
     ProgressBar bar(wants_bar(a, reader));
     const auto begin = std::chrono::steady_clock::now();
+    // Trace the rays block by block as they arrive.
     std::size_t unusable = 0;
     for (std::span<const Ray> rays; !(rays = reader.next()).empty();) {
         unusable += a.any ? answer_any(in, rays, answers) : answer_closest(in, rays, answers);

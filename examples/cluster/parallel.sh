@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# parallel.sh PARTS PICTURE COMMAND...: the same by GNU parallel, on this machine or, with PARALLEL='--sshlogin ...', on
-# others that see this folder. What failed is tried again, and goes on from its checkpoint.
+# parallel.sh PARTS PICTURE COMMAND... renders a picture in PARTS parts by GNU parallel and merges them to PICTURE. With
+# PARALLEL='--sshlogin ...' the parts are rendered on other machines, which must share this folder. A part that failed
+# is tried again from its checkpoint, three times in all.
 set -euo pipefail
 parts=$1 picture=$2
 shift 2

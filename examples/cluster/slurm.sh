@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# slurm.sh PARTS PICTURE COMMAND...: renders by a Slurm array job of PARTS tasks, whose films a job that depends on it
-# merges to PICTURE; prints that job's number. A task whose node is lost is started again by Slurm and goes on from its
-# checkpoint. All nodes see this folder and have the programs; LIMN says where `limn` is.
+# slurm.sh PARTS PICTURE COMMAND... renders a picture by a Slurm array job of PARTS tasks. A second job waits for the
+# first and merges its films to PICTURE. The script prints the number of the second job. If a node is lost, Slurm starts
+# its task again, and the task continues from its checkpoint. All nodes must share this folder and have the programs.
+# LIMN is the path of `limn`.
 set -euo pipefail
 parts=$1 picture=$2
 shift 2

@@ -1,4 +1,4 @@
-// "Looking from point3(13, 2, 3)": some 480 balls, many of which jump while the shutter is open.
+// "Looking from point3(13, 2, 3)": about 480 balls. Many of them rise while the shutter is open.
 #include "figure_data.h"
 #include "figures.h"
 #include "scene_parts.h"

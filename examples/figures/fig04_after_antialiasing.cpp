@@ -1,4 +1,4 @@
-// "After anti-aliasing": rays spread over the area of each pixel.
+// "After anti-aliasing": 100 rays, spread over the area of each pixel.
 #include "figures.h"
 
 namespace limn::figures {

@@ -1,4 +1,4 @@
-// "Purple Sphere": the first thing one renders.
+// "Purple Sphere": a matte sphere on a grey ground.
 #include "figures.h"
 #include "scene_parts.h"
 

@@ -1,4 +1,4 @@
-// "Image of Earth as Texture".
+// "Image of Earth as Texture": a sphere with a map of the Earth.
 #include "figures.h"
 #include "scene_parts.h"
 

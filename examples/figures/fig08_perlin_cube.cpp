@@ -1,4 +1,4 @@
-// "Perlin Cube produced with cube.obj".
+// "Perlin Cube produced with cube.obj": the model data/cube.obj in marble.
 #include "figure_data.h"
 #include "figures.h"
 #include "scene_parts.h"

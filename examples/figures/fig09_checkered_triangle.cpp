@@ -1,4 +1,5 @@
-// "Checkered Texture on Triangle". It stands a little before z = 0, where two layers of cells meet.
+// "Checkered Texture on Triangle": a checkered triangle. It is at z = 0.1, because z = 0 is a boundary between cells of
+// the texture.
 #include "figures.h"
 #include "scene_parts.h"
 

@@ -1,4 +1,4 @@
-// "Diffuse Material" (emissive): marble lit by a ball and a pane of light in the dark.
+// "Diffuse Material" (emissive): marble in the dark, lit by a spherical and a rectangular lamp.
 #include "figures.h"
 #include "scene_parts.h"
 

@@ -1,4 +1,4 @@
-// "Dielectric Material": glass with a bubble in it, beside a matte and a gold ball.
+// "Dielectric Material": a glass ball with a bubble in it, a matte ball and a gold ball.
 #include "figures.h"
 #include "scene_parts.h"
 

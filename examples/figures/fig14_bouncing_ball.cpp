@@ -1,4 +1,4 @@
-// "Bouncing ball": one ball rises by 1 while the shutter is open, between two that stay.
+// "Bouncing ball": a ball that rises by 1 while the shutter is open, between two balls at rest.
 #include "figures.h"
 #include "scene_parts.h"
 

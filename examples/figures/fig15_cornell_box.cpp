@@ -1,4 +1,4 @@
-// "Cornell Box".
+// "Cornell Box": two white boxes in a room with a red and a green wall.
 #include "figures.h"
 #include "scene_parts.h"
 

@@ -1,4 +1,4 @@
-// "Volume Cornell Box": black and white smoke in the places of the boxes.
+// "Volume Cornell Box": the Cornell box of figure 15 with black and white smoke instead of the boxes.
 #include "figures.h"
 #include "scene_parts.h"
 
@@ -6,7 +6,7 @@ namespace limn::figures {
 
 Figure fig16_volume_cornell_box(const FigureInputs&) {
     const auto lamp = std::make_shared<DiffuseLight>(Color{7, 7, 7});
-    const auto boundary = matte({.73, .73, .73});  // of no effect: smoke has no surface
+    const auto boundary = matte({.73, .73, .73});  // has no effect, because smoke has no surface
     Scene scene = cornell_room(std::make_shared<Quad>(Point3{113, 554, 127}, Vec3{330, 0, 0}, Vec3{0, 0, 305}, lamp));
     scene.add(std::make_shared<ConstantMedium>(tall_box(boundary), .01, Color{0, 0, 0}));
     scene.add(std::make_shared<ConstantMedium>(short_box(boundary), .01, Color{1, 1, 1}));

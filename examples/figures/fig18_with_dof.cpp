@@ -1,4 +1,4 @@
-// "With DOF": the same balls through a wide lens, the middle one in focus.
+// "With DOF": the balls of figure 13 through a wide lens, with the middle ball in focus.
 #include "figures.h"
 
 namespace limn::figures {

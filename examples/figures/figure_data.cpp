@@ -12,9 +12,9 @@ namespace limn::figures {
 namespace {
 
 constexpr std::string_view kHeading = "cx0,cy0,cz0,cx1,cy1,cz1,radius,material,r,g,b,param";
-constexpr std::size_t kRows = 256;  // of a lattice's gradients, and of its permutations
+constexpr std::size_t kRows = 256;  // length of a lattice's list of gradients, and of its permutations
 
-// Hands each line to `use`, and puts file and line before the message of an Error that it throws.
+// Calls `use` with each line of a file. If it throws an Error, throws a FileError that names the file and the line.
 void for_each_line(const std::string& path, const std::function<void(std::string_view)>& use) {
     std::ifstream file(path);
     if (!file) throw FileError(path, "cannot be opened");
@@ -30,6 +30,7 @@ void for_each_line(const std::string& path, const std::function<void(std::string
     if (file.bad()) throw FileError(path, "cannot be read");
 }
 
+// Returns the fields of a line. Throws an Error unless there are `count`.
 std::vector<std::string_view> split(std::string_view line, char separator, std::size_t count) {
     std::vector<std::string_view> fields;
     for (std::size_t begin = 0; begin <= line.size();) {
@@ -42,6 +43,7 @@ std::vector<std::string_view> split(std::string_view line, char separator, std::
     return fields;
 }
 
+// Returns the number that the text is. Throws an Error if it isn't one.
 template <class Number>
 Number parse(std::string_view text) {
     Number value{};
@@ -98,6 +100,7 @@ std::vector<BouncingSphere> read_bouncing_spheres(const std::string& path) {
 }
 
 std::shared_ptr<const PerlinLattice> read_perlin_lattice(const std::string& path) {
+    // Read the rows: gradients, then permutations.
     auto lattice = std::make_shared<PerlinLattice>();
     std::size_t row = 0;
     for_each_line(path, [&](std::string_view line) {
@@ -114,6 +117,7 @@ std::shared_ptr<const PerlinLattice> read_perlin_lattice(const std::string& path
         }
         ++row;
     });
+    // Check that they are complete and valid.
     if (row != 2 * kRows)
         throw FileError(path, "has " + std::to_string(row) + " rows instead of " + std::to_string(2 * kRows));
     for (const auto* permutation : {&lattice->perm_x, &lattice->perm_y, &lattice->perm_z})

@@ -10,6 +10,7 @@ namespace limn::figures {
 
 namespace {
 
+// A figure, by its name.
 struct Program {
     std::string_view name;
     Figure (*make)(const FigureInputs& inputs);

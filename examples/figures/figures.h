@@ -1,5 +1,5 @@
-// The figures of the report. Adding one takes its own file, figNN_name.cpp with a function of that name, and a line
-// here.
+// The eighteen figures of docs/gallery.md. To add one, write figNN_name.cpp with a function of that name, and add a
+// line to the list below.
 #pragma once
 
 #include "figure.h"
@@ -27,8 +27,8 @@
 
 namespace limn::figures {
 
-/// The default texture of figure 6: the map of Debian's package xplanet-images. The other figures take no
-/// texture.
+/// The default texture of figure 6, a map of the Earth from Debian's package xplanet-images. The other figures ignore
+/// their inputs.
 inline const FigureInputs kDefaultInputs{.texture = "/usr/share/xplanet/images/earth.jpg",
                                          .texture_encoding = Encoding::srgb};
 

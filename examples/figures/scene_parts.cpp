@@ -4,6 +4,7 @@ namespace limn::figures {
 
 namespace {
 
+// Returns the material of a sphere. `fresnel` is used for glass.
 std::shared_ptr<const Material> material_of(const BouncingSphere& sphere, Fresnel fresnel) {
     if (sphere.material == "metal") return std::make_shared<Metal>(sphere.color, sphere.parameter);
     if (sphere.material == "dielectric") return std::make_shared<Dielectric>(sphere.parameter, fresnel);
@@ -58,7 +59,8 @@ Scene three_balls(const std::shared_ptr<const Material>& glass, std::shared_ptr<
     scene.add(std::make_shared<Sphere>(Point3{0, -100.5, -1}, 100.0, matte({.8, .8, 0})));
     scene.add(std::make_shared<Sphere>(Point3{0, 0, -1}, .5, matte({.1, .2, .5})));
     scene.add(std::make_shared<Sphere>(Point3{-1, 0, -1}, .5, glass));
-    scene.add(std::make_shared<Sphere>(Point3{-1, 0, -1}, -.4, glass));  // the bubble: its outside is within
+    // Add the bubble. Its negative radius turns its normals inward.
+    scene.add(std::make_shared<Sphere>(Point3{-1, 0, -1}, -.4, glass));
     scene.add(std::make_shared<Sphere>(Point3{1, 0, -1}, .5, std::move(metal)));
     return scene;
 }

@@ -1,6 +1,6 @@
 /// \file
-/// The pictures of the gallery that are programs. Adding one takes its own file, NAME.cpp with a function of that name,
-/// and a line here.
+/// The pictures of docs/gallery.md that are programs. To add one, write NAME.cpp with a function of that name, and add
+/// the function here and the name to CMakeLists.txt.
 #pragma once
 
 #include "figure.h"
@@ -11,7 +11,7 @@ namespace limn::gallery {
 Figure copper_knot();
 /// A glass of water with a straw, by a white window.
 Figure glass_of_water();
-/// Four hundred knots of plastic and gold, seen with a wide aperture. Reads examples/models/knot.ply.
+/// Four hundred knots of plastic and gold, with a wide aperture. Reads examples/models/knot.ply.
 Figure field_of_knots();
 /// A room into which sun and sky shine through a window. Reads examples/models/knot.ply.
 Figure sunlit_room();

@@ -12,6 +12,7 @@ std::shared_ptr<const Mesh> knot(std::shared_ptr<const Material> material) {
 }
 
 MeshData lathe(const std::vector<ProfilePoint>& profile, int steps) {
+    // Turn the points of the profile about the axis.
     MeshData data;
     const auto ring = static_cast<std::uint32_t>(steps);
     for (const ProfilePoint& p : profile)
@@ -20,6 +21,7 @@ MeshData lathe(const std::vector<ProfilePoint>& profile, int steps) {
             data.vertices.push_back({static_cast<float>(p.radius * std::cos(angle)), static_cast<float>(p.height),
                                      static_cast<float>(-p.radius * std::sin(angle))});
         }
+    // Connect neighbouring rings by triangles. A ring of radius 0 needs half of them.
     for (std::uint32_t k = 0; k + 1 < profile.size(); ++k)
         for (std::uint32_t i = 0; i < ring; ++i) {
             const std::uint32_t next = (i + 1) % ring;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes still_life.glb beside this file: a jug of copper with leaves, and fruit, on a table by a window.
+"""Writes still_life.glb beside this file: a copper jug with leaves, and fruit, on a table by a window.
 
-All of it is arithmetic: the shapes are turned on a lathe, the pictures made of noise. So it is as free as the rest of
-limn. The leaves have alpha; table, wall and oranges have normal maps; the matte materials have an index of 1, which
-leaves them without a coat. Needs nothing but Python.
+Most shapes are surfaces of revolution. The images are made of noise. The model therefore has the licence of limn. The
+leaves have alpha. Table, wall and oranges have normal maps. The matte materials have an index of refraction of 1, and
+therefore no clear coat. The script needs only Python.
 """
 
 import json
@@ -16,10 +16,11 @@ FLOAT, USHORT = 5126, 5123
 TURN = 2 * math.pi
 
 
-# ---- pictures, as rows from the top of tuples of bytes ----------------------------------------------------------------
+# ---- images: lists of rows from the top, each a list of tuples of bytes ----------------------------------------------
 
 
 def hashed(x, y, seed):
+    """Returns a pseudorandom number in [0, 1] for whole numbers x and y."""
     h = (x * 374761393 + y * 668265263 + seed * 2246822519) & 0xFFFFFFFF
     h = ((h ^ (h >> 13)) * 1274126177) & 0xFFFFFFFF
     return ((h ^ (h >> 16)) & 0xFFFF) / 0xFFFF
@@ -30,7 +31,7 @@ def smooth(t):
 
 
 def noise(u, v, cells_u, cells_v, seed):
-    """In [0, 1], smooth; of period 1 in u and v."""
+    """Returns smooth noise in [0, 1] with period 1 in u and v."""
     x, y = u * cells_u, v * cells_v
     i, j = math.floor(x), math.floor(y)
     s, t = smooth(x - i), smooth(y - j)
@@ -39,6 +40,7 @@ def noise(u, v, cells_u, cells_v, seed):
 
 
 def layers(u, v, cells_u, cells_v, seed, count):
+    """Returns the mean of `count` octaves of noise, each with half the weight of the one before."""
     return sum(noise(u, v, cells_u << k, cells_v << k, seed + k) / 2**k for k in range(count)) / (2 - 2 ** (1 - count))
 
 
@@ -56,20 +58,21 @@ def byte(value):
 
 
 def picture(width, height, color):
-    """`color` of (u, v), v upward: linear red, green, blue and perhaps alpha."""
+    """Returns the image of a function of (u, v), v upward, that returns linear red, green, blue and perhaps alpha."""
     rows = []
     for y in range(height):
         row = []
         for x in range(width):
             c = color((x + 0.5) / width, 1 - (y + 0.5) / height)
+            # An image whose lowest bit is cleared compresses better.
             row.append(tuple(byte(srgb(k)) & 0xFE for k in c[:3]) + tuple(byte(k) for k in c[3:]))
         rows.append(row)
     return rows
 
 
 def normal_map(width, height, relief, depth, aspect=1):
-    """Of a relief over (u, v), periodic; `depth` is that of 1 in units of what u spans, which is `aspect` times what v
-    spans. The lowest two bits are left out, so that it packs well."""
+    """Returns the normal map of a relief, a periodic function of (u, v). A value of 1 is `depth` high, in units of the
+    length that u spans. This length is `aspect` times the length that v spans. The lowest two bits are cleared."""
     values = [[relief((x + 0.5) / width, 1 - (y + 0.5) / height) for x in range(width)] for y in range(height)]
     rows = []
     for y in range(height):
@@ -84,13 +87,14 @@ def normal_map(width, height, relief, depth, aspect=1):
 
 
 def png(rows):
+    """Returns the bytes of a PNG file. Each line is filtered by the difference from the line above."""
     channels = len(rows[0][0])
     chunk = lambda kind, data: (struct.pack(">I", len(data)) + kind + data
                                 + struct.pack(">I", zlib.crc32(kind + data)))
     lines = [b"".join(bytes(p) for p in row) for row in rows]
     packed = bytearray()
     before = bytes(len(lines[0]))
-    for line in lines:  # what differs from the line above
+    for line in lines:
         packed += b"\2" + bytes((a - b) & 255 for a, b in zip(line, before))
         before = line
     header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, {3: 2, 4: 6}[channels], 0, 0, 0)
@@ -99,7 +103,7 @@ def png(rows):
 
 
 def planks(v):
-    """Which of four planks, and how far from its edges."""
+    """Returns which of four planks is at v, and the distance from its edges."""
     at = 4 * v
     return math.floor(at), min(at % 1, 1 - at % 1)
 
@@ -119,7 +123,7 @@ def wood_color(u, v):
 
 
 def peel_relief(u, v):
-    """Pores, as far apart as on an orange, and none where the meridians meet."""
+    """Returns the height of the pores of an orange. There are none at the poles."""
     return layers(u, v, 48, 24, 7, 2) * smooth(min(1.0, 6 * min(v, 1 - v)))
 
 
@@ -132,7 +136,7 @@ def apple_color(u, v):
 
 def leaf_color(u, v):
     across, half = abs(u - 0.5), 0.46 * math.sin(math.pi * min(1.0, max(0.0, v)) ** 0.8) ** 0.75
-    half *= 0.96 + 0.04 * math.sin(TURN * 14 * v)  # toothed
+    half *= 0.96 + 0.04 * math.sin(TURN * 14 * v)  # the edge is toothed
     vein = min(across * 40, 3 * abs(((v - 1.2 * across) * 9) % 1 - 0.5) * 2 + 6 * (0.06 - across))
     color = mixed((0.16, 0.28, 0.05), (0.045, 0.13, 0.018), vein)
     shade = 0.75 + 0.5 * layers(u, v, 6, 10, 21, 2)
@@ -145,11 +149,12 @@ def plaster_relief(u, v):
     return layers(u, v, 12, 12, 30, 3)
 
 
-# ---- shapes: positions, normals, uvs, triangles -----------------------------------------------------------------------
+# ---- shapes: positions, normals, uvs, triangles ----------------------------------------------------------------------
 
 
 def lathe(profile, steps=56):
-    """`profile`: (radius, height) from below to above, outside to the right of the way."""
+    """Returns the surface of revolution of a profile, a list of (radius, height). If the profile is drawn to the right
+    of the axis, the outside is on the right of the way from its first to its last point."""
     n = len(profile)
     lengths = [0.0]
     for (r0, h0), (r1, h1) in zip(profile, profile[1:]):
@@ -175,7 +180,7 @@ def lathe(profile, steps=56):
 
 
 def curve(points, steps):
-    """Catmull and Rom's, through the points."""
+    """Returns points of the Catmull-Rom spline through the given points. A negative radius becomes 0."""
     made = []
     for k in range(len(points) - 1):
         p = [points[max(0, min(len(points) - 1, k + d))] for d in (-1, 0, 1, 2)]
@@ -202,6 +207,7 @@ def quad(corner, u, v, repeat=(1, 1)):
 
 
 def joined(*shapes):
+    """Returns several shapes as one."""
     whole = ([], [], [], [])
     for shape in shapes:
         first = len(whole[0])
@@ -212,7 +218,8 @@ def joined(*shapes):
 
 
 def leaf(root, heading, rise, droop, length, width, twist, steps=8):
-    """A strip from `root` that sets out at the angle `rise` and bends down by `droop` over its length."""
+    """Returns a leaf, a strip of triangles that begins at `root` in the direction of the angle `heading`. Its angle of
+    elevation is `rise` at the root and falls by `droop` over its length. `twist` turns it about its midrib."""
     positions, normals, uvs = [], [], []
     at = list(root)
     for k in range(steps + 1):
@@ -226,7 +233,7 @@ def leaf(root, heading, rise, droop, length, width, twist, steps=8):
         across = [c * a + s * b for a, b in zip(side, upward)]
         normal = [c * b - s * a for a, b in zip(side, upward)]
         for sign in (-1, 1):
-            fold = 0.12 * width  # the sides are a little higher than the midrib
+            fold = 0.12 * width  # the sides are higher than the midrib
             positions.append(tuple(p + 0.5 * sign * width * a + fold * n for p, a, n in zip(at, across, normal)))
             normals.append(tuple(normal))
             uvs.append((0.5 + 0.5 * sign, t))
@@ -236,7 +243,7 @@ def leaf(root, heading, rise, droop, length, width, twist, steps=8):
 
 
 def leaves():
-    """In the mouth of the jug."""
+    """Returns the leaves, which begin in the mouth of the jug."""
     made = []
     for k in range(26):
         heading = 2.39996 * k + 0.5 * hashed(k, 0, 1)
@@ -247,10 +254,12 @@ def leaves():
     return joined(*made)
 
 
-# ---- the file ---------------------------------------------------------------------------------------------------------
+# ---- the file --------------------------------------------------------------------------------------------------------
 
 
 class Glb:
+    """A binary glTF file. The methods add a part and return its index."""
+
     def __init__(self):
         self.data = bytearray()
         self.json = {"asset": {"version": "2.0", "generator": "limn's examples/models/still_life.py"}, "scene": 0,
@@ -281,7 +290,7 @@ class Glb:
         return {"index": self.append("textures", {"source": image, "sampler": 0})}
 
     def matte(self, name, color=(1, 1, 1), **more):
-        """Without a coat."""
+        """Adds a diffuse material without a clear coat."""
         pbr = {"baseColorFactor": [*color, 1], "metallicFactor": 0, "roughnessFactor": 1}
         if "picture" in more:
             pbr["baseColorTexture"] = more.pop("picture")
@@ -301,7 +310,8 @@ class Glb:
 
     def mesh(self, name, shape, material):
         positions, normals, uvs, triangles = shape
-        attributes = {"POSITION": self.accessor(positions, "VEC3", FLOAT), "NORMAL": self.accessor(normals, "VEC3", FLOAT),
+        attributes = {"POSITION": self.accessor(positions, "VEC3", FLOAT),
+                      "NORMAL": self.accessor(normals, "VEC3", FLOAT),
                       "TEXCOORD_0": self.accessor([(u, 1 - v) for u, v in uvs], "VEC2", FLOAT)}
         indices = self.accessor([i for t in triangles for i in t], "SCALAR", USHORT)
         return self.append("meshes", {"name": name, "primitives": [
@@ -334,6 +344,7 @@ class Glb:
 
 
 def main():
+    # Add the materials.
     glb = Glb()
     wood = glb.matte("wood", picture=glb.texture("wood", picture(256, 384, wood_color)),
                      normalTexture=glb.texture("wood relief", normal_map(128, 384, wood_relief, 0.004)))
@@ -347,6 +358,7 @@ def main():
     copper, pewter = glb.metal("copper", (0.93, 0.55, 0.39), 0.28), glb.metal("pewter", (0.6, 0.58, 0.55), 0.4)
     window = glb.lamp("window", (17, 16, 14))
 
+    # Make the shapes.
     table = joined(quad((-9, 0, 4.5), (18, 0, 0), (0, 0, -9), (2, 1)),
                    quad((-9, -0.5, 4.5), (18, 0, 0), (0, 0.5, 0), (2, 0.05)))
     jug = curve([(0, 0), (1.0, 0.0), (1.12, 0.08), (1.5, 0.9), (1.45, 1.7), (0.9, 2.6), (0.72, 3.1), (0.95, 3.55),
@@ -357,6 +369,7 @@ def main():
                    (0.12, 1.42), (0, 1.3)], 4)
     stem = lathe([(0.0, 0), (0.045, 0), (0.035, 0.35), (0.05, 0.42), (0.0, 0.43)], 12)
 
+    # Place the objects.
     glb.place("table", glb.mesh("table", table, wood), (0, 0, 0))
     glb.place("wall", glb.mesh("wall", quad((-20, -4, -4.5), (40, 0, 0), (0, 20, 0), (8, 4)), plaster), (0, 0, 0))
     glb.place("window", glb.mesh("window", quad((-11, 2, 7), (0, 6, 0), (4, 0, 3.5)), window), (0, 0, 0))
@@ -371,6 +384,7 @@ def main():
     for i, (at, turn) in enumerate((((-0.75, -0.02, 2.2), 40), ((4.9, -0.02, 1.3), 150), ((-3.9, -0.02, 0.9), 250))):
         glb.place(f"apple {i + 1}", fruit, at, degrees=turn)
         glb.place(f"stalk {i + 1}", stalk, (at[0], 1.2, at[2]), (0, 0, 1), -12)
+    # Add the camera and write the file.
     glb.look("front", (0.6, 4.4, 14), (0.4, 2.15, -0.5), 32)
     glb.write(Path(__file__).with_suffix(".glb"))
 

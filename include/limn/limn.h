@@ -1,5 +1,5 @@
 /// \file
-/// Everything.
+/// Includes every public header of limn.
 #pragma once
 
 #include "limn/core/box.h"
@@ -26,11 +26,11 @@
 #include "limn/io/image_io.h"
 #include "limn/io/model.h"
 #include "limn/io/obj.h"
+#include "limn/material/alpha_mask.h"
 #include "limn/material/dielectric.h"
 #include "limn/material/diffuse_light.h"
 #include "limn/material/isotropic.h"
 #include "limn/material/lambertian.h"
-#include "limn/material/alpha_mask.h"
 #include "limn/material/material.h"
 #include "limn/material/metal.h"
 #include "limn/material/metallic_roughness.h"

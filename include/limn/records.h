@@ -1,7 +1,10 @@
 /// \file
-/// The intermediate representation: plain records that described objects write for the compiler. They hold numbers and
-/// ids, no behaviour. A program that describes scenes and derives classes needs none of them. Whoever writes them keeps
-/// what they point to alive through `RecordSink::keep`.
+/// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials,
+/// textures and lights of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A
+/// program needs records only if a class of its own overrides `lower`.
+///
+/// Raw pointers and spans in a record don't own what they point to. The code that writes the record gives the owner to
+/// RecordSink::keep.
 #pragma once
 
 #include <array>
@@ -32,47 +35,47 @@ struct AlbedoTable;
 struct Lobe;
 }  // namespace bsdf
 
-/// Rows of the tables of SceneRecords.
-///@{
+/// The row of a texture in SceneRecords::textures. `none` refers to no texture.
 enum class TextureId : std::uint32_t { none = 0xffffffff };
+/// The row of a material in SceneRecords::materials. `none` refers to no material.
 enum class MaterialId : std::uint32_t { none = 0xffffffff };
-/// The scene itself, the object of an instance, or the boundary of a medium.
+/// The row of a bottom-level acceleration structure (BLAS) in SceneRecords::blases. `root` is the scene itself. Every
+/// other BLAS holds the object of an instance or the boundary of a medium.
 enum class BlasId : std::uint32_t { root = 0 };
-///@}
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-/// The built-in textures, and user-defined ones.
+/// The kind of a texture: one of limn's own, or a class of the user.
 enum class TextureKind : std::uint8_t { solid, checker, image, noise, turbulence, marble, user_defined };
 
-/// One texture; each field is of the kinds named beside it.
+/// One texture. The comment of a field names the kinds that use it. "Perlin" means noise, turbulence and marble.
 struct TextureRecord {
-    TextureKind kind = TextureKind::solid;                     ///< decides which fields count
-    Filter filter = Filter::bilinear;                          ///< image
-    Wrap wrap = Wrap::repeat;                                  ///< image
-    std::uint32_t data = 0;                                    ///< image, noises: row of the images or lattices
-    TextureId even = TextureId::none;                          ///< checker
-    TextureId odd = TextureId::none;                           ///< checker
-    double scale = 1;                                          ///< checker: side of a cell; noises: frequency
-    Color color;                                               ///< solid: the colour; noises: multiplies
-    const Texture* object = nullptr;                           ///< user-defined; not owning
-    Color (*value)(const Texture&, const Surface&) = nullptr;  ///< user-defined: what to call on it
+    TextureKind kind = TextureKind::solid;                     ///< decides which of the other fields are used
+    Filter filter = Filter::bilinear;                          ///< image: interpolation between texels
+    Wrap wrap = Wrap::repeat;                                  ///< image: lookup outside [0, 1]
+    std::uint32_t data = 0;                                    ///< image: row of the images; Perlin: of the lattices
+    TextureId even = TextureId::none;                          ///< checker: texture of the even cells
+    TextureId odd = TextureId::none;                           ///< checker: texture of the odd cells
+    double scale = 1;                                          ///< checker: side of a cell; Perlin: cells per unit
+    Color color;                                               ///< solid: the colour; Perlin: factor of the noise
+    const Texture* object = nullptr;                           ///< user_defined: the texture; not owning
+    Color (*value)(const Texture&, const Surface&) = nullptr;  ///< user_defined: calls Texture::value of `object`
 };
 static_assert(sizeof(TextureRecord) == 64);
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
-/// On which sides of a surface a lamp shines: on that of the outward normal, which is the front, or the other.
+/// The sides of a surface that emit light. The front is the side of the outward normal.
 enum class Sides : std::uint8_t { both, front, back };
 
-/// Whether the side that a ray comes from shines.
+/// True if `sides` includes the side that a ray comes from. `front_face` is true if that side is the front.
 constexpr bool shines(Sides sides, bool front_face) {
     return sides == Sides::both || (sides == Sides::front) == front_face;
 }
 
-/// How to call a user-defined material.
+/// Functions that call a user-defined material.
 struct MaterialThunks {
-    /// Material::emitted, Material::sample and Material::value.
+    /// Calls the virtual function of the same name: Material::emitted, Material::sample or Material::value.
     ///@{
     Color (*emitted)(const Material&, const Surface&);
     std::optional<ScatterSample> (*sample)(const Material&, const Surface&, const Vec3& out, const Random3&);
@@ -80,45 +83,45 @@ struct MaterialThunks {
     ///@}
 };
 
-/// The `kind` of user-defined materials.
+/// MaterialRecord::kind of every user-defined material.
 inline constexpr std::string_view kUserDefinedMaterial = "user-defined";
 
-/// What some materials say beside albedo and parameter.
+/// Parameters that only some materials have.
 struct MaterialDetails {
-    static constexpr std::size_t kNumbers = 6;  ///< at most
+    static constexpr std::size_t kNumbers = 6;  ///< size of `numbers`
 
-    /// Of the lobe, which says which is which: numbers, a second texture (none: white), and the albedos of its
-    /// microsurface, where it has one.
+    std::array<double, kNumbers> numbers{};  ///< parameters of the lobe, which defines the meaning of each entry
+    TextureId texture = TextureId::none;     ///< second texture of the lobe; none: white
+    /// Directional albedos of the lobe's microfacets; the second table is that of the coat of a MetallicRoughness. Null
+    /// if the lobe uses no such table.
     ///@{
-    std::array<double, kNumbers> numbers{};
-    TextureId texture = TextureId::none;
     std::shared_ptr<const bsdf::AlbedoTable> albedo_table{}, coat_albedo_table{};
     ///@}
 
-    TextureId normal_map = TextureId::none;  ///< of all lobes: what bends the shading normal, see NormalMap
-    TextureId opacity = TextureId::none;     ///< of all lobes: how much light the surface stops, see AlphaMask
-    double opacity_cutoff = 0;               ///< over 0: all where the opacity is at least that, none elsewhere
-    bool tangents = false;                   ///< asks for Surface::dp_du and dp_dv
+    TextureId normal_map = TextureId::none;  ///< texture that bends the shading normal, see NormalMap; none: not bent
+    TextureId opacity = TextureId::none;     ///< texture whose red is the opacity, see AlphaMask; none: opaque
+    double opacity_cutoff = 0;               ///< above 0: opaque if opacity >= opacity_cutoff, else fully transparent
+    bool tangents = false;                   ///< true if the material uses Surface::dp_du and Surface::dp_dv
 };
 
 /// One material.
 struct MaterialRecord {
     std::string_view kind = "";              ///< "lambertian", "diffuse-light", ...; of static lifetime
-    const bsdf::Lobe* lobe = nullptr;        ///< how it scatters; null: it absorbs all light
-    TextureId texture = TextureId::none;     ///< albedo, which scales what the lobe scatters; none: white
-    TextureId emission = TextureId::none;    ///< radiance; none: it does not emit
-    Sides sides = Sides::both;               ///< that emit
-    double parameter = 0;                    ///< of the lobe: what the material says
-    Fresnel fresnel = Fresnel::exact;        ///< dielectric
-    bool specular = false;                   ///< Material::value is zero for all directions
-    const Material* object = nullptr;        ///< user-defined; not owning
-    const MaterialThunks* thunks = nullptr;  ///< user-defined: how to call it; of static lifetime
-    std::shared_ptr<const MaterialDetails> details = nullptr;  ///< null: it says no more
+    const bsdf::Lobe* lobe = nullptr;        ///< functions that scatter; null: the surface absorbs all light
+    TextureId texture = TextureId::none;     ///< albedo, reflectance or base colour; none: white
+    TextureId emission = TextureId::none;    ///< emitted radiance; none: the surface doesn't emit
+    Sides sides = Sides::both;               ///< sides that emit
+    double parameter = 0;                    ///< of the lobe: index of refraction, roughness or fuzz; 0 if unused
+    Fresnel fresnel = Fresnel::exact;        ///< formula of a dielectric's reflectance
+    bool specular = false;                   ///< true if Material::value is zero for all directions
+    const Material* object = nullptr;        ///< user-defined: the material; not owning
+    const MaterialThunks* thunks = nullptr;  ///< user-defined: functions that call `object`; of static lifetime
+    std::shared_ptr<const MaterialDetails> details = nullptr;  ///< further parameters; null: all have their defaults
 };
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
 
-/// What can be hit, or entered: the tables of SceneRecords.
+/// The kind of a primitive. Each kind has a table in SceneRecords; still and moving spheres share one.
 enum class PrimitiveKind : std::uint8_t {
     sphere,
     moving_sphere,
@@ -131,7 +134,7 @@ enum class PrimitiveKind : std::uint8_t {
     disk
 };
 
-/// Centre moves on a straight line from center0 at time 0 to center1 at time 1.
+/// A sphere whose centre moves on a straight line from center0 at time 0 to center1 at time 1.
 struct SphereRecord {
     /// A negative radius turns the normal inward.
     ///@{
@@ -142,9 +145,9 @@ struct SphereRecord {
 };
 static_assert(sizeof(SphereRecord) == 64);
 
-/// A flat triangle; the outward normal is (b - a) x (c - a).
+/// A flat triangle. Its outward normal is (b - a) x (c - a).
 struct TriangleRecord {
-    /// Vertices, not on one line, and what they are made of.
+    /// The vertices are not collinear.
     ///@{
     Point3 a, b, c;
     MaterialId material = MaterialId::none;
@@ -152,7 +155,7 @@ struct TriangleRecord {
 };
 static_assert(sizeof(TriangleRecord) == 80);
 
-/// corner + u edge_u + v edge_v, u and v in [0, 1]; the outward normal is edge_u x edge_v.
+/// The parallelogram corner + u edge_u + v edge_v with u and v in [0, 1]. Its outward normal is edge_u x edge_v.
 struct QuadRecord {
     /// The edges are neither zero nor parallel.
     ///@{
@@ -163,10 +166,9 @@ struct QuadRecord {
 };
 static_assert(sizeof(QuadRecord) == 80);
 
-/// The points of the plane through center across normal, as far as radius from it; the normal, of any length, points
-/// outward.
+/// The disk around `center` in the plane perpendicular to `normal`.
 struct DiskRecord {
-    /// The normal is not zero, the radius above 0.
+    /// The normal points outward. It has any length but zero. The radius is above 0.
     ///@{
     Point3 center;
     Vec3 normal;
@@ -176,16 +178,16 @@ struct DiskRecord {
 };
 static_assert(sizeof(DiskRecord) == 64);
 
-/// Arrays that the mesh's owner shares.
+/// A triangle mesh. The record refers to the arrays of the described mesh and shares their ownership.
 struct MeshRecord {
-    MeshView arrays;                      ///< valid as long as the owner
-    std::vector<MaterialId> materials;    ///< by slot; at least one
-    std::shared_ptr<const void> owner{};  ///< of the arrays; RecordSink::mesh sets it
+    MeshView arrays;                      ///< valid as long as `owner`
+    std::vector<MaterialId> materials;    ///< by material slot; at least one
+    std::shared_ptr<const void> owner{};  ///< owner of the arrays; RecordSink::mesh sets it
 };
 
-/// An instanced subtree seen through a matrix; a moving matrix is interpolated entry by entry.
+/// An instance: a BLAS placed by an affine transform. A moving transform is interpolated entry by entry.
 struct InstanceRecord {
-    /// The matrices at time 0 and 1, the same for a still instance; `blas` is another one than root.
+    /// The matrices at time 0 and at time 1. They are equal if `moving` is false. `blas` is never the root.
     ///@{
     Transform world_from_object0, world_from_object1;
     BlasId blas = BlasId::root;
@@ -193,81 +195,79 @@ struct InstanceRecord {
     ///@}
 };
 
-/// A closed boundary and what fills it.
+/// A homogeneous medium inside a closed boundary.
 struct MediumRecord {
-    BlasId boundary = BlasId::root;       ///< another one than root
-    MaterialId phase = MaterialId::none;  ///< the phase function, with the albedo
-    double density = 0;                   ///< extinction, per world unit of length
+    BlasId boundary = BlasId::root;       ///< never the root
+    MaterialId phase = MaterialId::none;  ///< phase function, including the single-scattering albedo
+    double density = 0;                   ///< extinction per world unit of length
 };
 
-/// The hit of a user-defined shape: as Hit, but for the form of material and uv.
+/// The hit of a user-defined shape. It holds what Hit holds, with the material and the texture coordinates in the form
+/// that compiled code uses.
 struct UserDefinedHit {
-    double t = 0;                ///< in units of the ray's direction
-    Normal3 normal;              ///< geometric, outward, unit
-    Normal3 shading_normal;      ///< zero: same as normal
-    Vec3 position_error;         ///< beyond the rounding of origin + t direction
+    double t = 0;                ///< ray parameter, in units of the ray's direction
+    Normal3 normal;              ///< geometric normal, outward, unit
+    Normal3 shading_normal;      ///< interpolated normal, unit; zero: same as `normal`
+    Vec3 position_error;         ///< bound on the error of the hit point, beyond the rounding of origin + t direction
     double u = 0;                ///< surface parameter
     double v = 0;                ///< surface parameter
     Uv uv;                       ///< texture coordinates
     MaterialRef material;        ///< none: black
-    bool index_matched = false;  ///< the boundary of a medium
+    bool index_matched = false;  ///< true for the boundary of a medium
 };
 
 /// A user-defined shape.
 struct UserDefinedRecord {
-    Box bounds;                                                           ///< Hittable::bounds
-    const Hittable* object = nullptr;                                     ///< not owning
-    bool (*hit)(const Hittable&, const Ray&, UserDefinedHit&) = nullptr;  ///< Hittable::hit on it; false: a miss
+    Box bounds;                                                           ///< Hittable::bounds of `object`
+    const Hittable* object = nullptr;                                     ///< the shape; not owning
+    bool (*hit)(const Hittable&, const Ray&, UserDefinedHit&) = nullptr;  ///< calls Hittable::hit; false for a miss
 };
 static_assert(sizeof(UserDefinedRecord) == 64);
 
 // ---- lights that are no shapes -------------------------------------------------------------------------------------
 
-/// How a light record shines.
+/// The kind of a light that is no shape.
 enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
 
-/// A light without a shape: see limn/scene/lights.h.
+/// A light that is no shape, see limn/scene/lights.h. The comment of a field names the kinds that use it.
 struct LightRecord {
-    LightSourceKind kind = LightSourceKind::point;  ///< decides which fields count
+    LightSourceKind kind = LightSourceKind::point;  ///< decides which of the other fields are used
     Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
     Point3 position;                                ///< point, spot
-    Vec3 direction;                                 ///< unit, into which it shines; of all but a point
-    double cos_inner = 1;                           ///< spot: of the angle up to which it has all of its intensity
-    double cos_outer = 0;                           ///< spot: of the angle from which on it has none
-    double one_minus_cos = 0;                       ///< sun: 1 - cos of its angular radius
+    Vec3 direction;                                 ///< spot, directional, sun: unit vector away from the light
+    double cos_inner = 1;                           ///< spot: cosine of the angle up to which the intensity is full
+    double cos_outer = 0;                           ///< spot: cosine of the angle from which on the intensity is 0
+    double one_minus_cos = 0;                       ///< sun: 1 - cos(angular radius)
 };
 
-/// An equirectangular map: see EnvironmentMap.
+/// An equirectangular environment map, see EnvironmentMap.
 struct EnvironmentRecord {
-    std::shared_ptr<const Image> image{};  ///< null: there is none
-    Transform world_from_map{};            ///< turns and mirrors only
-    double scale = 1;                      ///< of the radiance
+    std::shared_ptr<const Image> image{};  ///< null: the scene has no map
+    Transform world_from_map{};            ///< rotation, perhaps with a reflection; no translation
+    double scale = 1;                      ///< factor of the radiance
 };
 
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
-/// `count` primitives of one kind, in the order of description. For a mesh, an instance or a medium: one row with
-/// `count` primitives. For the others: rows first_row, first_row + 1, ... of their table.
-/// `first_number` is the index of the first of them within the BLAS.
+/// A run of consecutive primitives of one kind in a BLAS. A mesh, an instance or a medium is a range of its own: it has
+/// one row, and `count` is the number of its triangles or of the primitives of its BLAS. A range of any other kind has
+/// one row for each primitive: first_row, first_row + 1, ...
 struct PrimitiveRange {
-    /// As said above.
-    ///@{
-    PrimitiveKind kind = PrimitiveKind::sphere;
-    std::uint32_t first_row = 0;
-    std::uint64_t first_number = 0;
-    std::uint64_t count = 0;
-    ///@}
+    PrimitiveKind kind = PrimitiveKind::sphere;  ///< decides the table that `first_row` refers to
+    std::uint32_t first_row = 0;                 ///< row of the first primitive
+    std::uint64_t first_number = 0;              ///< index of the first primitive within the BLAS
+    std::uint64_t count = 0;                     ///< number of primitives
 };
 
-/// What one tree is built over, a bottom-level acceleration structure.
+/// The primitives of one BLAS, over which one tree is built.
 struct BlasRecord {
     std::vector<PrimitiveRange> ranges;  ///< in the order of description
-    std::uint64_t primitives = 0;        ///< those of instanced BLASes counted once an instance
+    std::uint64_t primitives = 0;        ///< their number; those of an instanced BLAS count once for each instance
 };
 
 /// All records of one scene.
 struct SceneRecords {
-    /// The tables that ranges and ids are rows of. Still and moving spheres share one.
+    /// A table of records. Ranges and ids refer to its rows. Still and moving spheres share one table.
     ///@{
     std::vector<SphereRecord> spheres;
     std::vector<TriangleRecord> triangles;
@@ -284,11 +284,11 @@ struct SceneRecords {
     std::vector<LightRecord> lights;
     ///@}
 
-    EnvironmentRecord environment;                                ///< in place of the background, if it has an image
+    EnvironmentRecord environment;                                ///< replaces the background if it has an image
     std::vector<BlasRecord> blases = std::vector<BlasRecord>(1);  ///< row 0 is the scene itself
     std::vector<std::shared_ptr<const void>> kept;                ///< owners of what the records point to
-    std::vector<std::string> tags;  ///< of user-defined objects, in the order of description
-    bool untagged = false;          ///< whether there are such objects without one
+    std::vector<std::string> tags;  ///< Tagged::tag of the user-defined objects, in the order of description
+    bool untagged = false;          ///< true if a user-defined object has no tag
 };
 
 }  // namespace limn

@@ -9,13 +9,16 @@ namespace limn::accel {
 
 namespace {
 
-constexpr std::uint32_t kPart = 1 << 14;  // build primitives whose nodes one thread writes
+constexpr std::uint32_t kPart = 1 << 14;  // most primitives of a part, whose nodes one thread writes
 
-// Of the wide tree.
+// A number of nodes and leaves of the wide tree, or the rows of the next ones.
 struct Rows {
     std::uint32_t node = 0, leaf = 0;
 
-    void operator+=(const Rows& r) { node += r.node, leaf += r.leaf; }
+    void operator+=(const Rows& r) {
+        node += r.node;
+        leaf += r.leaf;
+    }
 };
 
 Slots children_of(const SplitNode& node) {
@@ -24,9 +27,10 @@ Slots children_of(const SplitNode& node) {
     return children;
 }
 
-// Their boxes and orders; they are yet to be named.
+// Returns a node with the boxes and the orders of its children. Their references are set later.
 Node node_over(const Slots& children) {
     constexpr float kFar = std::numeric_limits<float>::infinity();
+    // Write the boxes.
     Node node;
     std::fill_n(node.child, kWidth, kNothing);
     for (int a = 0; a < 3; ++a) {
@@ -34,20 +38,21 @@ Node node_over(const Slots& children) {
         std::fill_n(node.planes[3 + a], kWidth, -kFar);
         for (std::size_t c = 0; c < children.count; ++c) {
             const Bounds& box = children.node[c]->box;
-            node.planes[a][c] = box.lower[a], node.planes[3 + a][c] = box.upper[a];
+            node.planes[a][c] = box.lower[a];
+            node.planes[3 + a][c] = box.upper[a];
         }
     }
     const auto present = static_cast<std::uint32_t>(children.count);
-    // An octant and its opposite have opposite orders.
+    // Write the orders. The order of the opposite octant is the reverse.
     for (std::uint32_t octant = 0; octant < 4; ++octant) {
-        float along[kWidth];              // twice the centre, along the octant's diagonal
-        std::uint32_t rank[kWidth] = {};  // from the nearest on
+        float along[kWidth];              // twice the projection of each centre onto the octant's diagonal
+        std::uint32_t rank[kWidth] = {};  // the nearest child has rank 0
         for (std::uint32_t c = 0; c < kWidth; ++c) {
             const float x = node.planes[0][c] + node.planes[3][c], y = node.planes[1][c] + node.planes[4][c],
                         z = node.planes[2][c] + node.planes[5][c];
             along[c] = (octant & 1 ? -x : x) + (octant & 2 ? -y : y) + z;
         }
-        // An absent child's is NaN; that of one without bounds is NaN or endless. They all come last, in their order.
+        // `along` is NaN for an absent child and NaN or infinite for an unbounded one. Sort both last.
         for (std::uint32_t c = 0; c < kWidth; ++c)
             if (!(along[c] < kFar)) along[c] = kFar;
         for (std::uint32_t other = 0; other < kWidth; ++other)
@@ -66,19 +71,22 @@ Node node_over(const Slots& children) {
     return node;
 }
 
-// All nodes and leaves stand depth first. What is at the top is written by one thread, the parts that hang from it in
-// parallel, once it is known how large each is.
+// Writes all nodes and leaves depth first. A part is a subtree of at most kPart primitives below the top of the tree.
+// First the rows of each part are counted. Then one thread writes the top, and the parts are written in parallel.
 class Assembler {
 public:
     explicit Assembler(HugeVector<std::uint32_t> indices) { bvh_.indices = std::move(indices); }
 
     WideBvh build(const Slots& root) {
+        // Count the rows of the top and of each part.
         const bool at_top = bvh_.indices.size() > kPart;
         Rows all = count(root, at_top);
         for_all(0, parts_.size(), 1,
                 [&](std::size_t i) { parts_[i].size = count(children_of(*parts_[i].root), false); });
         for (const Part& part : parts_) all += part.size;
-        bvh_.nodes.resize(all.node), bvh_.leaves.resize(all.leaf);
+        bvh_.nodes.resize(all.node);
+        bvh_.leaves.resize(all.leaf);
+        // Write the top, which decides where each part begins, then the parts.
         Rows next;
         write(root, next, at_top);
         for_all(0, parts_.size(), 1, [&](std::size_t i) {
@@ -91,12 +99,13 @@ public:
 private:
     struct Part {
         const SplitNode* root;
-        Rows size = {}, first = {};
+        Rows size = {}, first = {};  // number of its rows, and its first rows
     };
 
     static bool is_part(const SplitNode& node, bool at_top) { return at_top && node.size() <= kPart; }
 
-    // What a node with these children takes, and all that is under it. At the top parts are only noted.
+    // Returns the number of rows of a node with these children and its subtree. Parts are appended to `parts_` and not
+    // counted if `at_top`.
     Rows count(const Slots& children, bool at_top) {
         Rows rows{1, 0};
         for (const SplitNode* child : children) {
@@ -110,9 +119,11 @@ private:
         return rows;
     }
 
-    // Writes them from `next` on. At the top parts are only given their place.
+    // Writes a node with these children and its subtree from row `next` on. If `at_top`, parts are only given their
+    // first rows.
     void write(const Slots& children, Rows& next, bool at_top) {
         Node& node = bvh_.nodes[next.node++] = node_over(children);
+        // Write the leaves.
         for (std::size_t slot = 0; slot < children.count; ++slot) {
             if (!children.node[slot]->is_leaf) continue;
             node.child[slot] = kLeaf | next.leaf;
@@ -120,6 +131,7 @@ private:
             std::ranges::sort(std::span(bvh_.indices).subspan(leaf.begin, leaf.size()));
             bvh_.leaves[next.leaf++] = {leaf.begin, leaf.size()};
         }
+        // Write the subtrees of the other children.
         for (std::size_t slot = 0; slot < children.count; ++slot) {
             const SplitNode& child = *children.node[slot];
             if (child.is_leaf) continue;

@@ -6,11 +6,13 @@ namespace limn::accel {
 
 namespace {
 
-constexpr int kMaxBins = 32;  // as in Embree; small ranges have fewer, for most of theirs would be empty
+// The largest number of bins, as in Embree. Small ranges have fewer, because most of their bins would be empty.
+constexpr int kMaxBins = 32;
 
+// For each axis and bin, the bounds and the number of the primitives whose centres are in it.
 struct Bins {
     Bounds bounds[3][kMaxBins];
-    Int4 count[kMaxBins];  // by axis
+    Int4 count[kMaxBins];  // a lane for each axis
     int bins;
     Vec4 origin, scale, last;
 
@@ -24,7 +26,8 @@ struct Bins {
             count[b] = Int4{};
         }
         const Vec4 extent = range.centers.upper - origin;
-        // An axis along which all centres are one, or the reciprocal could overflow, has one bin.
+        // Use a single bin along an axis if all centres agree or differ by so little that the reciprocal could
+        // overflow.
         for (int axis = 0; axis < 3; ++axis)
             if (extent[axis] > 0x1p-120f) scale[axis] = static_cast<float>(bins) / extent[axis];
     }
@@ -39,8 +42,8 @@ struct Bins {
     }
 };
 
-// Half the areas of three boxes. Sides are first multiplied by `scale`, for their products would overflow or vanish;
-// and grow by a little, so that boxes without any area are told apart by their length.
+// Returns half the areas of three boxes. Sides are first multiplied by `scale`, because their products could overflow
+// or underflow. Then 2^-12 is added to each, so that boxes without area are compared by their length.
 Vec4 areas(const Bounds (&boxes)[3], Vec4 scale) {
     const auto sides = [&](const Bounds& b) { return (b.upper - b.lower) * scale + splat(0x1p-12f); };
     const Vec4 a = sides(boxes[0]), b = sides(boxes[1]), c = sides(boxes[2]);
@@ -53,9 +56,11 @@ Vec4 areas(const Bounds (&boxes)[3], Vec4 scale) {
 }  // namespace
 
 Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint32_t leaf_width) {
+    // Fill the bins.
     Bins bins(range);
     for (std::uint32_t i = range.begin; i < range.end; ++i) bins.add(primitives[i]);
 
+    // Define the cost of one side of a split, a lane for each axis.
     const Vec4 sides = range.bounds.upper - range.bounds.lower;
     const Vec4 scale = splat(1 / std::max({sides[0], sides[1], sides[2], 0x1p-120f}));
     const Vec4 up = splat(static_cast<float>(leaf_width - 1)), per_test = splat(1 / static_cast<float>(leaf_width));
@@ -64,6 +69,7 @@ Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint
         return areas(side, scale) * __builtin_convertvector(tests, Vec4);
     };
 
+    // Compute the cost of the lower side of every split.
     Vec4 lower_cost[kMaxBins];
     Bounds side[3] = {kEmpty, kEmpty, kEmpty};
     Int4 count{};
@@ -72,9 +78,10 @@ Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint
         count += bins.count[b];
         lower_cost[b + 1] = cost(side, count);
     }
+    // Add the cost of the upper side and find the cheapest split along each axis. The cost of an empty side is
+    // infinity * 0 = NaN, which never compares as less.
     for (Bounds& s : side) s = kEmpty;
     count = Int4{};
-    // An empty side costs infinity times nothing, which is not less than anything.
     Vec4 least = kEndless;
     Int4 where{};
     for (int b = bins.bins - 1; b > 0; --b) {
@@ -85,6 +92,7 @@ Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint
         least = better ? both : least;
         where = better ? Int4{b, b, b, b} : where;
     }
+    // Choose the axis.
     const Bounds whole[3] = {range.bounds, range.bounds, range.bounds};
     const float area = areas(whole, scale)[0];
     Split best;
@@ -95,7 +103,8 @@ Split best_split(const BuildPrimitive* primitives, const Range& range, std::uint
 }
 
 std::uint32_t partition(const BuildPrimitive* from, BuildPrimitive* to, const Range& range, const Split& split) {
-    // Each goes to both ends of what is still free, and one end moves: that takes no branch that could be mispredicted.
+    // Write each primitive to both ends of the free rows, then move the end of its side. This takes no branch, so none
+    // is mispredicted.
     std::uint32_t begin = range.begin, end = range.end;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
         const BuildPrimitive r = from[i];

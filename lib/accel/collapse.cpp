@@ -8,7 +8,6 @@ namespace limn::accel {
 double half_area(const Bounds& box) {
     double side[3];
     for (int a = 0; a < 3; ++a) side[a] = static_cast<double>(box.upper[a]) - box.lower[a];
-    // A little more, so that boxes without any area are told apart by their length, and no root has none.
     const double square = side[0] * side[0] + side[1] * side[1] + side[2] * side[2];
     return side[0] * side[1] + side[1] * side[2] + side[2] * side[0] + 0x1p-20 * square + 0x1p-400;
 }
@@ -19,14 +18,19 @@ double leaf_cost(std::uint32_t size, const BuildSettings& settings) {
 
 ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
                       const BuildSettings& settings) {
-    double open[kWidth + 1];  // over so many slots
+    // Find the cheapest way to share n slots between the children.
+    double open[kWidth + 1];
     for (std::size_t slots = 2; slots <= kWidth; ++slots) {
         open[slots] = std::numeric_limits<double>::infinity();
         for (std::size_t k = 1; k < slots; ++k) {
             const double cost = left[k - 1] + right[slots - k - 1];
-            if (cost < open[slots]) open[slots] = cost, node.left_slots[slots] = static_cast<std::uint8_t>(k);
+            if (cost < open[slots]) {
+                open[slots] = cost;
+                node.left_slots[slots] = static_cast<std::uint8_t>(k);
+            }
         }
     }
+    // Find the cost of a single slot, filled by a wide node or a leaf.
     const double area = half_area(node.box);
     double closed = open[kWidth] + area * settings.node_cost;
     node.is_leaf = false;
@@ -35,7 +39,7 @@ ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCost
         node.is_leaf = leaf <= closed;
         closed = std::min(leaf, closed);
     }
-    // More slots never cost more.
+    // Find the number of slots from which sharing them is cheaper. More slots never cost more.
     ForestCosts costs;
     costs[0] = closed;
     node.open_from = node.is_leaf ? kWidth + 1 : kWidth;

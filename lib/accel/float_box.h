@@ -1,4 +1,4 @@
-// From boxes in double to those that trees are built of.
+// Converts boxes of doubles to the boxes of floats that trees are built from.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace limn::accel {
 
-// Rounded outward; away from subnormal numbers too, each of which would hold up a box test by some hundred cycles.
+// Returns a float that is at most x, and isn't subnormal. Each subnormal number would delay a box test by some hundred
+// cycles.
 inline float round_down(double x) {
     constexpr float kLeast = std::numeric_limits<float>::min();
     const auto f = static_cast<float>(x);
@@ -19,20 +20,22 @@ inline float round_down(double x) {
 
 inline float round_up(double x) { return -round_down(-x); }
 
-// The box `scale` times as large, rounded outward; \pre `scale` is a positive power of two.
+// Returns the box with all coordinates multiplied by `scale`, rounded outward. \pre `scale` is a positive power of two
 inline FloatBox to_float_box(const Box& box, double scale = 1) {
     FloatBox f;
-    for (std::size_t a = 0; a < 3; ++a)
-        f.lower[a] = round_down(scale * box.lower[a]), f.upper[a] = round_up(scale * box.upper[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+        f.lower[a] = round_down(scale * box.lower[a]);
+        f.upper[a] = round_up(scale * box.upper[a]);
+    }
     return f;
 }
 
-// The power of two that brings coordinates up to `extent` to one at most, so that no box beyond the range of float
-// counts as unbounded.
+// Returns a power of two by which coordinates up to `extent` are multiplied to be at most 1. Without this scale, a box
+// beyond the range of float would count as unbounded.
 inline double scale_to_one(double extent) {
     int exponent = 0;
     std::frexp(extent, &exponent);
-    return std::ldexp(1.0, -std::max(exponent, -1000));  // finite
+    return std::ldexp(1.0, -std::max(exponent, -1000));  // the limit keeps the result finite
 }
 
 }  // namespace limn::accel

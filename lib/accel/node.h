@@ -1,4 +1,4 @@
-// A node of a tree as the builder makes it and traversal reads it.
+// A node of the tree. The builder writes it, and traversal reads it.
 #pragma once
 
 #include <cstddef>
@@ -6,25 +6,26 @@
 
 namespace limn::accel {
 
-// Closed; the caller rounds it outward. Sides may be infinite; it is empty where lower <= upper fails on an axis.
+// A closed box. The code that makes a box rounds it outward. Coordinates may be infinite. A box is empty if lower <=
+// upper fails on any axis.
 struct FloatBox {
     float lower[3], upper[3];
 };
 
-inline constexpr std::size_t kWidth = 8;
+inline constexpr std::size_t kWidth = 8;  // children of a node
 
-// What a node refers to: another node, by its row; a leaf; or nothing.
+// A reference from a node to its child: the row of another node, a leaf, or kNothing.
 using Child = std::uint32_t;
-inline constexpr Child kLeaf = 0x80000000u;  // bit: the rest is the leaf's row, or where it is stored
+inline constexpr Child kLeaf = 0x80000000u;  // flag of a leaf; the other bits are its row or its place in the blocks
 inline constexpr Child kNothing = 0xffffffffu;
 
-// Present children come first.
+// The boxes of up to eight children. Absent children come last.
 struct alignas(64) Node {
-    float planes[6][kWidth];  // of the children: lower x y z, upper x y z; of an absent one +infinity and -infinity
+    float planes[6][kWidth];  // lower x y z, upper x y z of each child; +infinity and -infinity for an absent one
     Child child[kWidth];
-    // By the signs of a ray's direction, bit a for a negative direction[a]: the children as such rays tend to meet
-    // them, by where their centres lie along the octant's diagonal; four bits each, the FARTHEST lowest, absent ones
-    // first.
+    // For each octant of ray directions, the children from far to near, four bits each, from the lowest bits on. Bit a
+    // of the octant is set if direction[a] is negative. Children are ordered by the projection of their centres onto
+    // the octant's diagonal. Absent children count as the farthest.
     std::uint32_t order[kWidth];
 };
 static_assert(sizeof(Node) == 256);

@@ -1,3 +1,4 @@
+// Parallel loops, and the number of threads that they use.
 #pragma once
 
 #include <oneapi/tbb/blocked_range.h>
@@ -10,7 +11,8 @@
 
 namespace limn::accel {
 
-// Calls function(i) for all i from `begin` to `end`, in parallel by `grain` or more; so few alone take no task.
+// Calls function(i) for all i in [begin, end), in parallel. A task has about `grain` calls or more. The caller's thread
+// makes the calls itself if there are no more than `grain`.
 template <class Function>
 void for_all(std::size_t begin, std::size_t end, std::size_t grain, const Function& function) {
     const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
@@ -23,8 +25,8 @@ void for_all(std::size_t begin, std::size_t end, std::size_t grain, const Functi
         run(all);
 }
 
-// Calls function() with so many threads; 0: with those of the caller's arena. More than there are processors are
-// allowed, for whoever asks for them.
+// Calls function() with `threads` threads, which may be more than there are processors. If `threads` is 0, the threads
+// of the caller's arena are used.
 template <class Function>
 void with_threads(int threads, const Function& function) {
     if (threads == 0) return function();

@@ -1,4 +1,5 @@
-// The binary tree over build primitives few enough for one thread and its cache, or whose centres no grid tells apart.
+// Builds a binary tree by one thread, over build primitives that are few enough for its cache or whose centres differ
+// too little for a grid.
 #pragma once
 
 #include <vector>
@@ -8,23 +9,24 @@
 
 namespace limn::accel {
 
-// No path in the binary tree has more nodes.
+// The largest number of nodes on a path from the root of the binary tree to a leaf.
 inline constexpr int kMaxSplitDepth = kMaxWideDepth - 2;
 
-// Whether a split may be as uneven as it likes, or boxes must be halved from here on for the depth to stay within its
-// limit.
+// Returns true if a split of the node may be arbitrarily uneven. Otherwise the node and all below it must be halved, to
+// keep the depth within kMaxSplitDepth.
 bool may_split(const SplitNode& node);
 
-// Build primitives that one thread sorts, in its second-level cache.
+// The number of build primitives that one thread sorts in its second-level cache.
 inline constexpr std::uint32_t kSubtree = 4096;
 
 class SubtreeBuilder {
 public:
-    // `indices` gets those of the primitives, at their places in the tree.
+    // `indices` receives the indices of the primitives, in the order of the leaves.
     SubtreeBuilder(const BuildSettings& settings, std::uint32_t* indices) : settings_(settings), indices_(indices) {}
 
-    // Fills in `root`, but for its depth, and adds what is under it. `primitives` has what is in the range; both it and
-    // `spare`, of the same rows, are used up. \pre the range is not empty; once only
+    // Fills in `root`, except its depth, and builds the tree below it. The builder owns the nodes of that tree. The
+    // range refers to rows of `primitives`; these rows of `primitives` and `spare` are overwritten.
+    // \pre the range isn't empty, and build() hasn't been called before
     ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& root);
 
 private:

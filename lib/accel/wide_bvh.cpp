@@ -13,14 +13,17 @@ namespace limn::accel {
 
 namespace {
 
-// The binary tree over all bounded boxes.
+// Builds the binary tree over all bounded boxes. Its upper part is split by grids; each range below is a job for a
+// SubtreeBuilder.
 class TreeBuilder {
 public:
-    // `indices` gets those of the primitives, at their places in the tree.
+    // `indices` receives the indices of the primitives, in the order of the leaves.
     TreeBuilder(const BuildSettings& settings, std::uint32_t* indices) : settings_(settings), indices_(indices) {}
 
+    // Builds the tree below `root`. Returns its costs.
     ForestCosts build(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& root) {
-        root.begin = range.begin, root.end = range.end;
+        root.begin = range.begin;
+        root.end = range.end;
         split(primitives, spare, range, root);
         for_all(0, jobs_.size(), 1, [this](std::size_t i) {
             Job& job = jobs_[i];
@@ -34,12 +37,13 @@ public:
 private:
     struct Job {
         BuildPrimitive *primitives, *spare;
-        Range range;  // empty where it is yet to be found out
+        Range range;  // empty if it hasn't been computed yet
         SplitNode* node;
         SubtreeBuilder builder;
         ForestCosts costs;
     };
 
+    // Splits the node by grids and adds a job for each leaf of this upper part.
     void split(BuildPrimitive* primitives, BuildPrimitive* spare, const Range& range, SplitNode& node) {
         if (node.size() <= kSubtree || !has_extent(range) || !may_split(node)) {
             jobs_.push_back({primitives, spare, range, &node, {settings_, indices_}, {}});
@@ -50,7 +54,8 @@ private:
                   *leaf);
     }
 
-    // Jobs stand in the order of their nodes, depth first.
+    // Plans the upper part. `next_job` is the job of the first leaf that hasn't been visited; jobs are in the order of
+    // their nodes, depth first.
     ForestCosts plan(SplitNode& node, std::size_t& next_job) {
         if (next_job < jobs_.size() && jobs_[next_job].node == &node) return jobs_[next_job++].costs;
         const ForestCosts left = plan((*node.children)[0], next_job), right = plan((*node.children)[1], next_job);
@@ -59,11 +64,12 @@ private:
 
     const BuildSettings& settings_;
     std::uint32_t* indices_;
-    std::deque<SplitNodes> nodes_;  // at the top
+    std::deque<SplitNodes> nodes_;  // nodes of the upper part
     std::deque<Job> jobs_;
 };
 
-// Boxes that no split by area can part stand beside the tree of all others, halved down to leaves.
+// The tree over the unbounded boxes, which the surface-area heuristic can't split. The boxes are halved by their number
+// down to leaves. The root of this tree is a child of the wide root.
 struct UnboundedTree {
     std::span<const FloatBox> boxes;
     std::span<const std::uint32_t> indices;
@@ -79,29 +85,35 @@ struct UnboundedTree {
         }
         cost += settings.node_cost;
         auto& [left, right] = add_children(node, nodes);
-        left.begin = node.begin, left.end = right.begin = node.begin + node.size() / 2, right.end = node.end;
+        left.begin = node.begin;
+        left.end = right.begin = node.begin + node.size() / 2;
+        right.end = node.end;
         for (SplitNode* child : {&left, &right}) {
             halve(*child);
             node.box.extend(child->box);
         }
         node.is_leaf = false;
-        node.open_from = kWidth, node.left_slots[kWidth] = 1;  // a wide node of two children
+        // Plan a wide node of two children.
+        node.open_from = kWidth;
+        node.left_slots[kWidth] = 1;
     }
 };
 
 }  // namespace
 
 WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& settings) {
+    // Sort the boxes into bounded and unbounded ones.
     const Gathered gathered = gather(boxes);
     const Range& range = gathered.range;
     HugeVector<std::uint32_t> indices(range.size() + gathered.unbounded.size());
     std::ranges::copy(gathered.unbounded, indices.begin() + range.size());
 
+    // Build the binary tree over the bounded boxes.
     TreeBuilder builder(settings, indices.data());
     UnboundedTree unbounded{boxes, indices, settings};
     const bool has_unbounded = !gathered.unbounded.empty();
     SplitNode root, apart{.begin = range.size(), .end = static_cast<std::uint32_t>(indices.size())};
-    Slots top;  // of the wide root
+    Slots top;  // the children of the wide root
     double cost = 0;
     if (range.size() > 0) {
         const PrimitiveArray spare = allocate_primitives(range.size());
@@ -109,11 +121,13 @@ WideBvh build_wide_bvh(std::span<const FloatBox> boxes, const BuildSettings& set
         top.add(root, has_unbounded ? kWidth - 1 : kWidth);
         cost = costs[has_unbounded ? kWidth - 2 : 0] / half_area(root.box);
     }
+    // Build the tree over the unbounded boxes beside it.
     if (has_unbounded) {
         unbounded.halve(apart);
         top.add(apart, 1);
     }
     if (top.count == 0) return {};
+    // Add the cost of the wide root, unless the plan has it, and collapse both trees.
     if (root.is_leaf || has_unbounded) cost += settings.node_cost + unbounded.cost;
     WideBvh bvh = assemble(top, std::move(indices));
     bvh.cost = cost;

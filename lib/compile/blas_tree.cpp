@@ -1,3 +1,4 @@
+// Builds the tree of one BLAS.
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
@@ -19,36 +20,39 @@ namespace limn::compiler {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;  // primitives of a task
+constexpr std::size_t kGrain = 4096;  // primitives of one task
 
 class BlasTree {
 public:
     explicit BlasTree(flat::Scene& scene) : scene_(scene) {}
 
     void build(flat::Blas& blas) {
+        // Store the sizes of the tables below the root's tree.
         if (&blas == &scene_.blases.front())
             scene_.below_root = {scene_.nodes.size(), scene_.blocks.size(),     scene_.references.size(),
                                  scene_.kinds,        scene_.stored_primitives, scene_.degenerate};
+        // Collect the primitives and their bounds.
         for (std::uint32_t i = 0; i < blas.range_count; ++i) add(blas.first_range + i);
         measure_others();
         blas.bounds = bounds_;
         blas.extent = extent_;
-        // Where float serves, boxes stay as they are.
+        // Scale the boxes only if float can't hold them. For the root, move primitives from the tree to the list.
         blas.scale = extent_ >= 0x1p-20 && extent_ < 0x1p39 ? 1 : accel::scale_to_one(extent_);
         if (&blas == &scene_.blases.front()) list();
         blas.packed_error = accel::round_up(note_what_is_left());
         scale_boxes(blas.scale);
-        // A leaf takes two to three times as long as a node (docs/tried.md).
+        // Build the tree. A leaf takes two to three times as long as a node (docs/tried.md).
         accel::WideBvh bvh = accel::build_wide_bvh(boxes_, {.max_leaf = flat::kMaxBlock, .leaf_cost = 2});
         blas.cost = bvh.cost;
         blas.root = pack_tree(std::move(bvh), boxes_, references_, scene_);
     }
 
 private:
-    // `row` of Scene::ranges.
+    // Adds the primitives of a range, a row of Scene::ranges. Triangles of meshes are measured at once, other
+    // primitives later by measure_others().
     void add(std::uint32_t row) {
         const PrimitiveRange& range = scene_.ranges[row];
-        if (range.kind == PrimitiveKind::medium) return;  // apart, see place_media
+        if (range.kind == PrimitiveKind::medium) return;  // media aren't in the tree: see place_media()
         const std::uint64_t stored = range.kind == PrimitiveKind::instance ? 1 : range.count;
         const std::size_t first = references_.size();
         if (stored + first >= flat::kLeaf) throw ArgumentError("scene: too many primitives");
@@ -60,6 +64,7 @@ private:
             others_.push_back({.reference = references_[index], .index = static_cast<std::uint32_t>(index)});
     }
 
+    // Computes the boxes of primitives that aren't in meshes.
     void measure_others() {
         accel::for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
         for (const Candidate& other : others_) {
@@ -68,7 +73,10 @@ private:
         }
     }
 
+    // Computes the boxes of the triangles of a mesh, whose first reference is `first`. Triangles without area get empty
+    // boxes.
     void measure_mesh(const PrimitiveRange& range, std::size_t first) {
+        // Compute the boxes in parallel, with their common bounds and the number of degenerate triangles.
         using Indices = oneapi::tbb::blocked_range<std::size_t>;
         struct Found {
             Box bounds;
@@ -93,6 +101,7 @@ private:
             [](const Found& a, const Found& b) {
                 return Found{merge(a.bounds, b.bounds), a.degenerate + b.degenerate};
             });
+        // Add these to the bounds and counts of the tree and the scene.
         extent_ = std::max(extent_, accel::finite_extent(found.bounds));
         bounds_.extend(found.bounds);
         mesh_bounds_.extend(found.bounds);
@@ -101,6 +110,7 @@ private:
         if (range.count > found.degenerate) scene_.kinds |= flat::bit(PrimitiveKind::mesh);
     }
 
+    // Computes the box of a primitive or instance, and the error of packing it.
     void measure(Candidate& other) const {
         const PrimitiveRange& range = scene_.ranges[other.reference.range];
         const std::uint32_t row = range.first_row + other.reference.element;
@@ -112,12 +122,14 @@ private:
                                         flat::blas_at(scene_, instance.blas).bounds);
         } else {
             primitives::with_row(scene_.rows, range.kind, row, [&](const auto& primitive) {
-                other.box = primitive.bounds(), other.packed_error = primitive.packed_error();
+                other.box = primitive.bounds();
+                other.packed_error = primitive.packed_error();
             });
         }
     }
 
-    // By a power of two: exact, but for numbers so small beside `extent_` that they become subnormal.
+    // Multiplies the boxes by a power of two, and converts those that aren't in float yet. A box of floats stays exact,
+    // except for numbers so small compared with `extent_` that they would become subnormal.
     void scale_boxes(double scale) {
         if (scale != 1)
             accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
@@ -130,7 +142,7 @@ private:
         for (const Candidate& other : others_) boxes_[other.index] = accel::to_float_box(other.box, scale);
     }
 
-    // Leaves out of the tree what is listed beside it.
+    // Fills Scene::list. The boxes of listed primitives become empty, which excludes these from the tree.
     void list() {
         if (list_all(scene_)) return;
         const std::vector<bool> is_listed = list_large(scene_, others_, mesh_bounds_);
@@ -142,10 +154,11 @@ private:
                 rest.extend(others_[i].box);
         }
         const accel::FloatBox box = accel::to_float_box(rest);
-        std::copy_n(box.lower, 3, scene_.list.rest_lower), std::copy_n(box.upper, 3, scene_.list.rest_upper);
+        std::copy_n(box.lower, 3, scene_.list.rest_lower);
+        std::copy_n(box.upper, 3, scene_.list.rest_upper);
     }
 
-    // Its kinds; returns its error by packing.
+    // Adds the kinds of the primitives left in the tree to Scene::kinds. Returns the largest error of packing them.
     double note_what_is_left() {
         double packed_error = 0;
         for (const Candidate& other : others_) {
@@ -157,12 +170,12 @@ private:
     }
 
     flat::Scene& scene_;
-    // By the index that the tree knows a primitive by.
+    // One element for each primitive: the tree is built over the indices of `boxes_`.
     std::vector<flat::Reference> references_;
     std::vector<accel::FloatBox> boxes_;
-    std::vector<Candidate> others_;  // what is not in a mesh, its box not yet in float; empty where it is listed
-    Box bounds_, mesh_bounds_;
-    double extent_ = 0;  // the largest finite coordinate
+    std::vector<Candidate> others_;  // instances, and primitives outside meshes; empty box if listed
+    Box bounds_, mesh_bounds_;       // bounds of all primitives, and of those in meshes
+    double extent_ = 0;              // the largest finite coordinate
 };
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace limn::compiler {
 
 namespace {
 
-// Every record of such a kind is in one range, which stays a range.
+// Fills the tables of the kinds with a row for each primitive. The rows of a range stay consecutive; its first_row is
+// set to their new place.
 void fill_rows(const SceneRecords& records, flat::Scene& out) {
     primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
         std::vector<Kind>& rows = std::get<std::vector<Kind>>(out.rows);
@@ -25,13 +26,16 @@ void fill_rows(const SceneRecords& records, flat::Scene& out) {
     });
 }
 
+// Moves the records to the tables of the scene.
 void move_tables(SceneRecords&& records, flat::Scene& out) {
+    // Concatenate the ranges of all BLASes.
     for (const BlasRecord& blas : records.blases) {
         flat::Blas& packed = out.blases.emplace_back();
         packed.first_range = static_cast<std::uint32_t>(out.ranges.size());
         packed.range_count = static_cast<std::uint32_t>(blas.ranges.size());
         out.ranges.insert(out.ranges.end(), blas.ranges.begin(), blas.ranges.end());
     }
+    // Fill the tables of shapes.
     fill_rows(records, out);
     out.primitives = records.blases.front().primitives;
     for (MeshRecord& mesh : records.meshes) out.meshes.push_back({std::move(mesh), {}, {}});
@@ -41,6 +45,7 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
         out.instances.emplace_back().blas = instance.blas;
         place_instance(out.instances.back(), instance.world_from_object0, instance.world_from_object1);
     }
+    // Move the other tables.
     out.materials = std::move(records.materials);
     out.textures = std::move(records.textures);
     out.images = std::move(records.images);
@@ -49,7 +54,9 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
     out.kept = std::move(records.kept);
 }
 
+// Sets the features of the scene and their names.
 void gather_features(flat::Scene& s) {
+    // Find the features.
     flat::Features& f = s.features;
     f.user_defined_shapes = !s.user_defined.empty();
     for (const flat::Instance& instance : s.instances) f.moving_instances |= instance.moving;
@@ -68,6 +75,7 @@ void gather_features(flat::Scene& s) {
     const bool has_map = s.environment.image != nullptr;
     f.background = !has_map && (!is_black(s.background_bottom) || !is_black(s.background_top));
 
+    // Write their names.
     const auto name = [&](bool present, const char* feature) {
         if (!present) return;
         if (!s.feature_names.empty()) s.feature_names += ' ';
@@ -89,7 +97,7 @@ void gather_features(flat::Scene& s) {
     name(has_map, "environment");
 }
 
-// Meshes whose vertices are all that there is of them get places, to be filled with the tree.
+// Allocates the places of meshes without normals and texture coordinates. They are filled with the tree.
 void reserve_places(flat::Scene& s) {
     for (flat::Mesh& mesh : s.meshes) {
         const MeshView& arrays = mesh.arrays;
@@ -97,7 +105,7 @@ void reserve_places(flat::Scene& s) {
     }
 }
 
-// Gives up the arrays that the tree repeats, and owners of what no user-defined object is there to use.
+// Releases the arrays of meshes whose vertices are in the tree. Releases `kept` if there are no user-defined objects.
 void release_arrays(flat::Scene& s) {
     const bool fits = s.blocks.size() / 2 * flat::kMaxBlock < flat::kNothing;
     for (flat::Mesh& mesh : s.meshes) {
@@ -113,9 +121,11 @@ void release_arrays(flat::Scene& s) {
     if (!f.user_defined_shapes && !f.user_defined_materials && !f.user_defined_textures) s.kept.clear();
 }
 
-// So few primitives have a table of their objects; those of more are found by a binary search.
+// The largest number of primitives for which a table of their objects is made. In larger scenes the object is found by
+// a binary search.
 constexpr std::uint64_t kFewPrimitives = 4096;
 
+// Makes the table of the objects of primitives.
 void name_objects(flat::Scene& s) {
     if (s.first_of_object.size() < 2 || s.primitives > kFewPrimitives) return;
     s.object_of.resize(s.primitives);
@@ -124,18 +134,21 @@ void name_objects(flat::Scene& s) {
                   static_cast<std::uint32_t>(i));
 }
 
-// Rays wait for memory where the tree is larger than the cache that a core can count on, unless they meet so many of
-// its nodes that most were asked for long before.
+// The cache that a core can count on. Rays wait for the memory of a larger tree.
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
+// The cost of a ray (Blas::cost) from which on it visits so many nodes that most are prefetched long before their
+// visit. Interleaving rays gains nothing then.
 constexpr double kCostOfManyNodes = 48;
 
+// Sets Scene::is_larger_than_cache.
 void judge_memory(flat::Scene& s) {
     const std::size_t bytes = s.nodes.size() * sizeof(s.nodes[0]) + s.blocks.size() * sizeof(s.blocks[0]);
     s.is_larger_than_cache = bytes > kCacheBytes && s.blases.front().cost < kCostOfManyNodes;
 }
 
-// Shapes that can be seen but have no material. Boundaries of media need none.
+// Counts the stored primitives without a material. Boundaries of media need none.
 void count_unassigned(flat::Scene& s) {
+    // Visit each BLAS once, from the root on.
     std::vector<bool> seen(s.blases.size(), false);
     std::vector<BlasId> open{BlasId::root};
     while (!open.empty()) {
@@ -153,6 +166,7 @@ void count_unassigned(flat::Scene& s) {
     }
 }
 
+// Returns the memory of the scene in bytes.
 std::size_t memory_of(const flat::Scene& s) {
     const auto bytes = [](const auto&... tables) {
         return (std::size_t{0} + ... + (tables.size() * sizeof(tables[0])));
@@ -178,9 +192,10 @@ std::size_t memory_of(const flat::Scene& s) {
 }  // namespace
 
 void place_instance(flat::Instance& instance, const Transform& at_time0, const Transform& at_time1) {
-    instance.world_from_object0 = at_time0, instance.world_from_object1 = at_time1;
+    instance.world_from_object0 = at_time0;
+    instance.world_from_object1 = at_time1;
     instance.moving = !(at_time0 == at_time1);
-    instance.object_from_world = instance.moving ? Transform{} : inverse(at_time0);  // or anew for each ray
+    instance.object_from_world = instance.moving ? Transform{} : inverse(at_time0);
     instance.object_from_world_error = instance.moving ? InverseError{} : inverse_error(at_time0);
 }
 
@@ -195,9 +210,11 @@ void derive(flat::Scene& s) {
 }
 
 flat::Scene flatten(const limn::Scene& scene) {
+    // Check the background.
     const auto start = std::chrono::steady_clock::now();
     require(is_radiance(scene.background.bottom), "compile: Scene::background.bottom must be finite and not negative");
     require(is_radiance(scene.background.top), "compile: Scene::background.top must be finite and not negative");
+    // Describe the objects and lights as records.
     RecordSink sink;
     flat::Scene out;
     for (const auto& object : scene.objects()) {
@@ -207,6 +224,7 @@ flat::Scene flatten(const limn::Scene& scene) {
     }
     for (const LightSource& light : scene.lights()) sink.light(record_of(light));
     if (const auto& map = scene.environment) sink.environment({map->image(), map->world_from_map(), map->scale()});
+    // Digest the records and move them to the scene's tables.
     out.unmoved_digest = digest_of_unmoved(sink.records(), scene.background);
     out.untagged = sink.records().untagged;
     const EnvironmentRecord environment = sink.records().environment;
@@ -216,6 +234,7 @@ flat::Scene flatten(const limn::Scene& scene) {
     out.name = scene.name;
     out.background_bottom = scene.background.bottom;
     out.background_top = scene.background.top;
+    // Build the trees and all that follows from them.
     reserve_places(out);
     build_trees(out);
     name_objects(out);

@@ -1,4 +1,4 @@
-// From the described to the flat scene: the only room that sees both.
+// Compiles the described scene to the flat scene. `compile` is the only room that sees both.
 #pragma once
 
 #include <span>
@@ -8,13 +8,15 @@
 
 namespace limn::compiler {
 
-// Pure. \throws ArgumentError if an object contains itself, instances nest too deep, a medium's boundary contains a
-// medium, or there are too many primitives
+// Returns the flat scene of a description. The function is pure.
+// \throws ArgumentError if an object contains itself, instances nest too deep, a medium's boundary contains a medium,
+// there are too many primitives, or the background is negative or not finite
 flat::Scene flatten(const limn::Scene& scene);
 
-// Makes of it what flatten makes of its description with some objects moved.
-// \throws ArgumentError, and does nothing, if there is no such object, it is no instance, it is moved twice, or its
-// matrices are none for an Instance
+// Moves instances of a flat scene. The scene becomes the same as if it had been flattened from a description with the
+// instances at their new places.
+// \throws ArgumentError if an object doesn't exist, isn't an instance or is moved twice, or if an Instance would reject
+// its matrices; the scene is then unchanged
 void move(flat::Scene& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn::compiler

@@ -6,7 +6,7 @@ namespace limn::compiler {
 
 namespace {
 
-// Field by field: what lies between the fields of a record is anything.
+// A checksum of records. They are added field by field, because the padding between fields isn't defined.
 class SceneChecksum {
 public:
     Hash128 digest() const { return sum_.digest(); }
@@ -16,13 +16,13 @@ public:
         (add_one(fields), ...);
     }
 
-    // With their number, as for all tables.
+    // Adds the number of records, then each record by add_record().
     template <class Record, class Function>
     void table(const std::vector<Record>& records, const Function& add_record) {
         sum_.add(std::uint64_t{records.size()});
         for (const Record& record : records) add_record(record);
     }
-    // Of numbers alone, without anything between them.
+    // Adds an array of records that consist of 4-byte numbers without padding.
     template <class Numbers>
     void array(std::span<const Numbers> numbers) {
         static_assert(sizeof(Numbers) % 4 == 0 && alignof(Numbers) == 4);
@@ -48,6 +48,7 @@ private:
     Checksum sum_;
 };
 
+// Adds the tables of textures and materials.
 void add_textures(const SceneRecords& r, SceneChecksum& sum) {
     sum.table(r.textures, [&](const TextureRecord& t) {
         sum.add(t.kind, t.filter, t.wrap, t.data, t.even, t.odd, t.scale, t.color);
@@ -73,7 +74,10 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
 void add_meshes(const SceneRecords& r, SceneChecksum& sum) {
     sum.table(r.meshes, [&](const MeshRecord& mesh) {
         const MeshView& a = mesh.arrays;
-        sum.array(a.vertices), sum.array(a.triangles), sum.array(a.normals), sum.array(a.uvs);
+        sum.array(a.vertices);
+        sum.array(a.triangles);
+        sum.array(a.normals);
+        sum.array(a.uvs);
         sum.array(a.material_slots);
         sum.table(mesh.materials, [&](MaterialId material) { sum.add(material); });
     });
@@ -82,6 +86,7 @@ void add_meshes(const SceneRecords& r, SceneChecksum& sum) {
 }  // namespace
 
 Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
+    // Add the background, textures, materials and shapes.
     SceneChecksum sum;
     sum.add(background.bottom, background.top);
     add_textures(r, sum);
@@ -93,6 +98,7 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
                 std::apply([&](const auto&... field) { sum.add(field...); }, Kind::fields(record));
             });
     });
+    // Add the structure of the scene: instances, media, user-defined objects and BLASes.
     sum.table(r.instances, [&](const InstanceRecord& i) { sum.add(i.blas); });
     sum.table(r.media, [&](const MediumRecord& m) { sum.add(m.boundary, m.phase, m.density); });
     sum.table(r.user_defined, [&](const UserDefinedRecord& f) { sum.add(f.bounds); });
@@ -102,6 +108,7 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
         });
     });
     sum.table(r.tags, [&](const std::string& tag) { sum.text(tag); });
+    // Add the lights and the environment map.
     sum.table(r.lights, [&](const LightRecord& l) {
         sum.add(l.kind, l.color, l.position, l.direction, l.cos_inner, l.cos_outer, l.one_minus_cos);
     });

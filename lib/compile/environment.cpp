@@ -1,6 +1,7 @@
-// What is drawn from a map, by rows and then along them: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed.,
-// sections A.5.3 and 12.5.2. Ours: the density is interpolated like the map, and the height is the cosine, so that no
-// sine is needed and no direction is drawn with a density of less than its share.
+// Builds the tables for sampling an environment map: first a row, then a place in the row (Pharr, Jakob, Humphreys,
+// Physically Based Rendering, 4th ed., sections A.5.3 and 12.5.2). There are two differences:
+// - The pdf is interpolated like the map, so it is proportional to the luminance everywhere.
+// - The vertical coordinate is the cosine of the angle, so no weight by the sine is needed.
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +14,9 @@ namespace limn::compiler {
 
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 16;
+constexpr std::size_t kRowsAtOnce = 16;  // rows of one task
 
-// Sums between the centres of neighbours, and the sum of all, rounded to shares of it.
+// Fills a row of Environment::column_before. Returns the sum of the row's luminance.
 double tabulate_row(const Image& image, int y, std::int32_t* before) {
     const int width = image.width();
     double all = 0;
@@ -34,6 +35,7 @@ double tabulate_row(const Image& image, int y, std::int32_t* before) {
 }  // namespace
 
 void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
+    // Sum up each row.
     if (!record.image) return;
     e.image = record.image;
     e.axes = pattern::axes_of(record.world_from_map);
@@ -45,6 +47,7 @@ void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
     accel::for_all(0, height, kRowsAtOnce, [&](std::size_t y) {
         e.row_luminance[y] = tabulate_row(image, static_cast<int>(y), &e.column_before[y * (width + 1)]);
     });
+    // Integrate each band.
     double sum = 0;
     for (std::size_t band = 0; band <= height; ++band) {
         const double upper = band == 0 ? 0 : (static_cast<double>(band) - 0.5) / static_cast<double>(height);
@@ -52,14 +55,18 @@ void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
         e.band_cosine.push_back(cosine(kPi * upper));
         e.band_before.push_back(sum);
         const double rows = e.row_luminance[band == 0 ? 0 : band - 1] + e.row_luminance[std::min(band, height - 1)];
-        // cos a - cos b, which does not cancel
+        // cos a - cos b as a product, which doesn't cancel
         sum += 2 * sine(kPi / 2 * (lower + upper)) * sine(kPi / 2 * (lower - upper)) * rows / 2;
     }
     e.band_cosine.push_back(-1);
     e.band_before.push_back(sum);
     e.luminance = 2 * kPi / static_cast<double>(width) * sum;
+    // Clear the tables if the map is black.
     if (e.luminance > 0 && e.scale > 0) return;
-    e.row_luminance = {}, e.band_cosine = {}, e.band_before = {}, e.column_before = {};
+    e.row_luminance = {};
+    e.band_cosine = {};
+    e.band_before = {};
+    e.column_before = {};
 }
 
 }  // namespace limn::compiler

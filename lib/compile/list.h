@@ -1,3 +1,4 @@
+// Chooses the primitives of Scene::list.
 #pragma once
 
 #include <span>
@@ -7,20 +8,21 @@
 
 namespace limn::compiler {
 
-// Fills Scene::list with all primitives if the scene is small and all can be told apart well in float. False if not.
-// \pre the root's extent and scale are set
+// Fills Scene::list with all primitives if the scene is small and float is precise enough for each of them. Otherwise
+// returns false. \pre the root's extent and scale are set
 bool list_all(flat::Scene& scene);
 
-// A primitive of the root, in no mesh.
+// A primitive or instance of the root BLAS. Triangles of meshes are no candidates.
 struct Candidate {
     flat::Reference reference;
     Box box{};
-    double packed_error = 0;  // how far its numbers move when they are packed as float
-    std::uint32_t index = 0;  // in the tree
+    double packed_error = 0;  // error of rounding its numbers to float
+    std::uint32_t index = 0;  // index of its box in the tree
 };
 
-// Fills Scene::list with the candidates that are so large beside the rest that most rays would come upon them in a
-// tree, and says which. `others`: bounds of what is no candidate. \pre the same
+// Fills Scene::list with the candidates that are so large compared with the rest that most rays would test them in a
+// tree anyway. Returns a flag for each candidate, true if it's listed. `others` bounds the primitives that are no
+// candidates. \pre the root's extent and scale are set
 std::vector<bool> list_large(flat::Scene& scene, std::span<const Candidate> candidates, const Box& others);
 
 }  // namespace limn::compiler

@@ -12,6 +12,7 @@ namespace limn::compiler {
 
 namespace {
 
+// Packs one tree.
 class Packer {
 public:
     Packer(accel::WideBvh& bvh, std::span<const accel::FloatBox> boxes, std::span<const flat::Reference> references,
@@ -28,15 +29,15 @@ public:
     }
 
 private:
-    static constexpr std::size_t kGrain = 1024;  // nodes or leaves
+    static constexpr std::size_t kGrain = 1024;  // nodes or leaves of one task
 
-    // Where a leaf's blocks begin, and where its references.
+    // The place of a leaf in the tables.
     struct Place {
-        std::size_t word;
-        std::uint32_t reference;
+        std::size_t word;         // first word in Scene::blocks
+        std::uint32_t reference;  // first row of Scene::references
     };
 
-    // Of the primitive with an index of the tree.
+    // Returns the range of the primitive with the given index in the tree.
     const PrimitiveRange& range_of(std::uint32_t index) const { return scene_.ranges[references_[index].range]; }
 
     void sort_by_kind(const accel::Leaf& leaf) {
@@ -46,7 +47,8 @@ private:
         std::ranges::sort(indices, {}, [&](std::uint32_t index) { return std::pair(kind_of(index), index); });
     }
 
-    // How many of the indices from `first` on share a block. `last`: where the leaf ends.
+    // Returns the number of primitives of the block that begins at row `first` of the indices. `last` is the end of the
+    // leaf.
     std::uint32_t block_size(std::uint32_t first, std::uint32_t last) const {
         const flat::Reference& reference = references_[bvh_.indices[first]];
         const PrimitiveKind kind = range_of(bvh_.indices[first]).kind;
@@ -61,7 +63,7 @@ private:
         return end - first;
     }
 
-    // visit(first index, count, kind) for each block of a leaf.
+    // Calls visit(first row of the indices, count, kind) for each block of a leaf.
     template <class Visit>
     void for_each_block(const accel::Leaf& leaf, const Visit& visit) const {
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count;) {
@@ -71,6 +73,7 @@ private:
         }
     }
 
+    // Sets the place of each leaf and enlarges the tables.
     void place_leaves() {
         std::size_t end = scene_.blocks.size(), references = scene_.references.size();
         if (end > 0) end -= flat::kSlackWords;
@@ -87,15 +90,19 @@ private:
         scene_.references.resize(references);
     }
 
+    // Writes the blocks and references of a leaf.
     void write_leaf(const accel::Leaf& leaf, Place place) {
         std::size_t at = place.word;
         std::uint32_t reference = place.reference;
         for_each_block(leaf, [&](std::uint32_t first, std::uint32_t count, PrimitiveKind kind) {
+            // Write the header.
             std::uint32_t* words = scene_.blocks.data() + at;
             const flat::Block header{kind, static_cast<std::uint8_t>(count), first + count == leaf.first + leaf.count,
                                      0, references_[bvh_.indices[first]].range};
             const auto head = std::bit_cast<std::array<std::uint32_t, 2>>(header);
-            words[0] = head[0], words[1] = head[1];
+            words[0] = head[0];
+            words[1] = head[1];
+            // Write the id and the rows of each primitive. Kinds without rows of their own have their box.
             std::uint32_t* ids = words + flat::kHeaderWords;
             const std::size_t row_count = flat::rows_of(kind);
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -116,14 +123,15 @@ private:
         });
     }
 
-    // Each triangle stands in one leaf, so that no two threads write the same place.
+    // Writes the places of the triangles of a block to their mesh. Each triangle is in one leaf, so no two threads
+    // write the same place.
     void note_places(std::uint32_t range, const std::uint32_t* ids, std::uint32_t count, std::size_t at) {
         std::vector<std::uint32_t>& places = scene_.meshes[scene_.ranges[range].first_row].places;
         for (std::uint32_t i = 0; i < count && !places.empty(); ++i)
             places[ids[i]] = static_cast<std::uint32_t>(at / 2 * flat::kMaxBlock + i);
     }
 
-    // Returns where they begin.
+    // Appends the nodes to the scene and makes their references absolute. Returns the root.
     flat::Child append_nodes() {
         const auto root = static_cast<flat::Child>(scene_.nodes.size());
         if (root == 0)
@@ -146,7 +154,7 @@ private:
     std::span<const accel::FloatBox> boxes_;
     std::span<const flat::Reference> references_;
     flat::Scene& scene_;
-    std::vector<Place> places_;  // of leaves
+    std::vector<Place> places_;  // places of the leaves
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Finds the BLASes that contain something, directly or through instances.
 #pragma once
 
 #include <vector>
@@ -6,11 +7,12 @@
 
 namespace limn::compiler {
 
-// For each BLAS, whether a range that satisfies `wanted` is in it or in a BLAS instanced in it.
+// Returns for each BLAS true if it or a BLAS instanced in it, at any depth, has a range for which wanted(range) is
+// true.
 template <class Wanted>
 std::vector<bool> blases_that_reach(const flat::Scene& scene, const Wanted& wanted) {
-    // Inner BLASes get their ids after the ones that open them, but a shared one may be older than its user: repeat
-    // until nothing changes, at most as often as BLASes nest.
+    // An inner BLAS usually has a larger id than the BLAS that contains it, so go through the ids backwards. A shared
+    // BLAS may have a smaller one, so repeat until nothing changes. There are at most as many passes as BLASes nest.
     std::vector<bool> reaches(scene.blases.size(), false);
     for (bool changed = true; changed;) {
         changed = false;

@@ -1,4 +1,4 @@
-// What compile.cpp takes one after the other, in files of their own.
+// The steps of compilation, each in a file of its own. compile.cpp calls them.
 #pragma once
 
 #include "flat/scene.h"
@@ -8,35 +8,41 @@
 
 namespace limn::compiler {
 
-// Of all that a scene's pictures depend on: the same from every compiler, instruction set and number of threads. The
-// first of all but where instances stand, the second of that and the scene's instances.
+// The digest of a scene covers everything that its pictures depend on. It is the same for every compiler, instruction
+// set and number of threads.
+
+// Returns the digest of a description without the matrices of its instances.
 Hash128 digest_of_unmoved(const SceneRecords& records, const Background& background);
+
+// Returns the digest of `unmoved_digest` and the matrices of the scene's instances.
 Hash128 digest_of(const flat::Scene& scene);
 
-// Sets its matrices and what follows from them.
+// Sets the matrices of an instance and the fields that are computed from them.
 void place_instance(flat::Instance& instance, const Transform& at_time0, const Transform& at_time1);
 
-// What follows from the tables, the trees and where instances stand: media, lights, features, the digest. Gives up
-// arrays that the trees repeat.
+// Computes media, lights, features and the digest from the tables and trees. Releases the arrays of meshes whose
+// vertices are in the trees.
 void derive(flat::Scene& scene);
 
 // Builds the tree of every BLAS. \pre the tables and the BLASes' ranges are filled
 void build_trees(flat::Scene& scene);
 
-// Of that, the tree over the primitives of one BLAS: the BLAS of an instance, or the scene's own. Sets the BLAS's
-// root, bounds, extent and scale; of the scene itself Scene::list, too. The BLASes of its instances are built already.
-// \throws ArgumentError if there are too many
+// Builds the tree of one BLAS. Sets its root, bounds, extent, scale, packed_error and cost. For the root BLAS it also
+// sets Scene::list. Throws ArgumentError if there are too many primitives.
+// \pre the BLASes of its instances are built
 void build_blas_tree(flat::Scene& scene, flat::Blas& blas);
 
-// Lists every medium where instances put it. \pre the trees are built
+// Fills Scene::media with every occurrence of a medium. \pre the trees are built
 void place_media(flat::Scene& scene);
 
-// Fills the tables by which directions towards the map are drawn; none where all is black.
+// Fills the tables for sampling directions towards the map. They stay empty if it's black or there is none.
 void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
 
-// Fills scene.lights with every emitter that can be sampled: the sources, the environment, and of a diffuse light
-// meshes, triangles, quads, disks and spheres, not under more than four moving instances, spheres not under one that
-// bends them, none with a user-defined texture. What is left out is found by scattering alone.
+// Fills Scene::lights with every emitter that can be sampled:
+// - light sources and the environment map
+// - up to 2^22 triangles, quads, disks and spheres whose material emits. Exceptions are materials with a user-defined
+//   texture or opacity, and primitives in more than four moving instances. lights.cpp has more exceptions for spheres.
+// All other emitters are found by scattering alone.
 void collect_lights(flat::Scene& scene);
 
 }  // namespace limn::compiler

@@ -1,3 +1,4 @@
+// Builds the trees of all BLASes, and lists the media.
 #include <algorithm>
 #include <string>
 
@@ -11,16 +12,19 @@ namespace limn::compiler {
 
 namespace {
 
+// Returns true for each BLAS that contains a medium.
 std::vector<bool> blases_with_media(const flat::Scene& scene) {
     return blases_that_reach(scene, [](const PrimitiveRange& r) { return r.kind == PrimitiveKind::medium; });
 }
 
+// Builds the trees of all BLASes.
 class TreeBuilder {
 public:
     explicit TreeBuilder(flat::Scene& scene)
         : scene_(scene), height_(scene.blases.size(), kUnbuilt), holds_media_(blases_with_media(scene)) {}
 
-    // A BLAS before those above it: an instance needs the bounds of its own. Returns how many instances nest below.
+    // Builds the tree of a BLAS after the trees of the BLASes in it, because an instance needs the bounds of its BLAS.
+    // Returns the depth of the instances nested in it.
     std::uint32_t build(BlasId id) {
         const auto index = static_cast<std::size_t>(id);
         if (height_[index] != kUnbuilt) return height_[index];
@@ -46,11 +50,11 @@ private:
     static constexpr std::uint32_t kUnbuilt = 0xffffffff;
 
     flat::Scene& scene_;
-    std::vector<std::uint32_t> height_;  // by BLAS
-    std::vector<bool> holds_media_;      // by BLAS
+    std::vector<std::uint32_t> height_;  // depth of the instances nested in each BLAS, or kUnbuilt
+    std::vector<bool> holds_media_;      // true for each BLAS that contains a medium
 };
 
-// Walks every path of instances that leads to a medium.
+// Fills Scene::media. It visits every path of instances that leads to a medium.
 class MediumPlacer {
 public:
     explicit MediumPlacer(flat::Scene& scene) : scene_(scene), holds_media_(blases_with_media(scene)) {
@@ -58,6 +62,7 @@ public:
     }
 
 private:
+    // Visits a BLAS, whose first primitive has the given number in the scene.
     void visit(BlasId id, std::uint64_t first_number) {
         if (!holds_media_[static_cast<std::size_t>(id)]) return;
         for (const PrimitiveRange& range : flat::ranges_of(scene_, flat::blas_at(scene_, id))) {
@@ -72,6 +77,7 @@ private:
         }
     }
 
+    // Adds one occurrence of a medium.
     void place(std::uint32_t shape, std::uint64_t number) {
         flat::Medium medium;
         medium.shape = shape;
@@ -89,6 +95,7 @@ private:
         scene_.media.push_back(medium);
     }
 
+    // Returns the largest component of the albedo, or 1 if it's unknown.
     double largest_albedo(MaterialId phase) const {
         if (phase == MaterialId::none) return 1;
         const MaterialRecord& m = scene_.materials[static_cast<std::size_t>(phase)];
@@ -97,8 +104,8 @@ private:
     }
 
     flat::Scene& scene_;
-    std::vector<bool> holds_media_;
-    std::vector<std::uint32_t> path_;
+    std::vector<bool> holds_media_;    // true for each BLAS that contains a medium
+    std::vector<std::uint32_t> path_;  // instances around the BLAS being visited, outermost first
 };
 
 }  // namespace

@@ -2,9 +2,10 @@
 
 #include <bit>
 
-#define XXH_INLINE_ALL  // who links limn needs no library for it
+#define XXH_INLINE_ALL  // compiles xxHash into this file: programs that link limn don't need its library
 #ifndef NDEBUG
-#define XXH_NO_INLINE_HINTS 1  // what is called through a pointer: g++ -Og cannot inline it, and stops
+// xxHash forces the inlining of functions that it calls through pointers. g++ -Og can't do that and reports an error.
+#define XXH_NO_INLINE_HINTS 1
 #endif
 #include <xxhash.h>
 

@@ -1,4 +1,4 @@
-// Checksums and digests by XXH3, the same on every processor.
+// Checksums and digests computed with XXH3. Their values are the same on every processor.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace limn {
 
-// Of bytes that come one after the other; how they are cut into pieces does not matter.
+// A checksum of bytes that are added one piece after the other. Only the bytes and their order count; it doesn't matter
+// how they are cut into pieces.
 class Checksum {
 public:
     Checksum();
@@ -21,22 +22,25 @@ public:
     Checksum& operator=(const Checksum&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    // A number, by its bits. Structures have padding, whose bits are anything.
+    // Adds the bytes of a number. Structures are excluded because the bytes of their padding are indeterminate.
     template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
     void add(T value) { add(std::as_bytes(std::span(&value, 1))); }
-    // With its length, so that "ab" and "c" differ from "a" and "bc".
+    // Adds the length of the text as 64 bits, then its bytes. Therefore "ab" and "c" give another digest than "a" and
+    // "bc".
     void add(std::string_view text);
 
+    // Returns the 128-bit hash of all bytes added so far.
     Hash128 digest() const;
-    std::uint64_t value() const { return digest()[0]; }  // half of it
+    // Returns the lower 64 bits of digest().
+    std::uint64_t value() const { return digest()[0]; }
 
 private:
     struct State;
     std::unique_ptr<State> state_;
 };
 
-// Checksum::value of so many bytes.
+// Returns Checksum::value() of these bytes alone.
 std::uint64_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace limn

@@ -1,7 +1,12 @@
-// Files of chunks, for films.
+// Files that consist of chunks with checksums. Films are saved in this form.
 //
-// Numbers are little endian. A file is eight letters that say what it is, and versions; then chunks, each with its
-// length before and its checksum behind; then the length of all this and the eight letters of the end.
+// A file contains, in this order:
+//   - the eight letters ChunkFormat::begin, which identify the format;
+//   - version numbers of 32 bits each;
+//   - the chunks, each of them its length in bytes (64 bits), its bytes, and their checksum() (64 bits);
+//   - the number of bytes in all of the above (64 bits);
+//   - the eight letters ChunkFormat::end.
+// Numbers are little endian.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +22,22 @@
 
 namespace limn {
 
+// The names and marks of one kind of chunk file.
 struct ChunkFormat {
-    const char* name;             // "film"
-    std::string_view begin, end;  // eight letters each
+    const char* name;             // what error messages call the file: "film"
+    std::string_view begin, end;  // the first and the last eight letters of a file
 };
 
-// Whether a file begins as those of the format do.
+// Returns true if `path` is a regular file that begins with the letters of `format`.
 bool is_chunk_file(const std::string& path, const ChunkFormat& format);
 
-// Writes one, whole or not at all. \throws FileError
+// Writes a chunk file through a FileReplacement: the file at `path` changes only when finish() is called. All members
+// throw FileError if the file cannot be written. `format` is kept by reference.
 class ChunkWriter {
 public:
     ChunkWriter(const std::string& path, const ChunkFormat& format, std::span<const std::uint32_t> versions);
     void chunk(std::span<const std::byte> bytes);
+    // Writes the end of the file and puts it in its place. To be called once, after the last chunk.
     void finish();
 
 private:
@@ -37,30 +45,36 @@ private:
 
     FileReplacement file_;
     const ChunkFormat& format_;
-    std::uint64_t length_ = 0;
+    std::uint64_t length_ = 0;  // bytes written so far
 };
 
-// Reads one, in the same order. \throws FileError
+// Reads a chunk file. The caller asks for the chunks in the order in which they were written. All members throw
+// FileError if the file cannot be read or is damaged. `format` is kept by reference.
 class ChunkReader {
 public:
-    // Reads as many versions as there is room for.
+    // Checks the first eight letters and reads versions.size() version numbers.
     ChunkReader(const std::string& path, const ChunkFormat& format, std::span<std::uint32_t> versions);
 
     const std::string& path() const { return path_; }
 
-    // `what`: for the message, "its header". Of as many bytes as there are, from `least` to `most`.
+    // Returns the bytes of the next chunk. A chunk of fewer than `least` or more than `most` bytes counts as damaged.
+    // Error messages call the chunk `what`: "its header".
     std::vector<std::byte> chunk(const char* what, std::uint64_t least = 0,
                                  std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-    // After the last chunk.
+    // Checks that the file ends here as it should. To be called after the last chunk.
     void finish();
 
-    std::uint64_t left() const { return size_ - position_; }  // in bytes
+    // Returns the number of bytes not read yet.
+    std::uint64_t left() const { return size_ - position_; }
+
+    // Throws a FileError that names the file and `problem`.
 
     [[noreturn]] void fail(const std::string& problem) const;
     [[noreturn]] void fail_damaged(const std::string& what) const { fail("is damaged: " + what); }
 
 private:
-    void require(std::uint64_t length) const;  // so many bytes are left
+    // Throws FileError if fewer than `length` bytes are left.
+    void require(std::uint64_t length) const;
     void read(std::span<std::byte> to);
 
     std::string path_;

@@ -4,7 +4,7 @@
 
 namespace limn {
 
-// IEC 61966-2-1:1999, section 5.2.
+// Both curves are defined in IEC 61966-2-1:1999, section 5.2. They are extended to negative numbers as odd functions.
 double srgb_encode(double linear) {
     const double x = std::abs(linear);
     const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * power(x, 1 / 2.4) - 0.055;

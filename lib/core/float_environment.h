@@ -1,13 +1,17 @@
-// The floating-point environment that limn's arithmetic is proved in: rounding to nearest, subnormals kept, no traps. A
-// caller may have set its thread otherwise (to flush subnormals, as other ray tracers ask for; to round upward; to trap
-// a division by zero, which the slab test does on purpose), so every entry into limn holds one of these while it works.
+// The floating-point environment that the proofs of limn's arithmetic assume: rounding to nearest, subnormals kept, no
+// traps.
+//
+// A thread that calls limn may have another environment. Other ray tracers ask their users to flush subnormals. A
+// program may round upward, or trap divisions by zero, which the slab test does on purpose. Therefore every entry into
+// limn holds a FloatEnvironment while it works.
 #pragma once
 
 namespace limn {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-// Where the caller's environment is the default one already, this only reads a register.
+// Gives the calling thread the default environment for the lifetime of this object, then restores the caller's. If the
+// caller's is the default already, this only reads a register.
 class FloatEnvironment {
 public:
     FloatEnvironment() : callers_(__builtin_ia32_stmxcsr()) {
@@ -20,14 +24,15 @@ public:
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
 private:
-    static constexpr unsigned kDefault = 0x1f80, kFlags = 0x3f;  // of MXCSR; flags are what has been raised so far
+    // The default value of the register MXCSR, and the bits that record exceptions raised so far.
+    static constexpr unsigned kDefault = 0x1f80, kFlags = 0x3f;
     bool is_changed() const { return (callers_ & ~kFlags) != kDefault; }
     unsigned callers_;
 };
 
 #else
 
-// Elsewhere the caller has to leave the environment as a program finds it.
+// On other platforms this does nothing. There the caller must not change the environment that a program starts with.
 class FloatEnvironment {
 public:
     FloatEnvironment() {}

@@ -15,8 +15,9 @@ void* allocate_on_huge_pages(std::size_t bytes) {
     void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-    if (alignment == kPage) {  // wishes: nothing depends on them
-        madvise(memory, bytes, MADV_DONTNEED);  // memory that was in use before has small pages
+    // Ask for huge pages. Both calls are hints, so their failures are ignored.
+    if (alignment == kPage) {
+        madvise(memory, bytes, MADV_DONTNEED);  // frees the small pages of memory that was used before
         madvise(memory, bytes, MADV_HUGEPAGE);
     }
 #endif

@@ -1,5 +1,5 @@
-// Memory for tables that rays read all over: on huge pages where the system has them, since most misses of a large tree
-// would miss in the TLB too.
+// Memory for tables that rays read in no order. It is on huge pages if the system has them: on small pages, most cache
+// misses in a large tree would also miss the TLB.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,12 @@
 
 namespace limn {
 
-// Aligned to 64 bytes at least. \throws std::bad_alloc
+// Allocates memory that is aligned to 64 bytes, or to 2 MiB if it is at least as large. The caller frees it with
+// free_huge_pages(). \throws std::bad_alloc
 void* allocate_on_huge_pages(std::size_t bytes);
 void free_huge_pages(void* memory) noexcept;
 
+// A standard allocator for allocate_on_huge_pages().
 template <class T>
 struct HugePageAllocator {
     using value_type = T;
@@ -25,6 +27,7 @@ struct HugePageAllocator {
     friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
 };
 
+// A deleter for std::unique_ptr to memory of allocate_on_huge_pages().
 struct HugePageDeleter {
     void operator()(void* memory) const noexcept { free_huge_pages(memory); }
 };

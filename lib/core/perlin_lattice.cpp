@@ -7,8 +7,9 @@ namespace limn {
 
 namespace {
 
-// SplitMix64: the n-th number is a hash of seed + n golden ratios (Steele, Lea, Flood, Fast Splittable Pseudorandom
-// Number Generators, OOPSLA 2014). Integers only, so the bits are the same everywhere.
+// The generator SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014). Its n-th
+// number is a hash of seed + n * 2^64 / golden ratio. It uses integers only, so its bits are the same on every
+// platform.
 class SplitMix64 {
 public:
     explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
@@ -19,24 +20,27 @@ public:
         z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
         return z ^ (z >> 31);
     }
-    // In [-1, 1), 53 bits.
+    // Returns one of 2^53 equally spaced numbers in [-1, 1).
     double next_signed() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
-    // In [0, n), n <= 256: the bias, n / 2^32 at most, is far below what 256 entries can show.
+    // Returns an integer in [0, n), n <= 256. Its bias is at most n / 2^32, too small to be seen in 256 entries.
     std::size_t next_below(std::size_t n) { return static_cast<std::size_t>(((next() >> 32) * n) >> 32); }
 
 private:
     std::uint64_t state_;
 };
 
+// Returns the unit vector along a point drawn uniformly from the cube [-1, 1)^3.
 Vec3 random_gradient(SplitMix64& random) {
     Vec3 v;
     do {
-        v.x = random.next_signed(), v.y = random.next_signed(), v.z = random.next_signed();
+        v.x = random.next_signed();
+        v.y = random.next_signed();
+        v.z = random.next_signed();
     } while (v == Vec3{});
     return normalize(v);
 }
 
-// Durstenfeld's shuffle (Algorithm 235, CACM 7(7), 1964).
+// Returns a random permutation of 0 to 255 by Durstenfeld's shuffle (Algorithm 235, CACM 7(7), 1964).
 std::array<std::uint8_t, 256> random_permutation(SplitMix64& random) {
     std::array<std::uint8_t, 256> p;
     std::iota(p.begin(), p.end(), std::uint8_t{0});

@@ -15,7 +15,7 @@ void require_readable(const std::string& path) {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw FileError(path, "there is no such file");
     if (std::filesystem::is_directory(status)) throw FileError(path, "is a folder, not a file");
-    // A pipe that nobody writes to would never end, nor would /dev/zero.
+    // Reading a pipe without a writer, or /dev/zero, would never end.
     if (!std::filesystem::is_regular_file(status)) throw FileError(path, "is not a regular file");
     errno = 0;
     if (!std::ifstream(path, std::ios::binary)) throw FileError(path, "cannot be read: " + system_message());

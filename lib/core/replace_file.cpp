@@ -22,10 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBeginning = ".limn-", kEnd = ".tmp";  // of a temporary file's name
+// The beginning and the end of the name of a temporary file.
+constexpr std::string_view kBeginning = ".limn-", kEnd = ".tmp";
 
-// Where a file-size limit is set, the system kills the process that writes beyond it, unless it blocks the signal;
-// then the write fails and can be reported.
+// Blocks the signal SIGXFSZ in the calling thread for the lifetime of this object. If a file-size limit is set, a write
+// beyond it raises this signal, which kills the process. While the signal is blocked the write fails instead and can be
+// reported.
 class FileSizeSignalBlocked {
 public:
     FileSizeSignalBlocked() {
@@ -34,8 +36,9 @@ public:
         pthread_sigmask(SIG_BLOCK, &signal_, &before_);
     }
     ~FileSizeSignalBlocked() {
+        // Consume the signal if it is pending. Otherwise it would be delivered once it is no longer blocked.
         const timespec now{};
-        if (!sigismember(&before_, SIGXFSZ)) sigtimedwait(&signal_, nullptr, &now);  // takes it back if it is pending
+        if (!sigismember(&before_, SIGXFSZ)) sigtimedwait(&signal_, nullptr, &now);
         pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     }
     FileSizeSignalBlocked(const FileSizeSignalBlocked&) = delete;
@@ -50,7 +53,8 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder.string();
 }
 
-// The file that stands, or will stand, at `path`. Checks all that needs no writing.
+// Returns the file that `path` refers to, behind all links; the file need not exist. Checks everything that can be
+// checked without writing. \throws FileError
 std::string target_of(const std::string& path) {
     if (path.empty()) throw FileError("''", "is not the name of a file");
     std::error_code error;
@@ -67,7 +71,7 @@ std::string target_of(const std::string& path) {
     return target;
 }
 
-// Temporary files that no process holds a lock on. What cannot be removed stays.
+// Removes the temporary files in `folder` that no process holds a lock on. Files that cannot be removed are ignored.
 void remove_orphans(const std::string& folder) {
     std::error_code problem;
     for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
@@ -105,7 +109,8 @@ FileReplacement::~FileReplacement() {
     if (descriptor_ >= 0) close(descriptor_);
 }
 
-// Another process may take the file for an orphan before it is locked: then there is a next one.
+// Creates and locks the temporary file. Until it is locked, another process may take it for an orphan and remove it;
+// then the next name is tried.
 void FileReplacement::create(const std::string& folder) {
     static std::atomic<unsigned> counter{0};
     const std::string beginning = folder + "/" + std::string(kBeginning) + std::to_string(getpid()) + "-";
@@ -141,7 +146,8 @@ void FileReplacement::commit() {
 
 void FileReplacement::flush() {
     const FileSizeSignalBlocked blocked;
-    if (fsync(descriptor_) != 0 && errno != EINVAL) fail("writing failed");  // EINVAL: no such service here
+    // EINVAL means that files of this kind cannot be flushed.
+    if (fsync(descriptor_) != 0 && errno != EINVAL) fail("writing failed");
 }
 
 void FileReplacement::require_contents() {
@@ -159,16 +165,18 @@ void FileReplacement::require_contents() {
 }
 
 void FileReplacement::take_the_targets_place() {
+    // Take over owner and permissions of the old file.
     struct stat old;
     if (stat(target_.c_str(), &old) == 0) {
-        // Only root can; for others the file becomes theirs.
+        // Only root may change the owner. Another user becomes the owner of the new file.
         [[maybe_unused]] const int may_fail = fchown(descriptor_, old.st_uid, old.st_gid);
         if (fchmod(descriptor_, old.st_mode & 07777) != 0) fail("its permissions cannot be kept");
     }
+    // Put the new file in place of the old one.
     if (rename(name_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
     name_.clear();
     if (close(std::exchange(descriptor_, -1)) != 0) fail("writing failed");
-    // The file is whole either way; this makes its new name last through a power cut.
+    // Flush the folder, so that the new name survives a power cut. If this fails, the file is complete all the same.
     const int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return;
     fsync(folder);
@@ -185,12 +193,12 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
 
 void check_replaceable(const std::string& path) {
     FileReplacement file(path);
-    file.write(std::vector<std::byte>(4096));  // the usual block: fails on a disk without a free one
+    file.write(std::vector<std::byte>(4096));  // the usual size of a block: fails on a disk without a free block
     file.flush();
 }
 
 std::string file_behind_links(const std::string& path) {
-    constexpr int kMostLinks = 40;  // that Linux follows
+    constexpr int kMostLinks = 40;  // Linux follows as many in one path
     std::error_code problem;
     fs::path file = fs::absolute(path, problem);
     for (int links = 0; fs::is_symlink(file, problem); ++links) {

@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Files that are replaced as a whole or not at all.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,33 @@
 
 namespace limn {
 
-// The message of the system's last error.
+// Returns the system's message for the current value of errno.
 std::string system_message();
 
-// Takes the lock of an open file, which ends with the process. False if another process has it; file systems without
-// locks give it to everybody.
+// Tries to lock an open file. The lock ends when the file is closed or the process ends. Returns false if the file is
+// locked already, by this process or another. Returns true if the file system has no locks.
 bool try_lock(int descriptor);
-// Whether the open file still has the name that it was opened by.
+// Returns true if `path` still names the open file.
 bool is_at(int descriptor, const std::string& path);
 
-// A temporary file beside `path` that takes the place of what stands there once it is complete: until then, and if that
-// never happens, everything is as it was. A file that was there keeps its permissions; a link is followed. What killed
-// processes left behind in the folder is removed.
+// A temporary file beside `path`. commit() puts it in the place of the file `path`, which is unchanged until then.
+// Without a commit() the temporary file is removed.
+//
+// If `path` is a link, the file behind it is replaced. The new file has the permissions of the old one. The constructor
+// also removes the temporary files that killed processes left in the folder.
+//
+// All members throw FileError if the file cannot be written.
 class FileReplacement {
 public:
-    // \throws FileError, as do the others
     explicit FileReplacement(const std::string& path);
     ~FileReplacement();
     FileReplacement(const FileReplacement&) = delete;
     FileReplacement& operator=(const FileReplacement&) = delete;
 
     void write(std::span<const std::byte> bytes);
-    void flush();  // to the disk
-    // Flushes what was written, reads it back, renames the file, flushes the folder.
+    // Flushes the file to the disk.
+    void flush();
+    // Flushes the file, reads it back and compares it with what was written, renames it, and flushes the folder.
     void commit();
 
 private:
@@ -41,16 +45,18 @@ private:
     void take_the_targets_place();
     [[noreturn]] void fail(const char* what) const;
 
-    std::string path_, target_, name_;  // the user's name of the target, the target, the temporary file
-    int descriptor_ = -1;
-    Checksum written_;
+    std::string path_;     // the target's name as the user gave it, for messages
+    std::string target_;   // the file to replace, behind all links
+    std::string name_;     // the temporary file; empty once it is renamed
+    int descriptor_ = -1;  // the open temporary file
+    Checksum written_;     // of all bytes written
 };
 
-// Makes `bytes` the contents of the file `path`, or leaves everything as it was. \throws FileError
+// Makes `bytes` the contents of the file `path`, as FileReplacement does. \throws FileError
 void replace_file(const std::string& path, std::span<const std::byte> bytes);
 
-// Throws what replace_file would throw for a reason that can be known beforehand: the folder, permissions, a disk
-// without a free block.
+// Throws the FileError that replace_file() would throw if its cause can be known beforehand: a missing folder, missing
+// permissions, a disk without a free block.
 void check_replaceable(const std::string& path);
 
 }  // namespace limn

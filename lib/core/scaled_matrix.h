@@ -1,4 +1,5 @@
-// The linear part of a matrix brought near 1, so that products of its entries neither underflow nor overflow.
+// A matrix whose linear part is scaled to magnitudes near 1, so that products of its entries don't overflow or
+// underflow.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 
 namespace limn {
 
-// std::ldexp(x, exponent) by a multiplication, which rounds alike, wherever that power of two is a double.
+// A factor 2^exponent. If it is a double, the product is one multiplication, else std::ldexp(x, exponent). Both round
+// alike.
 class PowerOfTwo {
 public:
     explicit PowerOfTwo(int exponent) : exponent_(exponent), factor_(std::ldexp(1.0, exponent)) {}
@@ -19,7 +21,9 @@ private:
     double factor_;
 };
 
-// m = matrix * 2^exponent, exactly but for entries that are too small beside the largest; translation left as it is.
+// The linear part of a Transform m, scaled by a power of two: its largest entry is in [1/2, 1), and m = matrix *
+// 2^exponent. This is exact except for entries that underflow because they are so much smaller than the largest. The
+// translation of `matrix` is that of m.
 struct ScaledMatrix {
     Transform matrix;
     int exponent = 0;

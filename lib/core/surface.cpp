@@ -22,8 +22,8 @@ Ray Surface::spawn_ray_to(const Point3& target, double time) const {
     const FloatEnvironment environment;
     const Point3 origin = offset_along(position, position_error, normal, target - position);
     const Vec3 direction = target - origin;
-    // A point that was computed lies off its surface by some units in the last place of its largest coordinate; seen
-    // at a grazing angle (here: down to 1/8) this is as much more along the ray.
+    // A computed target is off its surface by a few units in the last place of its largest coordinate. Along a ray this
+    // distance is divided by the cosine at the surface; the factor 8 covers cosines down to 1/8.
     const double off_surface = gamma(8) * (max_abs(target) + max_abs(origin));
     const double t_max = 1 - 8 * off_surface / max_abs(direction);
     return {origin, direction, 0, std::max(0.0, std::min(t_max, std::nextafter(1.0, 0.0))), time};

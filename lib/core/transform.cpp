@@ -12,7 +12,8 @@ namespace limn {
 
 namespace {
 
-// Exact at multiples of a quarter turn, so that permutations of the axes stay permutations.
+// Returns sine and cosine of an angle in degrees. They are exact for multiples of 90 degrees, so that a rotation which
+// permutes the axes has only the entries 0, 1 and -1.
 SineCosine<double> sine_cosine_of_degrees(double degrees) {
     const double turn = std::remainder(degrees, 360.0);
     if (turn == 0) return {0, 1};
@@ -43,7 +44,7 @@ Transform Transform::rotate_z(double degrees) {
     return {{{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, 0}}}};
 }
 
-// Rodrigues' rotation formula.
+// Builds the matrix by Rodrigues' rotation formula.
 Transform Transform::rotate(const Vec3& axis, double degrees) {
     if (!limn::is_finite(axis) || axis == Vec3{}) throw ArgumentError("rotate: the axis must be finite and not zero");
     const auto [s, c] = sine_cosine_of_degrees(degrees);
@@ -95,7 +96,9 @@ Transform inverse(const Transform& m) {
         inv.rows[i][3] = 0;
     }
     const Vec3 back = transform_vector(inv, m.translation());
-    inv.rows[0][3] = -back.x, inv.rows[1][3] = -back.y, inv.rows[2][3] = -back.z;
+    inv.rows[0][3] = -back.x;
+    inv.rows[1][3] = -back.y;
+    inv.rows[2][3] = -back.z;
     if (!is_finite(inv)) throw ArgumentError("inverse: the matrix is too close to singular");
     return inv;
 }
@@ -123,7 +126,8 @@ Normal3 transform_normal(const Transform& inverse_of_m, const Normal3& n) {
             r[0][2] * n.x + r[1][2] * n.y + r[2][2] * n.z};
 }
 
-// Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990; then outward by the rounding of the sums.
+// Transforms the intervals of the box by the method of Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems,
+// 1990. Then grows the result by the rounding error of the sums.
 Box transform_box(const Transform& m, const Box& b) {
     if (b.is_empty()) return b;
     Box out;
@@ -131,13 +135,14 @@ Box transform_box(const Transform& m, const Box& b) {
     for (std::size_t i = 0; i < 3; ++i) {
         double lower = m.rows[i][3], upper = lower, magnitude = std::abs(lower);
         for (std::size_t j = 0; j < 3; ++j) {
-            if (m.rows[i][j] == 0) continue;  // 0 times an unbounded side
+            if (m.rows[i][j] == 0) continue;  // 0 times an infinite bound would be NaN
             const double at_lower = m.rows[i][j] * b.lower[j], at_upper = m.rows[i][j] * b.upper[j];
             lower += std::min(at_lower, at_upper);
             upper += std::max(at_lower, at_upper);
             magnitude += std::max(std::abs(at_lower), std::abs(at_upper));
         }
-        out.lower[i] = lower, out.upper[i] = upper;
+        out.lower[i] = lower;
+        out.upper[i] = upper;
         rounding[i] = gamma(6) * magnitude;
     }
     return grow(out, rounding);

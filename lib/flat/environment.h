@@ -1,4 +1,4 @@
-// The light around the scene as an equirectangular map, and the tables by which directions are drawn.
+// The environment map of a scene, and the tables for sampling directions towards it.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,28 @@
 
 namespace limn::flat {
 
-// The density of a direction is its luminance, interpolated like the map between the centres of pixels: along a row
-// with the angle, between rows with the cosine of the angle to the map's y axis, by which solid angle goes. Between h
-// rows of centres and to the poles there are h + 1 bands; the first and the last have one row on both sides.
+// An equirectangular map. The pdf of a direction is proportional to the map's luminance, interpolated between the
+// centres of pixels. Interpolation is linear in the angle along a row. Between rows it is linear in the cosine of the
+// angle to the map's y axis, because solid angle is proportional to this cosine.
+//
+// h rows of pixels have h + 1 bands: h - 1 between the centres of neighbouring rows, and one from the first and the
+// last row to each pole. In these two the luminance is that of the row.
 struct Environment {
-    std::shared_ptr<const Image> image;  // null: there is none
+    std::shared_ptr<const Image> image;  // null if the scene has no map
     pattern::MapAxes axes;
-    double scale = 1;
+    double scale = 1;  // multiplies the radiance of the image
 
-    // Empty where all is black.
+    // The tables are empty if the map is black.
     std::vector<double> row_luminance;        // sum of each row of pixels
-    std::vector<double> band_cosine;          // at the upper edge of each band, and -1
-    std::vector<double> band_before;          // sums up to the upper edge of each band, and of all
-    std::vector<std::int32_t> column_before;  // of each row, up to each pixel and of all: 0 to kWhole
-    double luminance = 0;                     // integral over all directions, without the scale
+    std::vector<double> band_cosine;          // cosine at the upper edge of each band; -1 at the end
+    std::vector<double> band_before;          // integral over the bands above each band, and over all bands at the end
+    std::vector<std::int32_t> column_before;  // width + 1 for each row: sum up to each pixel's centre, 0 to kWhole
+    double luminance = 0;                     // integral of the luminance over all directions, without the scale
 
-    // What the sums of a row are rounded to: 5e-10 of the row.
+    // The integer that represents the sum of a whole row in `column_before`. The sums are rounded to 5e-10 of it.
     static constexpr std::int32_t kWhole = 0x7fffffff;
 
+    // Returns true if directions can be sampled. There are none to sample if the map is black or null.
     bool is_sampled() const { return !band_before.empty(); }
 };
 

@@ -5,8 +5,10 @@
 namespace limn::flat {
 
 Place locate(const Scene& scene, std::uint64_t number, BlasId id) {
+    // Descend from BLAS to BLAS until the primitive is reached.
     Place place;
     for (;;) {
+        // Find the range that has the number.
         const Blas& blas = blas_at(scene, id);
         const auto begin = scene.ranges.begin() + blas.first_range;
         const auto after =
@@ -15,6 +17,7 @@ Place locate(const Scene& scene, std::uint64_t number, BlasId id) {
         const auto range = after - 1;
         place.range = static_cast<std::uint32_t>(range - scene.ranges.begin());
         place.element = number - range->first_number;
+        // Enter the BLAS of an instance or a medium, or return.
         number = place.element;
         if (range->kind == PrimitiveKind::instance) {
             place.instances[place.depth++] = range->first_row;

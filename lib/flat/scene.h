@@ -1,5 +1,6 @@
-// The compiled scene: plain tables and typed ids. No virtual functions, no pointer to a described object but to
-// user-defined shapes, materials and textures, which are called through their thunks.
+// The compiled scene: plain tables, whose rows are referred to by typed ids. There are no virtual functions. The only
+// pointers to described objects are those to user-defined shapes, materials and textures, which are called through
+// function pointers.
 #pragma once
 
 #include <algorithm>
@@ -23,24 +24,27 @@
 
 namespace limn::flat {
 
-// What traversal carries: which primitive, and the t that decides between two. u, v, normal and material are worked out
-// once, for the hit that is kept.
+// The hit that traversal keeps: a primitive and its t. u, v, the normal and the material are computed once, for the
+// final hit.
 struct RawHit {
     static constexpr std::uint64_t kMiss = ~std::uint64_t{0};
     double t = kInfinity;
-    std::uint64_t primitive = kMiss;  // its number in the scene, instanced primitives counted once an instance
+    std::uint64_t primitive = kMiss;  // its number in the scene; instanced primitives count once for each instance
 };
 static_assert(sizeof(RawHit) == 16);
 
-// A primitive as a leaf names it.
+// The primitive that a leaf of the tree refers to.
 struct Reference {
     std::uint32_t range;    // row of Scene::ranges
     std::uint32_t element;  // within the range
 };
 static_assert(sizeof(Reference) == 8);
 
-// A mesh without normals and texture coordinates has no arrays but slots of its own: its vertices are those that are
-// packed in the tree, at places[triangle], a pair of words in Scene::blocks times kMaxBlock plus the lane.
+// A mesh. If it has neither normals nor texture coordinates, its vertices are stored only in the blocks of the tree,
+// and `arrays` has nothing but material slots. For such a mesh:
+// - places[i] is the place of triangle i in the tree: kMaxBlock * p + its lane in the block. The block begins at word
+//   2 p of Scene::blocks. The place is kNothing if the triangle has no area, because it isn't in the tree then.
+// - `slots` owns the material slots.
 struct Mesh : MeshRecord {
     std::vector<std::uint32_t> places, slots;
 };
@@ -48,48 +52,51 @@ using UserDefined = UserDefinedRecord;
 
 struct Instance {
     Transform world_from_object0, world_from_object1;
-    Transform object_from_world;  // of a still one
+    Transform object_from_world;  // inverse matrix of a still instance; if it moves, each ray computes its own
     BlasId blas = BlasId::root;
     bool moving = false;
-    InverseError object_from_world_error{};
+    InverseError object_from_world_error{};  // the rounding error of object_from_world
 };
 
+// Returns the matrix of the instance at a time in [0, 1].
 inline Transform world_from_object(const Instance& instance, double time) {
     return instance.moving ? interpolate(instance.world_from_object0, instance.world_from_object1, time)
                            : instance.world_from_object0;
 }
 
-// Primitives under one tree. Numbers count from 0 in each BLAS.
+// The primitives of one tree (a bottom-level acceleration structure). They are numbered from 0 in each BLAS.
 struct Blas {
     Child root = kNothing;
     std::uint32_t first_range = 0;  // rows of Scene::ranges, sorted by first_number
     std::uint32_t range_count = 0;
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
-    float packed_error = 0;  // how far packed numbers are from those that they stand for: 0 where those are floats
-    double cost = 0;         // expected, of a ray that meets the bounds: see accel::BuildSettings
-    double scale = 1;        // of the nodes' boxes: a power of two, which keeps them in the range of float
+    float packed_error = 0;  // the largest error of rounding a primitive to the floats of its block
+    double cost = 0;         // expected cost of a ray that intersects the bounds: see accel::BuildSettings
+    double scale = 1;        // multiplies the nodes' boxes: a power of two that keeps them in the range of float
 };
 
-// A medium where it stands in the scene: seen through instances, outermost first.
+// One occurrence of a medium in the scene, with the instances that contain it, outermost first.
 struct Medium {
     std::uint32_t shape = 0;           // row of Scene::medium_shapes
-    std::uint32_t first_instance = 0;  // in Scene::medium_instances
+    std::uint32_t first_instance = 0;  // row of Scene::medium_instances
     std::uint32_t instance_count = 0;
-    std::uint64_t first_number = 0;  // of its boundary's primitives, in the scene
-    Box bounds;                      // in world space
-    double scattered = 1;            // share of the extinction that may scatter: the largest albedo, 1 where unknown
+    std::uint64_t first_number = 0;  // number in the scene of the first primitive of its boundary
+    Box bounds;                      // bounds in world space
+    double scattered = 1;            // upper bound of the albedo; 1 if it's unknown
 };
 
+// Optional features that the scene uses.
 struct Features {
     bool moving_instances = false, user_defined_shapes = false;
     bool user_defined_materials = false, user_defined_textures = false;
-    bool texture_coordinates = false;  // may be asked for by a texture or a user-defined material
-    bool tangents = false;             // the same of Surface::dp_du and dp_dv
+    bool texture_coordinates = false;  // true if a texture or user-defined material may use them
+    bool tangents = false;             // true if a material may use Surface::dp_du and dp_dv
     bool background = false;
 };
 
-// What there is before the scene's own tree, the last, is built. Moving instances leaves it as it is.
+// The sizes of the tables before the root's tree is built, which is the last. When instances move, the tables are cut
+// to these sizes and only the root's tree is rebuilt.
 struct BelowRoot {
     std::size_t nodes = 0, block_words = 0, references = 0;
     std::uint64_t kinds = 0;
@@ -98,7 +105,7 @@ struct BelowRoot {
 
 struct Scene {
     std::string name;
-    primitives::Tables rows;  // of kinds with one for each primitive
+    primitives::Tables rows;  // the tables of kinds that have a row for each primitive
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<UserDefined> user_defined;
@@ -108,14 +115,14 @@ struct Scene {
     std::vector<Reference> references;
     HugeVector<Node> nodes;
     HugeVector<std::uint32_t> blocks;            // see Block
-    PrimitiveList list;                          // of small scenes, and of large primitives beside the tree
-    bool is_larger_than_cache = false;           // so that batches of rays are better off waiting for memory by turns
+    PrimitiveList list;                          // all primitives of a small scene, or the large ones
+    bool is_larger_than_cache = false;           // true if a batch should interleave its rays to hide memory latency
     std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
-    std::vector<std::uint32_t> object_of;        // by number, in scenes of few primitives, where a search would show
+    std::vector<std::uint32_t> object_of;        // object of each primitive; empty in scenes of many primitives
 
     std::vector<MediumRecord> medium_shapes;
     std::vector<Medium> media;
-    double media_extent = 0;  // the largest finite coordinate of their bounds
+    double media_extent = 0;  // the largest finite coordinate of the bounds of media
     std::vector<std::uint32_t> medium_instances;
     LightTable lights;
 
@@ -124,18 +131,18 @@ struct Scene {
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
     std::vector<LightRecord> light_sources;
-    Color background_bottom, background_top;  // unless there is an environment
+    Color background_bottom, background_top;  // used if there is no environment map
     Environment environment;
 
-    // Of each object, or null: of the material slots of its meshes but the first.
+    // Scene::material_names of each object, or null.
     std::vector<std::shared_ptr<const std::vector<std::string>>> material_names;
     std::vector<std::shared_ptr<const void>> kept;  // owners of arrays and user-defined objects
     Features features;
-    unsigned kinds = 0;  // of primitives in the trees: see bit()
+    unsigned kinds = 0;  // set of the kinds of primitives in the trees: see bit()
     std::string feature_names;
-    Hash128 digest{};  // of what was compiled, and the part of it that moving instances leaves as it is
-    Hash128 unmoved_digest{};
-    bool untagged = false;  // it has user-defined objects that the digest does not know
+    Hash128 digest{};          // digest of the description
+    Hash128 unmoved_digest{};  // digest of the description without the matrices of instances
+    bool untagged = false;     // true if it has user-defined objects that the digest doesn't cover
     std::uint64_t primitives = 0, stored_primitives = 0, degenerate = 0;
     BelowRoot below_root;
     std::size_t unassigned = 0;  // stored primitives without a material
@@ -143,22 +150,23 @@ struct Scene {
     double compile_seconds = 0;
 };
 
-// Instances may nest this deep, those of a medium's boundary included.
+// The greatest depth of nested instances, including those in the boundary of a medium.
 inline constexpr std::uint32_t kMaxNesting = 16;
 
-// Where a primitive stands: the instances around it, outermost first, then its range and place in it.
+// The position of a primitive in the tables: the instances that contain it, outermost first, its range, and its index
+// in the range.
 struct Place {
     std::uint32_t instances[kMaxNesting];
     std::uint32_t depth = 0;
-    std::uint32_t range = 0;
+    std::uint32_t range = 0;  // row of Scene::ranges
     std::uint64_t element = 0;
-    bool index_matched = false;  // part of a medium's boundary
+    bool index_matched = false;  // true if it belongs to the boundary of a medium
 };
 
-// \pre number < primitives of the BLAS
+// Finds the primitive with the given number in a BLAS. \pre number < number of primitives of the BLAS
 Place locate(const Scene& scene, std::uint64_t number, BlasId blas = BlasId::root);
 
-// The object that a primitive belongs to.
+// Returns the number of the object that a primitive belongs to.
 inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
     if (!scene.object_of.empty()) return scene.object_of[number];
     if (scene.first_of_object.size() <= 1) return 0;
@@ -166,19 +174,20 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
     return static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
 }
 
-// Of one primitive; none for those without a row of their own, and for user-defined shapes, which tell theirs with each
-// hit.
+// Returns the material of one primitive. Returns `none` for instances and media, and for user-defined shapes, which
+// return their material with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
-// Whether it has an opacity (limn/material/alpha_mask.h).
+// Returns true if the material has an opacity (limn/material/alpha_mask.h).
 inline bool has_holes(const MaterialRecord& material) {
     return material.details && material.details->opacity != TextureId::none;
 }
 
-// Exactly as described.
+// Returns the vertices of a triangle of a mesh, exactly as described.
+// \pre if the mesh has no arrays, the triangle is in the tree
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element);
 
-// visit(the row of a primitive, or the triangle of a mesh), if there is one.
+// Calls visit() with the row of a primitive or with the triangle of a mesh. Does nothing for kinds without a table.
 template <class Visit>
 void with_primitive(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Visit& visit) {
     if (range.kind == PrimitiveKind::mesh)

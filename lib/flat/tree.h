@@ -1,4 +1,5 @@
-// The tree that rays walk through: nodes of eight boxes, and leaves of blocks in which primitives are packed for SIMD.
+// The tree that rays traverse: nodes of eight boxes, and leaves made of blocks, in which primitives are packed for
+// SIMD.
 #pragma once
 
 #include <array>
@@ -13,31 +14,35 @@
 
 namespace limn::flat {
 
-// Boxes are scaled by Blas::scale and rounded outward to float. A leaf is named by where its first block starts, in
-// pairs of words.
+// Boxes are multiplied by Blas::scale and rounded outward to float. The Child of a leaf is kLeaf | the place of its
+// first block in Scene::blocks, in pairs of words.
 using accel::Node, accel::Child, accel::kLeaf, accel::kNothing, accel::kWidth;
 
-// The primitives of a leaf, or some of them, all of one kind. In words of 32 bits: this header; an id for each; rows of
-// floats, one number for each primitive in a row; a word of padding if the sum is odd. SIMD reads past the end of a
-// row, so kSlackWords follow the last block.
-//
-// mesh: id is the triangle, `range` the mesh's. Others: id is the row of Scene::references.
+// The header of a block. A block has up to kMaxBlock primitives of a leaf, all of one kind. It consists of 32-bit
+// words:
+// - this header
+// - an id for each primitive: the triangle of a mesh, or a row of Scene::references for other kinds
+// - rows of floats, with one number for each primitive in a row
+// - a word of padding if the number of words is odd
+// SIMD loads read past the end of a row, so kSlackWords follow the last block.
 struct Block {
     PrimitiveKind kind;
     std::uint8_t count;
-    bool last;  // of its leaf
+    bool last;  // true for the last block of its leaf
     std::uint8_t unused;
-    std::uint32_t range;
+    std::uint32_t range;  // row of Scene::ranges; used for meshes
 };
 static_assert(sizeof(Block) == 8);
 
 inline constexpr std::size_t kHeaderWords = sizeof(Block) / 4, kSlackWords = 16, kMaxBlock = 8;
 
-// Rows of a kind: the three vertices of a triangle or of half a quad, x y z of each; a sphere's centre and radius, a
-// moving one's two centres and radius; of others the box, as in a node.
+// The number of rows of each kind. The rows hold:
+// - x y z of the three vertices of a triangle, or of three corners of a quad
+// - the centre and radius of a sphere; both centres and the radius of a moving sphere
+// - the box of any other primitive, as in a node
 inline constexpr std::size_t kBoxRows = 6, kMostRows = 9;
 inline constexpr auto kRowsOf = [] {
-    std::array<std::uint8_t, 32> rows;  // by kind
+    std::array<std::uint8_t, 32> rows;  // indexed by kind
     rows.fill(kBoxRows);
     rows[static_cast<std::size_t>(PrimitiveKind::mesh)] = kMostRows;
     primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
@@ -48,21 +53,23 @@ inline constexpr auto kRowsOf = [] {
 }();
 constexpr std::size_t rows_of(PrimitiveKind kind) { return kRowsOf[static_cast<std::size_t>(kind)]; }
 
+// Returns the number of words of a block with `count` primitives.
 constexpr std::size_t words_of(PrimitiveKind kind, std::size_t count) {
     return (kHeaderWords + count * (1 + rows_of(kind)) + 1) / 2 * 2;
 }
 
-// Sets of kinds: a bit for each.
+// Returns the bit of a kind in a set of kinds.
 constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
 
 inline constexpr unsigned kPlanarKinds =
     bit(PrimitiveKind::triangle) | bit(PrimitiveKind::quad) | bit(PrimitiveKind::mesh);
 
-// A block where it lies among the words.
+// Gives access to a block in Scene::blocks.
 struct BlockView {
     const std::uint32_t* words;
 
-    // Part by part: the walk takes 2 to 5 instructions a ray less than by words, where there are shapes beside meshes.
+    // Reads the header field by field. In scenes with shapes beside meshes, this saves 2 to 5 instructions a ray
+    // compared with reading words.
     Block header() const {
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
         return {static_cast<PrimitiveKind>(bytes[offsetof(Block, kind)]), bytes[offsetof(Block, count)],
@@ -70,13 +77,13 @@ struct BlockView {
     }
     std::uint32_t id(std::size_t i) const { return words[kHeaderWords + i]; }
     const std::uint32_t* rows(std::size_t count) const { return words + kHeaderWords + count; }
-    // \pre count is the header's
+    // Returns a number of primitive i. \pre `count` is that of the header
     float number(std::size_t count, std::size_t row, std::size_t i) const {
         return std::bit_cast<float>(rows(count)[row * count + i]);
     }
 };
 
-// A triangle of a mesh.
+// Returns triangle i of a block of a mesh. \pre `count` is that of the header
 inline TriangleVertices packed_triangle(const BlockView& block, std::size_t count, std::size_t i) {
     const auto vertex = [&](std::size_t row) {
         return Point3{block.number(count, row, i), block.number(count, row + 1, i), block.number(count, row + 2, i)};

@@ -18,7 +18,7 @@ double square(double x) { return x * x; }
 
 double encode_clamped(double linear) { return srgb_encode(std::clamp(linear, 0.0, 1.0)); }
 
-// The share of the sum of `errors` that the worst 0.1 % of them carry, at least one. Reorders them.
+// Returns the share of the worst 0.1 % of `errors`, but at least one of them, in their sum. Reorders the errors.
 double share_of_worst(std::vector<double>& errors, double sum) {
     const std::size_t count = (errors.size() + 999) / 1000;
     const auto end = errors.begin() + static_cast<std::ptrdiff_t>(count);
@@ -28,9 +28,10 @@ double share_of_worst(std::vector<double>& errors, double sum) {
     return sum > 0 ? worst / sum : kNaN;
 }
 
-// `reference(i)` is value i of the reference, in double.
+// Compares a test image with a reference. reference(i) returns value i of the reference in double.
 template <class Reference>
 ImageMetrics compare(const Image& test, Reference reference) {
+    // Sum up the errors of all values, and find the largest.
     const std::span<const float> values = test.values();
     ImageMetrics m;
     std::size_t largest = 0;
@@ -41,7 +42,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
         m.nonfinite_test += !std::isfinite(x);
         m.nonfinite_reference += !std::isfinite(r);
         if (!std::isfinite(difference)) {
-            if (m.valid) largest = i;  // an invalid comparison points to the first value that spoilt it
+            if (m.valid) largest = i;  // an invalid comparison reports the first value that isn't finite
             m.valid = false;
             continue;
         }
@@ -52,6 +53,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
         encoded_mse += square(encode_clamped(x) - encode_clamped(r));
         if (m.valid && relative[i] > relative[largest]) largest = i;
     }
+    // Store the position of the largest.
     const std::size_t pixel = largest / 3, width = static_cast<std::size_t>(test.width());
     m.largest_x = static_cast<int>(pixel % width);
     m.largest_y = static_cast<int>(pixel / width);
@@ -59,6 +61,7 @@ ImageMetrics compare(const Image& test, Reference reference) {
         m.relative_mse = m.mse = m.smape = m.psnr_srgb = m.largest_relative = m.worst_share = kNaN;
         return m;
     }
+    // Compute the means.
     const double n = static_cast<double>(values.size());
     m.largest_relative = std::sqrt(relative[largest]);
     m.worst_share = share_of_worst(relative, m.relative_mse);
@@ -88,7 +91,7 @@ ImageMetrics compare_images(const Image& test, const Image& reference_a, const I
         return m;
     }
     for (std::size_t i = 0; i < a.size(); ++i) {
-        m.reference_relative_mse += relative_squared_error(a[i], mean(i));  // half of what the halves differ by
+        m.reference_relative_mse += relative_squared_error(a[i], mean(i));  // a - mean = (a - b) / 2
     }
     m.reference_relative_mse /= static_cast<double>(a.size());
     m.corrected_relative_mse = m.relative_mse - m.reference_relative_mse;

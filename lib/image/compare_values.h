@@ -1,4 +1,4 @@
-// What all comparisons of two images begin with.
+// Shared parts of the comparisons of two images.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace limn {
 
-// What relMSE adds to the squared reference, so that dark pixels do not dominate.
+// The constant that relMSE adds to the squared reference, so that dark pixels don't dominate.
 inline constexpr double kDarkness = 0.01;
 
-// The reference's value whose two halves these are.
+// Returns the value of the reference that is given as two halves: their mean.
 inline double mean_of_halves(float a, float b) { return (static_cast<double>(a) + b) / 2; }
 
+// Returns the term of relMSE for a value x of the test image and a value r of the reference.
 inline double relative_squared_error(double x, double r) { return (x - r) * (x - r) / (r * r + kDarkness); }
 
-// \throws ArgumentError
+// Throws ArgumentError if the sizes differ or the images are empty.
 inline void require_same_size(const Image& test, const Image& reference, const std::string& function) {
     const auto size = [](const Image& i) { return std::to_string(i.width()) + " x " + std::to_string(i.height()); };
     if (test.width() != reference.width() || test.height() != reference.height())

@@ -9,7 +9,7 @@ namespace limn {
 
 namespace {
 
-// Round half up, as other writers do. A NaN is less than nothing.
+// Returns a value in 8 bits. It is clamped to [0, 1], and halves are rounded up, as other writers do. NaN becomes 0.
 std::uint8_t to_byte(double encoded) {
     const double clamped = encoded > 0 ? std::min(encoded, 1.0) : 0;
     return static_cast<std::uint8_t>(std::floor(255 * clamped + 0.5));

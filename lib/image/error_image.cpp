@@ -10,7 +10,7 @@ namespace limn {
 
 namespace {
 
-// `reference(i)` is value i of the reference, in double.
+// Returns the relative squared errors of a test image. reference(i) returns value i of the reference in double.
 template <class Reference>
 Image relative_errors(const Image& test, const Reference& reference) {
     Image error(test.width(), test.height());
@@ -21,11 +21,12 @@ Image relative_errors(const Image& test, const Reference& reference) {
     return error;
 }
 
-// Encoded as sRGB; a decade between neighbours.
+// The colours of the scale, encoded as sRGB. Neighbours are a decade apart.
 constexpr Color kScale[] = {{0, 0, 0},        {0.05, 0.1, 0.5}, {0.45, 0.1, 0.55}, {0.8, 0.15, 0.25},
                             {0.95, 0.5, 0.1}, {1, 0.9, 0.3},    {1, 1, 1}};
-constexpr double kLowestDecade = -6;
+constexpr double kLowestDecade = -6;  // log10 of the error at the first colour
 
+// Returns the linear colour of an error.
 Color colour_of(double error) {
     if (std::isnan(error)) return {0, 1, 0};
     constexpr double kLast = static_cast<double>(std::size(kScale)) - 1;

@@ -11,7 +11,7 @@ Image::Image(int width, int height, const Color& fill) : width_(width), height_(
     const std::string size = std::to_string(width) + " x " + std::to_string(height);
     if (width <= 0 || height <= 0) throw ArgumentError("Image: both sides must be positive, not " + size);
     try {
-        values_.resize(offset(0, height));  // just behind the last row
+        values_.resize(offset(0, height));  // the offset of the first pixel past the end
     } catch (const std::exception&) {       // bad_alloc or length_error
         throw ArgumentError("Image: there is not enough memory for " + size + " pixels");
     }

@@ -5,7 +5,8 @@
 
 namespace limn {
 
-// Of keys without gaps, in which equal numbers have equal bytes: no -0.
+// A hash of the bytes of a key. The key must have no padding, and equal keys must have equal bytes: it may not contain
+// -0.
 struct BytesHash {
     template <class Key>
     std::size_t operator()(const Key& key) const {

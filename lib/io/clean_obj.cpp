@@ -13,9 +13,11 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// tinyobjloader reads a line in time that grows with its square where a sanitizer watches its calls of the C library.
+// The largest number of corners on a line of the text for tinyobjloader. Under a sanitizer that intercepts calls of the
+// C library, tinyobjloader takes a time that grows with the square of a line's length.
 constexpr std::size_t kCornersPerLine = 1000;
 
+// Implements clean_obj(): checks the lines of an OBJ, one after the other, and collects the text for tinyobjloader.
 class ObjCleaner {
 public:
     ObjCleaner(std::string_view text, const std::string& path, ObjFile& file, Model& model)
@@ -48,10 +50,11 @@ private:
         } else if (key == "mtllib") {
             file_.libraries.push_back({std::string(lines_.name()), lines_.number()});
         } else if (key == "o") {
-            object_ = lines_.name(), group_.clear();
+            object_ = lines_.name();
+            group_.clear();
         } else if (key == "g") {
             group_ = lines_.name();
-        } else if (!is_one_of(key, {"s", "l", "p"})) {  // known and not used
+        } else if (!is_one_of(key, {"s", "l", "p"})) {  // smoothing groups, lines and points are not used
             return pass_over(key);
         }
         has_statement_ = true;
@@ -62,8 +65,8 @@ private:
         passed_over_.add(lines_.number());
     }
 
-    // All words must be numbers; the first `kept` go on, where tinyobjloader takes missing ones as 0. What follows (a
-    // weight, a vertex colour) is not used.
+    // Checks that all words after the first are numbers, at least `needed` of them. Writes the first `kept`;
+    // tinyobjloader takes missing ones for 0. The rest (a weight, a vertex colour) is not used. Adds 1 to `count`.
     void numbers(const Words& words, std::size_t needed, std::size_t kept, std::size_t& count) {
         if (words.size() <= needed)
             lines_.fail(std::string(words[0]) + " needs " + std::to_string(needed) + " numbers");
@@ -87,18 +90,20 @@ private:
         corners_ += words.size() - 1;
     }
 
-    // v, v/vt, v//vn or v/vt/vn; an empty vt or vn counts as left out.
+    // Checks and writes a corner of a face: v, v/vt, v//vn or v/vt/vn. An empty vt or vn counts as left out.
     void corner(std::string_view word) {
         const std::size_t counts[3] = {vertices_, uvs_, normals_};
         const char* names[3] = {"vertex", "texture coordinate", "normal"};
         std::string_view parts[3];
         std::string_view rest = word;
+        // Split the word at its slashes.
         for (std::string_view& part : parts) {
             part = rest.substr(0, rest.find('/'));
             rest.remove_prefix(std::min(rest.size(), part.size() + 1));
         }
         const bool too_many = std::count(word.begin(), word.end(), '/') > 2;
         if (parts[0].empty() || too_many) lines_.fail(in_quotes(word) + " is not a corner of a face");
+        // Write the indices that are given.
         text_ += ' ';
         for (std::size_t i = 0; i < 3; ++i) {
             if (i == 2 && parts[2].empty()) break;
@@ -108,7 +113,8 @@ private:
         }
     }
 
-    // Counted from 1. Forward references are legal, so what lies behind the last element is found out at the end.
+    // Converts an index of a corner to one that is counted from 1. A negative index counts back from the last of the
+    // `count` elements so far. A positive one may refer to a later element; parse_obj() checks it when all are known.
     int index(std::string_view word, std::size_t count, const char* name) {
         const auto refuse = [&](const std::string& problem) {
             lines_.fail("a face refers to " + std::string(name) + " " + shortened(word) + ", " + problem);
@@ -125,13 +131,14 @@ private:
         return static_cast<int>(value);
     }
 
-    // If the next face is of another part than the last one.
+    // Starts a new part of the model if the object or the group has changed since the last face.
     void begin_part() {
         const ModelPart last = model_.parts.empty() ? ModelPart{} : model_.parts.back();
         if (object_ != last.object || group_ != last.group)
             model_.parts.push_back({object_, group_, file_.faces.size()});
     }
 
+    // Makes `name` the material of the faces that follow.
     void material(const std::string& name) {
         const auto [found, is_new] = slots_.try_emplace(name, static_cast<std::uint32_t>(slots_.size()) + 1);
         if (is_new) model_.materials.push_back(name);
@@ -142,12 +149,14 @@ private:
     ObjFile& file_;
     Model& model_;
     std::string text_;
-    std::map<std::string, std::uint32_t> slots_;  // of materials
+    std::map<std::string, std::uint32_t> slots_;  // the material slot of each name
+    // The slot, object and group of the faces that follow.
     std::uint32_t slot_ = 0;
-    std::string object_, group_;  // of the faces that follow
+    std::string object_, group_;
+    // The numbers of elements so far.
     std::size_t vertices_ = 0, uvs_ = 0, normals_ = 0, corners_ = 0;
     PassedOver passed_over_;
-    std::string first_word_;
+    std::string first_word_;  // the first word of the first line that was passed over
     bool has_statement_ = false;
 };
 

@@ -1,8 +1,8 @@
-// The only source that holds stb_image; its functions stay in here.
+// Decodes pictures with stb_image. This is the only source that contains stb_image, and its functions are static.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
-// Zeros where stb would read what a broken file left unset: then it reads the same every time.
+// stb reads memory that a broken file has left unset. Zeroed memory makes the result the same every time.
 #include <cstdlib>
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
@@ -27,12 +27,13 @@ namespace limn {
 
 namespace {
 
+// Sets the transfer function that a PNG states. An sRGB chunk takes precedence over a gAMA chunk.
 void read_png_transfer(std::span<const std::byte> bytes, StoredImage& image) {
     for (const PngChunk& chunk : png_header_chunks(bytes)) {
         if (chunk.type == "sRGB") {
             image.transfer = Transfer::srgb;
         } else if (chunk.type == "gAMA" && chunk.data.size() == 4 && image.transfer == Transfer::unsaid) {
-            // Of encoding, times 100000 (PNG specification, 11.3.3.2).
+            // The chunk states the exponent of encoding, times 100000 (PNG specification, 11.3.3.2).
             const std::uint64_t gamma = big_endian(chunk.type_and_data, 4, 4);
             if (gamma == 0) continue;
             image.transfer = Transfer::power;
@@ -41,7 +42,8 @@ void read_png_transfer(std::span<const std::byte> bytes, StoredImage& image) {
     }
 }
 
-// Hands the bytes out and notes whether more were asked for: stb fills what is missing with zeros and says nothing.
+// Gives stb the bytes of a file, and records if stb asks for more than there are. stb itself fills the missing pixels
+// with zeros and reports no error.
 class Reader {
 public:
     Reader(FileFormat format, std::span<const std::byte> bytes) : rest_(bytes), is_hdr_(format == FileFormat::hdr) {}
@@ -60,7 +62,8 @@ private:
         rest_ = rest_.subspan(count);
         if (count > 0) return static_cast<int>(count);
         overran_ = true;
-        // With zeros behind its end stb would unpack an HDR for ever; line feeds end its header and fill its rows.
+        // After the end of an HDR, return line feeds: they end its header and fill its rows. With zeros, stb would
+        // never stop unpacking.
         if (!is_hdr_) return 0;
         std::memset(to, '\n', static_cast<std::size_t>(size));
         return size;
@@ -75,13 +78,15 @@ private:
     bool is_hdr_, overran_ = false;
 };
 
-// Calls one of stb's functions.
+// Calls one of stb's functions with the reader's callbacks.
 template <class Function, class... Arguments>
 auto call(Function function, Reader& reader, Arguments... arguments) {
     const stbi_io_callbacks callbacks = Reader::callbacks();
     return function(&callbacks, &reader, arguments...);
 }
 
+// Decodes the pixels with `load`, one of stb's functions, and stores them in the image.
+// \throws FileError naming `name` if stb fails or the file ends too early
 template <class T, class Load>
 void read_values(Reader reader, StoredImage& image, const std::string& name, Load load) {
     int channels_in_file;
@@ -105,7 +110,8 @@ ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, c
     const char* type = format == FileFormat::hdr                           ? "float"
                        : call(stbi_is_16_bit_from_callbacks, depth_reader) ? "uint16"
                                                                            : "uint8";
-    // Of a PNG without a palette stb does not count the colour that is transparent (11.3.2.1), but it reads its alpha.
+    // A PNG without a palette may state one transparent colour in a tRNS chunk (PNG specification, 11.3.2.1). stb does
+    // not count the alpha channel that results from it, but decodes it.
     const auto is_transparency = [](const PngChunk& chunk) { return chunk.type == "tRNS"; };
     if (format == FileFormat::png && channels % 2 == 1)
         channels += std::ranges::any_of(png_header_chunks(bytes), is_transparency) ? 1 : 0;

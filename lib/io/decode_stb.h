@@ -6,12 +6,13 @@
 
 namespace limn {
 
-// Decodes a PNG, JPEG, HDR, BMP or TGA file in memory, which was found sound. Of the pixels the first channels, at most
-// `most`.
+// Decodes the first channels, at most `most`, of a PNG, JPEG, HDR, BMP or TGA file in memory. \pre require_sound() has
+// accepted the file.
 // \throws FileError naming `name`
 StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name, int most = 3);
 
-// Reads the header alone. \throws FileError naming `name`
+// Reads the size and the channels of such a file, and decodes no pixels. \pre require_sound() has accepted the file.
+// \throws FileError naming `name`
 ImageInfo decode_info_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace limn

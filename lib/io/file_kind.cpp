@@ -14,17 +14,19 @@ namespace {
 
 using namespace std::string_view_literals;
 
+// The bytes by which a kind of file is recognised: `beginning` at its start and `also` at byte `place`. `also` never
+// decides alone, because a text might have the same bytes there.
 struct Mark {
     std::string_view beginning;
     FileKind kind;
-    std::size_t place = 0;  // of `also`, which text might hold there: it never decides alone
+    std::size_t place = 0;
     std::string_view also{};
 };
 
 constexpr bool kMayBeText = true;
 
-// The first that fits. UTF-32 begins with the mark of UTF-16. Boxes of AVIF and HEIF begin with their size in four
-// bytes.
+// The first mark that fits decides. UTF-32 is before UTF-16 because its mark begins with the mark of UTF-16. AVIF and
+// HEIF begin with the size of a box in four bytes.
 constexpr Mark kMarks[] = {
     {"\xff\xfe\0\0"sv, {"UTF-32 text"}},
     {"\0\0\xfe\xff"sv, {"UTF-32 text"}},
@@ -88,7 +90,7 @@ bool is_ascii_stl(std::string_view contents) {
     return begins_with_solid(contents) && (holds("facet") || holds("FACET") || holds("endsolid"));
 }
 
-// Without a byte order mark: every other byte of Latin text is zero.
+// Recognises UTF-16 without a byte order mark: in Latin text, every other byte is zero.
 bool is_utf16(std::string_view contents) {
     const std::string_view beginning = contents.substr(0, contents.size() < 64 ? contents.size() / 2 * 2 : 64);
     for (const std::size_t zero : {0u, 1u}) {
@@ -117,13 +119,15 @@ bool begins_with_solid(std::string_view contents) {
 FileKind kind_of_contents(std::string_view contents) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(contents));
     constexpr FileKind kStl{"an STL model", {}, false, ModelFormat::stl};
-    if (is_binary_stl(contents)) return kStl;  // whose header may hold anything, also another format's mark
+    // Test for a binary STL first: its header may hold anything, also the mark of another format.
+    if (is_binary_stl(contents)) return kStl;
     for (const Mark& mark : kMarks)
         if (has(contents, mark)) return mark.kind;
     if (is_pnm(contents)) return {"a PNM picture"};
     if (is_ascii_stl(contents)) return kStl;
     if (is_utf16(contents)) return {"UTF-16 text"};
     if (looks_like_tga(bytes)) return {"a TGA picture", FileFormat::tga};
+    // A glTF is a JSON object with the member "asset".
     if (contents.starts_with(kByteOrderMark)) contents.remove_prefix(kByteOrderMark.size());
     const std::size_t first = contents.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || contents[first] != '{') return {};

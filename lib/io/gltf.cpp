@@ -1,4 +1,5 @@
-// glTF 2.0 (Khronos, 2021), as JSON with files beside it or as one binary file.
+// Reads glTF 2.0 (Khronos, 2021): JSON with separate files, or one binary file. Numbers of sections refer to its
+// specification.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,14 +15,17 @@ namespace limn {
 
 namespace {
 
+// The contents of a glTF file.
 struct Parts {
     std::string_view json;
-    std::span<const std::byte> chunk;  // of a binary file
+    std::span<const std::byte> chunk;  // the binary chunk of a binary file, or empty
 };
 
-// 4.4: a header of 12 bytes, then chunks of a length, a type and data; JSON first.
+// Splits a file into its parts. A binary file (4.4) is a header of 12 bytes and chunks. A chunk is a length, a type and
+// data. The first chunk is the JSON. A file without the mark of a binary one is JSON as a whole. \throws Fault
 Parts divide(std::string_view bytes) {
     if (!bytes.starts_with("glTF")) return {bytes, {}};
+    // Check the header.
     constexpr std::uint64_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
     Cursor file(std::as_bytes(std::span(bytes)), "breaks off within its header");
     file.take(4);
@@ -29,6 +33,7 @@ Parts divide(std::string_view bytes) {
     demand(version == 2, "is a binary glTF of version " + std::to_string(version) + "; version 2 is read");
     demand(size >= 12 && size <= bytes.size(),
            "breaks off: it states " + std::to_string(size) + " bytes, and has " + std::to_string(bytes.size()));
+    // Take the JSON and the first binary chunk; ignore other chunks.
     file = Cursor(file.rest().first(size - 12));
     Parts parts;
     for (bool is_first = true; !file.rest().empty(); is_first = false) {
@@ -45,6 +50,7 @@ Parts divide(std::string_view bytes) {
     return parts;
 }
 
+// Parses the JSON of a file. \throws Fault with the reason and the position if it is malformed
 nlohmann::json parse(std::string_view text) {
     try {
         return nlohmann::json::parse(text);
@@ -54,6 +60,7 @@ nlohmann::json parse(std::string_view text) {
     }
 }
 
+// Reads the scene of a glTF into a Model. All errors are FileErrors that name the file and the place in the JSON.
 class GltfReader {
 public:
     GltfReader(const nlohmann::json& root, std::span<const std::byte> chunk, const std::string& path,
@@ -83,11 +90,13 @@ public:
     }
 
 private:
+    // A node that is still to be visited.
     struct Visit {
         GltfValue node;
         Transform world_from_parent;
     };
 
+    // Throws if an extension is required that limn does not read. Warns of others that limn does not use.
     void check_extensions() {
         static const std::set<std::string> known{"KHR_lights_punctual",   "KHR_materials_emissive_strength",
                                                  "KHR_materials_ior",     "KHR_materials_transmission",
@@ -105,8 +114,10 @@ private:
         }
     }
 
-    // The nodes of the scene, or of the first, or those that are no other's children.
+    // Visits the nodes of the default scene and their children. Without a default scene, takes the first scene. Without
+    // any scene, starts at all nodes that are no other node's children.
     void visit_all() {
+        // Find the root nodes.
         const GltfValue nodes = document_["nodes"], scenes = document_["scenes"], number = document_["scene"];
         if (number.exists()) {
             visit_children(number.in(scenes)["nodes"], {});
@@ -120,6 +131,7 @@ private:
             for (std::size_t i = nodes.size(); i-- > 0;)
                 if (!children.contains(i)) open_.push_back({nodes[i], {}});
         }
+        // Visit the nodes depth first.
         while (!open_.empty()) {
             const Visit next = open_.back();
             open_.pop_back();
@@ -129,12 +141,13 @@ private:
         }
     }
 
-    // Later, the first child first.
+    // Schedules the visits of nodes given by their numbers. `open_` is a stack, so the last one is pushed first.
     void visit_children(const GltfValue& numbers, const Transform& world_from_parent) {
         for (std::size_t i = numbers.size(); i-- > 0;)
             open_.push_back({numbers[i].in(document_["nodes"]), world_from_parent});
     }
 
+    // Adds the mesh, the camera and the light of a node to the model, and schedules the visits of its children.
     void visit(const Visit& visit) {
         const auto& [node, world_from_parent] = visit;
         const Transform world_from_node = world_from_parent * transform_of(node);
@@ -146,7 +159,8 @@ private:
         if (!is_usable && (mesh.exists() || camera.exists() || light.exists()))
             model_.warnings.push_back(node.place() + ": its matrix is singular, and what it holds left out");
         if (mesh.exists()) {
-            const std::vector<std::size_t>& parts = meshes_->get(mesh);  // counts the faces, also of what is left out
+            // Read the mesh even if the node is left out, so that its faces are counted.
+            const std::vector<std::size_t>& parts = meshes_->get(mesh);
             for (const std::size_t part : parts)
                 if (is_usable) model_.instances.push_back({part, world_from_node, name});
         }
@@ -156,7 +170,8 @@ private:
         visit_children(node["children"], world_from_node);
     }
 
-    // Files hold it rounded.
+    // Returns the rotation of a node, scaled to length 1, because files store it rounded. Throws if its length differs
+    // from 1 by 0.01 or more.
     static std::vector<double> unit_quaternion(const GltfValue& rotation) {
         std::vector<double> q = rotation.numbers_or({0, 0, 0, 1});
         const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -165,8 +180,10 @@ private:
         return q;
     }
 
+    // Returns the transform from the space of a node to that of its parent.
     static Transform transform_of(const GltfValue& node) {
         Transform m;
+        // Read a matrix, which is stored column by column.
         if (node["matrix"].exists()) {
             for (const char* other : {"translation", "rotation", "scale"})
                 if (node[other].exists()) node[other].fail("stands beside a matrix");
@@ -177,6 +194,7 @@ private:
                 for (std::size_t column = 0; column < 4; ++column) m.rows[row][column] = columns[4 * column + row];
             return m;
         }
+        // Otherwise, compose translation, rotation and scale.
         const std::vector<double> t = node["translation"].numbers_or({0, 0, 0}), q = unit_quaternion(node["rotation"]),
                                   s = node["scale"].numbers_or({1, 1, 1});
         const double x = q[0], y = q[1], z = q[2], w = q[3];
@@ -199,12 +217,15 @@ private:
         }
     }
 
+    // Adds a camera to the model. `m` is the transform from the space of its node to the world.
     void add_camera(const GltfValue& description, const Transform& m, const std::string& node_name) {
+        // Set the name and the position: a camera looks along -z, with +y up.
         ModelCamera camera;
         camera.name = node_name.empty() ? description["name"].text_or(description.place()) : node_name;
         camera.camera.look_from = transform_point(m, {0, 0, 0});
         camera.camera.look_at = transform_point(m, {0, 0, -1});
         camera.camera.up = transform_vector(m, {0, 1, 0});
+        // Set the projection.
         const std::string type = description["type"].text_or("perspective");
         if (type != "perspective" && type != "orthographic")
             description["type"].fail("is neither perspective nor orthographic");
@@ -230,7 +251,9 @@ private:
         model_.cameras.push_back(camera);
     }
 
+    // Adds a light of KHR_lights_punctual to the model. `m` is the transform from the space of its node to the world.
     void add_light(const GltfValue& description, const Transform& m, const std::string& node_name) {
+        // Set the name and the kind.
         const std::string type = description["type"].text_or("");
         ModelLight light;
         light.name = node_name.empty() ? description["name"].text_or(description.place()) : node_name;
@@ -239,6 +262,7 @@ private:
         light.kind = type == "point"  ? ModelLight::Kind::point
                      : type == "spot" ? ModelLight::Kind::spot
                                       : ModelLight::Kind::directional;
+        // Set the intensity, the position and the cone. A light shines along -z.
         const std::vector<double> color = description["color"].numbers_or({1, 1, 1});
         light.intensity = description["intensity"].number_or(1) * Color{color[0], color[1], color[2]};
         light.position = transform_point(m, {0, 0, 0});
@@ -246,6 +270,7 @@ private:
         const GltfValue spot = description["spot"];
         light.inner_cone_angle = spot["innerConeAngle"].number_or(0) * 180 / kPi;
         light.outer_cone_angle = spot["outerConeAngle"].number_or(kPi / 4) * 180 / kPi;
+        // Check the values.
         if (!is_finite(light.intensity) || !(std::min({color[0], color[1], color[2]}) >= 0) ||
             !(description["intensity"].number_or(1) >= 0))
             description.fail("has an intensity or a color that is negative or infinite");
@@ -263,8 +288,8 @@ private:
     GltfBuffers buffers_;
     std::vector<GltfMaterial> materials_;
     GltfMeshes* meshes_ = nullptr;
-    std::vector<Visit> open_;
-    std::set<std::string> visited_;  // places of nodes
+    std::vector<Visit> open_;        // a stack
+    std::set<std::string> visited_;  // GltfValue::place() of the nodes
 };
 
 }  // namespace

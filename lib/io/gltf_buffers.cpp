@@ -12,9 +12,10 @@ namespace limn {
 
 namespace {
 
-// glTF 2.0, 3.6.2.2: the numbers of the types are those of OpenGL.
+// The component types of accessors (glTF 2.0, 3.6.2.2). Their numbers are those of OpenGL.
 enum Component : std::uint64_t { kInt8 = 5120, kUint8, kInt16, kUint16, kUint32 = 5125, kFloat };
 
+// Returns the size of a component in bytes, or 0 if the type is unknown.
 std::size_t size_of(std::uint64_t type) {
     switch (type) {
         case kInt8:
@@ -29,6 +30,7 @@ std::size_t size_of(std::uint64_t type) {
 
 bool is_unsigned(std::uint64_t type) { return type == kUint8 || type == kUint16 || type == kUint32; }
 
+// Returns the value of a base64 digit, or -1.
 int base64_digit(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -36,31 +38,34 @@ int base64_digit(char c) {
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
+// Returns the value of a hexadecimal digit, or -1.
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     const char lower = static_cast<char>(c | 32);
     return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-// Where no view says anything, zeros are made up: so many at most, in all accessors together.
+// The values of an accessor without a buffer view are zero. This is the largest number of zeros that all accessors of a
+// file may make up together.
 constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 22;
 
 }  // namespace
 
-// Characters may be written as % and two hexadecimal digits (RFC 3986, 2.1).
+// A URI may encode a character as % and two hexadecimal digits (RFC 3986, 2.1).
 std::string gltf_path_beside(const std::string& file, const std::string& uri) {
     std::string name;
     for (std::size_t i = 0; i < uri.size(); ++i) {
         const bool is_coded =
             uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0;
         const int code = is_coded ? 16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2]) : 0;
-        name += code > 0 ? static_cast<char>(code) : uri[i];  // %00 would end the name
+        name += code > 0 ? static_cast<char>(code) : uri[i];  // %00 is not decoded: it would end the name
         if (code > 0) i += 2;
     }
     return (std::filesystem::path(file).parent_path() / name).string();
 }
 
 std::string GltfBuffers::decode_data(const GltfValue& uri) {
+    // Find the data: they begin after the comma and may be padded with "=".
     const std::string text = uri.text_or("");
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
@@ -69,6 +74,7 @@ std::string GltfBuffers::decode_data(const GltfValue& uri) {
     unsigned bits = 0, count = 0;
     const std::size_t end = std::min(text.find('=', comma), text.size());
     if (text.find_first_not_of('=', end) != std::string::npos) uri.fail("has characters behind the end of its base64");
+    // Collect six bits a digit, and append a byte whenever there are eight.
     for (std::size_t i = comma + 1; i < end; ++i) {
         const int digit = base64_digit(text[i]);
         if (digit < 0) uri.fail("character " + std::to_string(i) + " is none of base64");
@@ -136,7 +142,8 @@ double GltfBuffers::Elements::at(std::size_t element, std::size_t component) con
     }
 }
 
-// The elements in the view that an accessor, or its sparse part, names.
+// Returns `e` with the location of its elements in a buffer view. `holder` names the view: it is an accessor, or the
+// `indices` or `values` of a sparse one. Throws if the elements are not all inside the view. \pre e.count > 0
 GltfBuffers::Elements GltfBuffers::elements_in(const GltfValue& holder, Elements e) {
     const std::size_t size = e.components * size_of(e.type);
     if (size == 0) holder["componentType"].fail("is no known type");
@@ -156,6 +163,7 @@ GltfBuffers::Elements GltfBuffers::elements_in(const GltfValue& holder, Elements
     return e;
 }
 
+// Returns the elements of an accessor without its sparse part.
 GltfBuffers::Elements GltfBuffers::elements(const GltfValue& accessor, std::size_t components) {
     Elements e;
     e.components = components;
@@ -170,7 +178,9 @@ GltfBuffers::Elements GltfBuffers::elements(const GltfValue& accessor, std::size
     return e;
 }
 
+// Returns all values of an accessor, one element after the other, with the sparse part applied.
 std::vector<double> GltfBuffers::values(const GltfValue& accessor, std::size_t components) {
+    // Read the dense values.
     const Elements dense = elements(accessor, components);
     std::vector<double> values;
     values.reserve(dense.count * components);
@@ -178,6 +188,7 @@ std::vector<double> GltfBuffers::values(const GltfValue& accessor, std::size_t c
         values.push_back(dense.at(i / components, i % components));
     const GltfValue sparse = accessor["sparse"];
     if (!sparse.exists()) return values;
+    // Find the indices and the values of the elements that the sparse part replaces.
     Elements places;
     places.count = sparse["count"].natural();
     if (places.count == 0) return values;
@@ -188,6 +199,7 @@ std::vector<double> GltfBuffers::values(const GltfValue& accessor, std::size_t c
     Elements replaced = dense;
     replaced.count = places.count;
     replaced = elements_in(sparse["values"], replaced);
+    // Replace these elements. Their indices must be strictly increasing.
     double last = -1;
     for (std::size_t i = 0; i < places.count; ++i) {
         const double place = places.at(i, 0);

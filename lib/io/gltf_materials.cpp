@@ -22,22 +22,24 @@ using MaterialPtr = std::shared_ptr<const Material>;
 using TexturePtr = std::shared_ptr<const Texture>;
 using Values = GltfPictures::Values;
 
-constexpr double kBrightest = 1e38;  // that a picture of float holds
+constexpr double kBrightest = 1e38;  // upper bound of an emission, so that an Image can store it as float
 
 double share(double x) { return std::clamp(x, 0.0, 1.0); }
 
+// Returns factor * c, clamped to [0, largest].
 Color clamped(const std::vector<double>& c, double factor, double largest) {
     const auto at = [&](std::size_t i) { return std::clamp(factor * c[i], 0.0, largest); };
     return {at(0), at(1), at(2)};
 }
 
-// Of red, green or blue over all pixels.
+// Returns the mean of one channel over all pixels.
 double mean_of(const Image& image, std::size_t channel) {
     double sum = 0;
     for (std::size_t i = channel; i < image.values().size(); i += 3) sum += image.values()[i];
     return sum / (static_cast<double>(image.values().size()) / 3);
 }
 
+// Converts the materials of a glTF.
 class Loader {
 public:
     Loader(const GltfValue& document, GltfBuffers& buffers, const std::string& path, const ModelOptions& options,
@@ -76,14 +78,16 @@ private:
                       base["baseColorFactor"].numbers_or({1, 1, 1, 1})[3]);
     }
 
-    // Null if it does not shine, or if there is more to see than its light.
+    // Returns a light if the material emits light. Returns null if it does not, or if it has an emissive texture that
+    // limn does not use.
     MaterialPtr light(const GltfValue& m) {
         const double strength = m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number_or(1);
         const Color emission = clamped(m["emissiveFactor"].numbers_or({0, 0, 0}), strength, kBrightest);
         const GltfValue emissive_texture = m["emissiveTexture"];
         if (is_black(emission)) return nullptr;
         if (!emissive_texture.exists()) return std::make_shared<DiffuseLight>(emission);
-        // A picture that is black but for some spots is no reason to leave the base colour out.
+        // An emissive texture is often black except for some spots. If there is a base colour texture as well, keep
+        // that one, for a light shows no base colour.
         const auto picture = m["pbrMetallicRoughness"]["baseColorTexture"].exists()
                                  ? nullptr
                                  : pictures_.image(emissive_texture, Values::colors, emission, kBrightest);
@@ -92,6 +96,7 @@ private:
         return nullptr;
     }
 
+    // Returns the material without its emission, its normal map and its alpha.
     MaterialPtr scattering(const GltfValue& m) {
         const GltfValue base = m["pbrMetallicRoughness"], base_texture = base["baseColorTexture"],
                         surface = base["metallicRoughnessTexture"];
@@ -99,7 +104,8 @@ private:
         const double metallic = share(base["metallicFactor"].number_or(1)),
                      roughness = share(base["roughnessFactor"].number_or(1));
         const double stated_index = m["extensions"]["KHR_materials_ior"]["ior"].number_or(1.5);
-        const double index = stated_index >= 1 ? stated_index : 1.5;  // 0 is for specular-glossiness
+        // An index of 0 is meant for materials with specular and glossiness, which limn does not read.
+        const double index = stated_index >= 1 ? stated_index : 1.5;
         const auto surface_picture = pictures_.image(surface, Values::raw);
         if (const auto glass = this->glass(m, index, metallic, roughness, surface_picture.get())) return glass;
 
@@ -111,16 +117,22 @@ private:
                                                    metallic, roughness, index);
     }
 
-    // Null if it lets less than half of the light through. It is as rough as in the mean.
+    // Returns a dielectric if the material transmits half of the light or more, else null. Its roughness is the mean
+    // over the texture.
+    // \param surface the metallic-roughness picture, or null
     MaterialPtr glass(const GltfValue& m, double index, double metallic, double roughness, const Image* surface) {
         const GltfValue transmission = m["extensions"]["KHR_materials_transmission"];
         const double factor = transmission["transmissionFactor"].number_or(0);
         if (factor == 0) return nullptr;
         if (transmission["transmissionTexture"].exists()) unused_.note("transmissionTexture");
-        if (surface) roughness *= mean_of(*surface, 1), metallic *= mean_of(*surface, 2);
+        if (surface) {
+            roughness *= mean_of(*surface, 1);
+            metallic *= mean_of(*surface, 2);
+        }
         const double share_of_glass = factor * (1 - metallic);
         if (share_of_glass != 1 && metallic != 1) unused_.note("transmissionFactor (but for whether it is below 0.5)");
         if (share_of_glass < 0.5) return nullptr;
+        // Note what the dielectric does not use.
         const GltfValue base = m["pbrMetallicRoughness"];
         if (surface) unused_.note("metallicRoughnessTexture (but for its mean)");
         if (base["baseColorTexture"].exists()) unused_.note("baseColorTexture");
@@ -129,7 +141,8 @@ private:
         return std::make_shared<RoughDielectric>(index, share(roughness));
     }
 
-    // 3.9.4: MASK is all or nothing, BLEND is stopped in part.
+    // Applies the alpha of a material (glTF 2.0, 3.9.4). In the mode MASK, the surface is opaque where alpha is at
+    // least the cutoff, and not there elsewhere. In the mode BLEND, alpha is the opacity.
     MaterialPtr masked(MaterialPtr material, const GltfValue& m, const GltfValue& base_texture, double factor) {
         const std::string mode = m["alphaMode"].text_or("OPAQUE");
         const double cutoff = mode == "MASK" ? m["alphaCutoff"].number_or(0.5) : 0;
@@ -147,7 +160,10 @@ private:
         return std::make_shared<AlphaMask>(std::move(material), opacity);
     }
 
-    // All textures lie on the surface as the first one does. \param name of this one
+    // Returns the texture of a picture. All pictures of a material share the texture coordinates and the transform of
+    // the first one; a picture with others gets a note.
+    // \param info the textureInfo
+    // \param name the name of the textureInfo, for the note
     TexturePtr texture(const GltfValue& info, std::shared_ptr<const Image> picture, const std::string& name) {
         const GltfPlace place = place_of(info);
         if (!made_.has_pictures)
@@ -158,7 +174,8 @@ private:
         return pictures_.texture(info, std::move(picture));
     }
 
-    // KHR_texture_transform: scaled, turned, moved.
+    // Returns the texture coordinates and the transform of a textureInfo. KHR_texture_transform scales, then rotates,
+    // then translates.
     static GltfPlace place_of(const GltfValue& info) {
         const GltfValue transform = info["extensions"]["KHR_texture_transform"];
         const std::vector<double> offset = transform["offset"].numbers_or({0, 0}),
@@ -173,7 +190,7 @@ private:
     Model& model_;
     GltfUnused unused_;
     GltfPictures pictures_;
-    GltfMaterial made_;  // the current one
+    GltfMaterial made_;  // the material that is being converted
 };
 
 }  // namespace

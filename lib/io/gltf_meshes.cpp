@@ -10,9 +10,10 @@ namespace limn {
 
 namespace {
 
+// The topologies of triangles. Lower numbers are points and lines.
 enum Mode : std::uint64_t { kTriangles = 4, kStrip, kFan };
 
-// Corners of triangles among `count` that follow each other (glTF 2.0, 3.7.2.1).
+// Returns the triangles that `count` consecutive corners form (glTF 2.0, 3.7.2.1).
 std::vector<Index3> corners_of(std::uint64_t mode, std::uint32_t count) {
     std::vector<Index3> corners;
     if (mode == kTriangles)
@@ -49,6 +50,7 @@ const std::vector<std::size_t>& GltfMeshes::get(const GltfValue& number) {
     return place->second;
 }
 
+// Reads a primitive and appends its index in Model::meshes to `places`. Does nothing if it has no usable triangle.
 void GltfMeshes::add(const GltfValue& primitive, std::vector<std::size_t>& places) {
     const std::uint64_t mode = primitive["mode"].natural_or(kTriangles);
     if (mode > kFan) primitive["mode"].fail("is none of 0 to 6");
@@ -65,9 +67,10 @@ void GltfMeshes::add(const GltfValue& primitive, std::vector<std::size_t>& place
     repair(data, model_);
     places.push_back(model_.meshes.size());
     add_mesh(model_, std::move(data), slots_, options_);
-    model_.instances.pop_back();  // nodes say where it stands
+    model_.instances.pop_back();  // GltfReader adds the instances
 }
 
+// Returns the triangles of a primitive as indices of its vertices.
 std::vector<Index3> GltfMeshes::triangles_of(const GltfValue& primitive, std::size_t vertices) {
     const std::uint64_t mode = primitive["mode"].natural_or(kTriangles);
     const GltfValue number = primitive["indices"];
@@ -82,12 +85,15 @@ std::vector<Index3> GltfMeshes::triangles_of(const GltfValue& primitive, std::si
     return triangles;
 }
 
-// Of the vertices, which several primitives may share, those that its triangles use.
+// Returns the mesh of a primitive. Several primitives may share their vertices; the mesh gets only those that its own
+// triangles use.
 MeshData GltfMeshes::mesh_of(const GltfValue& primitive, std::uint32_t slot) {
+    // Read the positions, and count them unless an earlier primitive has used them.
     const GltfValue number = primitive["attributes"]["POSITION"];
     const std::vector<float>& positions = buffers_.floats(number, "VEC3");
     const std::size_t vertices = positions.size() / 3;
     if (counted_.insert(number.natural()).second) model_.vertices += vertices;
+    // own(vertex) returns the number of a vertex in the mesh, and adds it when it is first used.
     constexpr std::uint32_t kNone = 0xffffffff;
     std::vector<std::uint32_t> numbers(vertices, kNone), used;
     const auto own = [&](std::uint32_t vertex) {
@@ -97,6 +103,7 @@ MeshData GltfMeshes::mesh_of(const GltfValue& primitive, std::uint32_t slot) {
         }
         return numbers[vertex];
     };
+    // Add all triangles that have an area.
     MeshData data;
     for (const Index3& t : triangles_of(primitive, vertices)) {
         const Float3 corners[3] = {three(positions, t.a), three(positions, t.b), three(positions, t.c)};
@@ -108,11 +115,13 @@ MeshData GltfMeshes::mesh_of(const GltfValue& primitive, std::uint32_t slot) {
         data.faces.push_back(face);
         data.material_slots.push_back(slot);
     }
+    // Add the vertices that they use.
     for (const std::uint32_t vertex : used) data.vertices.push_back(three(positions, vertex));
     add_attributes(primitive, used, slot, data);
     return data;
 }
 
+// Adds the normals and the texture coordinates of the vertices `used`.
 void GltfMeshes::add_attributes(const GltfValue& primitive, const std::vector<std::uint32_t>& used, std::uint32_t slot,
                                 MeshData& data) {
     const GltfValue attributes = primitive["attributes"], normal = attributes["NORMAL"];
@@ -121,6 +130,7 @@ void GltfMeshes::add_attributes(const GltfValue& primitive, const std::vector<st
         const std::vector<float>& normals = attribute(normal, "VEC3", vertices);
         for (const std::uint32_t vertex : used) data.normals.push_back(three(normals, vertex));
     }
+    // Transform the texture coordinates as the pictures of the material need them, and turn v upward.
     const GltfPlace place = slot == 0 ? GltfPlace{} : materials_[slot - 1].place;
     const GltfValue uv = attributes["TEXCOORD_" + std::to_string(place.uv_set)];
     if (!uv.exists()) {
@@ -137,6 +147,7 @@ void GltfMeshes::add_attributes(const GltfValue& primitive, const std::vector<st
     }
 }
 
+// Returns the values of an attribute, of which there must be one for each vertex.
 const std::vector<float>& GltfMeshes::attribute(const GltfValue& number, const std::string& type,
                                                 std::size_t vertices) {
     const std::vector<float>& values = buffers_.floats(number, type);

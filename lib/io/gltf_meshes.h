@@ -10,13 +10,16 @@
 
 namespace limn {
 
-// Makes the meshes of a glTF that nodes use: one for each of their primitives, which share Model::materials.
+// Reads the meshes of a glTF when nodes use them. Each primitive of a mesh becomes a mesh of the model. All of them
+// share Model::materials.
 class GltfMeshes {
 public:
     GltfMeshes(const GltfValue& document, GltfBuffers& buffers, const std::vector<GltfMaterial>& materials,
                const ModelOptions& options, Model& model);
 
-    /// Places in Model::meshes. \throws FileError naming file and place
+    // Returns the indices in Model::meshes of the primitives of a mesh, given by its number. Reads them the first time.
+    // Primitives without usable triangles are left out.
+    // \throws FileError naming the file and the place in the JSON
     const std::vector<std::size_t>& get(const GltfValue& number);
 
 private:
@@ -31,13 +34,13 @@ private:
     GltfValue document_;
     GltfBuffers& buffers_;
     const std::vector<GltfMaterial>& materials_;
-    std::vector<std::shared_ptr<const Material>> slots_;
+    std::vector<std::shared_ptr<const Material>> slots_;  // the default material, then `materials_`
     const ModelOptions& options_;
     Model& model_;
     FaceCutter cutter_;
-    std::map<std::uint64_t, std::vector<std::size_t>> made_;
-    std::set<std::string> warnings_;
-    std::set<std::uint64_t> counted_;  // accessors of positions
+    std::map<std::uint64_t, std::vector<std::size_t>> made_;  // the results of get()
+    std::set<std::string> warnings_;                          // the warnings that have been given
+    std::set<std::uint64_t> counted_;  // the accessors of positions that Model::vertices includes
 };
 
 }  // namespace limn

@@ -23,7 +23,7 @@ void GltfUnused::warn(Model& model) const {
                                  (others == 0 ? "" : ", nor in " + std::to_string(others) + " more"));
 }
 
-// Files by their names, others by their places.
+// Identifies a picture file by its URI, and a picture in a buffer or in a data: URI by its place in the JSON.
 GltfPictures::Key GltfPictures::key_of(const GltfValue& info, Values values) const {
     const GltfValue image = info["index"].in(document_["textures"])["source"].in(document_["images"]);
     const std::string uri = image["uri"].text_or("");
@@ -61,7 +61,7 @@ std::shared_ptr<const Image> GltfPictures::image(const GltfValue& info, Values v
     return known;
 }
 
-// The numbers of OpenGL.
+// The filters and wrap modes of a sampler are numbers of OpenGL.
 std::shared_ptr<const Texture> GltfPictures::texture(const GltfValue& info, std::shared_ptr<const Image> image) const {
     if (!image) return nullptr;
     const GltfValue number = info["index"].in(document_["textures"])["sampler"];
@@ -78,15 +78,18 @@ std::shared_ptr<const Texture> GltfPictures::texture(const GltfValue& info, std:
     return std::make_shared<ImageTexture>(std::move(image), options);
 }
 
-// Empty where alpha is asked for and there is none. Colours are sRGB whatever a file says of them (glTF 2.0, 3.9.2),
-// but those of EXR and HDR, which the specification doesn't know, are linear.
+// Reads a picture from its file, its data: URI or its buffer view. Returns an empty Image if alpha is wanted and the
+// picture has none. Colours are sRGB whatever the file says (glTF 2.0, 3.9.2). Those of EXR and HDR, which the
+// specification does not mention, are linear.
 Image GltfPictures::load(const GltfValue& image, Values values) {
+    // Get the bytes.
     const std::string uri = image["uri"].text_or("");
     const bool is_file = !uri.empty() && !uri.starts_with("data:");
     const std::string name = is_file ? gltf_path_beside(path_, uri) : path_ + ": " + image.place();
     if (is_file && std::ranges::find(model_.files, name) == model_.files.end()) model_.files.push_back(name);
     const std::string text = is_file ? read_file(name) : uri.empty() ? "" : GltfBuffers::decode_data(image["uri"]);
     const auto bytes = uri.empty() ? buffers_.view(image["bufferView"]) : std::as_bytes(std::span(text));
+    // Decode them.
     if (values == Values::alpha) return load_alpha_from_memory(bytes, name).value_or(Image{});
     Encoding encoding = Encoding::raw;
     if (values == Values::colors) {

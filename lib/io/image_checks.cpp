@@ -15,7 +15,7 @@ std::string size_text(int width, int height) { return std::to_string(width) + " 
 struct Format {
     FileFormat format;
     const char* name;
-    void (*check)(std::span<const std::byte>);
+    void (*check)(std::span<const std::byte>);  // throws a Fault if the file is not sound
 };
 
 constexpr Format kFormats[] = {{FileFormat::exr, "EXR", check_exr},    {FileFormat::png, "PNG", check_png},
@@ -44,12 +44,14 @@ FileFormat require_sound(std::span<const std::byte> file, const std::string& pat
 
 void require_possible_size(int width, int height, int channels, std::size_t file_bytes, const std::string& path) {
     if (width <= 0 || height <= 0 || channels <= 0) throw FileError(path, "is not a picture with at least one pixel");
-    // Deflate packs 1032 to 1 at best. Up to a gibibyte the reader finds out by itself.
+    // Compare the size of the pixels with that of the file. The bound is generous: deflate packs 1032 to 1 at best. Up
+    // to a gibibyte of pixels, leave it to the decoder to notice that the file is too short.
     constexpr double kHarmless = 1 << 30, kBestPacking = 5000;
     const double pixels = static_cast<double>(width) * height, bytes = pixels * channels * 4;
     if (bytes > kHarmless && bytes > kBestPacking * static_cast<double>(file_bytes))
         throw FileError(path, "is too short for a picture of " + size_text(width, height));
-    // As stored and as float RGB. Linux grants memory that it does not have, and kills who uses it.
+    // Compare them with the physical memory: 16 bytes a pixel, as stored and as float RGB. An allocation would not
+    // fail, because Linux grants memory that it does not have and kills the process that uses it.
     const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     if (memory > 0 && pixels * 16 > memory)
         throw FileError(path, "there is not enough memory for its " + size_text(width, height) + " pixels");

@@ -1,4 +1,5 @@
-// What is found out about a picture file before any library decodes it, which might crash, hang or fill the memory.
+// Checks a picture file before a library decodes it. On a file that is not sound, a library might crash, hang or fill
+// the memory.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +10,15 @@
 
 namespace limn {
 
-// The format of a picture, told by its contents, whatever the name. Its header makes sense and the file can hold what
-// it promises; a PNG and a JPEG are whole, as every part says. No decoder is handed a file that was not found sound
-// here. \throws FileError naming `path` and what the file appears to be
+// Checks that a picture is sound, and returns its format, which is recognised by its contents. In a sound file, the
+// header is valid and the file is large enough for the picture that the header states. A PNG or a JPEG is complete; all
+// checksums of a PNG are right. Decoders are only given files that this function has accepted.
+// \throws FileError naming `path` if the file is not sound or of a format that limn does not read
 FileFormat require_sound(std::span<const std::byte> file, const std::string& path);
 
-// A header may promise any size. \throws FileError naming `path` if a file of `file_bytes` cannot hold it, or the
-// machine cannot
+// Checks the size of a picture that a header states.
+// \throws FileError naming `path` if a dimension is not positive, if a file of `file_bytes` bytes cannot hold the
+// picture, or if the machine has too little memory for it
 void require_possible_size(int width, int height, int channels, std::size_t file_bytes, const std::string& path);
 
 }  // namespace limn

@@ -1,4 +1,4 @@
-// Reading pictures: transfer functions.
+// Implements the functions that read pictures: checks the file, decodes it and undoes its transfer function.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ namespace limn {
 
 namespace {
 
-// Linear value of a stored one, which is normalised to [0, 1] for integers.
+// Returns the linear value of a stored one. An integer is given as a fraction of the largest one, in [0, 1].
 double decode_value(double stored, Transfer transfer, double exponent) {
     switch (transfer) {
         case Transfer::srgb: return srgb_decode(stored);
@@ -27,6 +27,8 @@ double decode_value(double stored, Transfer transfer, double exponent) {
     return stored;
 }
 
+// Returns the transfer function that is to be undone. If neither `encoding` nor the file determines one, integers are
+// sRGB and floats are linear.
 Transfer transfer_of(const StoredImage& stored, Encoding encoding) {
     if (encoding == Encoding::raw) return Transfer::linear;
     if (encoding == Encoding::srgb) return Transfer::srgb;
@@ -34,7 +36,7 @@ Transfer transfer_of(const StoredImage& stored, Encoding encoding) {
     return std::holds_alternative<std::vector<float>>(stored.values) ? Transfer::linear : Transfer::srgb;
 }
 
-// One channel as grey, as stored.
+// Returns one channel, as stored, in red, green and blue. Integers become fractions of the largest one.
 template <class T>
 Image grey_image(const StoredImage& stored, const std::vector<T>& values, std::size_t channel) {
     constexpr double kLargest = std::is_same_v<T, float> ? 1 : static_cast<double>(std::numeric_limits<T>::max());
@@ -46,7 +48,8 @@ Image grey_image(const StoredImage& stored, const std::vector<T>& values, std::s
     return image;
 }
 
-// `linear(v)` is the linear value of the stored value v. Fewer than three channels: the first as grey.
+// Returns the picture with linear values: linear(v) is that of the stored value v. If there are fewer than three
+// channels, the first one becomes red, green and blue.
 template <class T, class Linear>
 Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear linear) {
     Image image(stored.width, stored.height);
@@ -62,9 +65,10 @@ Image to_image(const StoredImage& stored, Encoding encoding) {
         const auto linear = [&](double v) { return static_cast<float>(decode_value(v, transfer, stored.exponent)); };
         if constexpr (std::is_same_v<T, float>) {
             if (transfer == Transfer::linear)
-                return to_image(stored, values, [](float v) { return v; });  // bit for bit
+                return to_image(stored, values, [](float v) { return v; });  // keeps every bit
             return to_image(stored, values, linear);
         } else {
+            // Look up integers in a table of all values.
             const double largest = std::numeric_limits<T>::max();
             std::vector<float> table(std::size_t{1} << std::numeric_limits<T>::digits);
             for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear(static_cast<double>(i) / largest);
@@ -74,7 +78,8 @@ Image to_image(const StoredImage& stored, Encoding encoding) {
     return std::visit(convert, stored.values);
 }
 
-// Running out of memory is a fault that concerns the file; of an Image, which has a size, so is an ArgumentError.
+// Calls `call` and reports running out of memory as a FileError. An ArgumentError has the same cause here: an Image
+// throws it if its size is too large.
 template <class Call>
 auto with_memory(const std::string& path, Call call) {
     constexpr const char* kProblem = "there is not enough memory for its pixels";
@@ -87,7 +92,7 @@ auto with_memory(const std::string& path, Call call) {
     }
 }
 
-// Calls `load` with the bytes of a file and its path.
+// Reads a file and returns load(bytes, path).
 template <class Load>
 auto from_file(const std::string& path, Load load) {
     const std::string file = read_file(path);

@@ -1,4 +1,5 @@
-// Pictures through OpenImageIO. Writing goes to memory, since its writers report success on a full disk.
+// Implements the image codec with OpenImageIO. Pictures are written to memory, because OpenImageIO's writers report
+// success on a full disk.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -22,16 +23,19 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-// x and y of red, green, blue and white (ITU-R BT.709-6, section 1).
+// The chromaticities x and y of red, green, blue and white (ITU-R BT.709-6, section 1).
 constexpr float kBt709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
+// Returns OpenImageIO's description of the file to write.
 ImageSpec spec_of(const EncodeJob& job) {
+    // Describe a PNG.
     if (job.format == FileFormat::png) {
         ImageSpec spec(job.width, job.height, job.colours(), TypeDesc::UINT8);
         spec.attribute("oiio:UnassociatedAlpha", 1);
         spec.attribute("oiio:ColorSpace", "sRGB");
         return spec;
     }
+    // Describe the channels of an EXR. Layers are float even if colours are half.
     ImageSpec spec(job.width, job.height, job.channels(), job.half ? TypeDesc::HALF : TypeDesc::FLOAT);
     spec.channelnames = {"R", "G", "B"};
     if (job.has_alpha) spec.channelnames.emplace_back("A");
@@ -41,31 +45,39 @@ ImageSpec spec_of(const EncodeJob& job) {
         spec.channelformats.assign(static_cast<std::size_t>(job.colours()), TypeDesc::HALF);
         spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
     }
+    // Set the data window and the display window.
     if (const auto& whole = job.part_of) {
-        spec.x = whole->left, spec.y = whole->top;
-        spec.full_width = whole->width, spec.full_height = whole->height;
+        spec.x = whole->left;
+        spec.y = whole->top;
+        spec.full_width = whole->width;
+        spec.full_height = whole->height;
     }
+    // Set the other attributes. An empty DateTime keeps the time of writing out of the file, so that the same picture
+    // gives the same bytes.
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), kBt709);
     spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "");  // else the time of day is written, and no two files are alike
+    spec.attribute("DateTime", "");
     return spec;
 }
 
+// Returns an error message of OpenImageIO without line feeds at its end.
 std::string message(std::string detail) {
     while (!detail.empty() && detail.back() == '\n') detail.pop_back();
     return detail.empty() ? "unknown reason" : detail;
 }
 
-// What OpenImageIO calls the format.
+// Returns OpenImageIO's name of a format.
 const char* format_name(FileFormat format) {
     return format == FileFormat::png ? "png" : format == FileFormat::jpeg ? "jpeg" : "openexr";
 }
 
-// OpenImageIO looks for a file on disk even where it reads memory, so its name is one that cannot exist.
+// Returns the name of a picture in memory. OpenImageIO looks for a file of this name even when it reads memory, so the
+// name is one that cannot exist.
 std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
 
-// OpenImageIO 2.4's own reads beyond its bytes where a file makes it look for something behind its end.
+// A reader of memory that never reads beyond the end of the bytes. The one of OpenImageIO 2.4 does if a file states an
+// offset that is too large.
 class BoundedReader : public OIIO::Filesystem::IOMemReader {
 public:
     explicit BoundedReader(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()) {}
@@ -75,7 +87,8 @@ public:
     }
 };
 
-// With the one reader that is meant: left to itself, OpenImageIO tries those of all formats on a broken file.
+// Opens a picture with the reader of its format. OpenImageIO is not asked to choose one, because it would try the
+// readers of all formats on a broken file. \throws FileError naming `path`
 std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
     ImageSpec spec, wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
@@ -86,6 +99,7 @@ std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& m
     return input;
 }
 
+// Sets the transfer function that a file states.
 void read_transfer(const ImageSpec& spec, StoredImage& image) {
     const std::string space = spec.get_string_attribute("oiio:ColorSpace");
     const float gamma = spec.get_float_attribute("oiio:Gamma", 0);
@@ -99,6 +113,7 @@ void read_transfer(const ImageSpec& spec, StoredImage& image) {
     }
 }
 
+// Returns the facts that save_image has written.
 Facts read_facts(const ImageSpec& spec) {
     const std::size_t prefix = std::strlen(kFactPrefix);
     Facts facts;
@@ -110,6 +125,7 @@ Facts read_facts(const ImageSpec& spec) {
     return facts;
 }
 
+// Decodes the pixels as values of type T, which is `type` of OpenImageIO. \throws FileError naming `path`
 template <class T>
 void read_values(ImageInput& input, TypeDesc type, StoredImage& image, const std::string& path) {
     std::vector<T>& values = image.values.emplace<std::vector<T>>();
@@ -119,6 +135,7 @@ void read_values(ImageInput& input, TypeDesc type, StoredImage& image, const std
         throw FileError(path, "cannot be read: " + message(input.geterror()));
 }
 
+// Decodes a picture. `file_bytes` is the size of its file. \throws FileError naming `path`
 StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& path, int most = 3) {
     const ImageSpec spec = input.spec();
     if (spec.depth > 1 || spec.deep) throw FileError(path, "is not a flat picture");
@@ -133,13 +150,14 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     } else if (spec.format.is_floating_point()) {
         read_values<float>(input, TypeDesc::FLOAT, image, path);
     } else {
-        read_values<std::uint16_t>(input, TypeDesc::UINT16, image, path);  // wider integers lose their lowest bits
+        read_values<std::uint16_t>(input, TypeDesc::UINT16, image, path);  // integers of 32 bits lose the lower 16
     }
     return image;
 }
 
-// stb decodes these formats in every build. OpenImageIO 2.4 reads outside of the palette of a damaged TGA, takes the
-// unused bytes of a BMP for alpha, and reads the numbers of an HDR in the locale of the C library.
+// Returns true if stb decodes the format, even in a build with OpenImageIO. OpenImageIO 2.4 has errors there: it reads
+// outside of the palette of a damaged TGA, takes the unused bytes of a BMP for alpha, and reads the numbers of an HDR
+// in the locale of the C library.
 bool is_for_stb(FileFormat format) {
     return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
 }
@@ -149,10 +167,12 @@ bool is_for_stb(FileFormat format) {
 bool can_encode(FileFormat format) { return format == FileFormat::exr || format == FileFormat::png; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
+    // Create a writer to memory.
     const std::unique_ptr<ImageOutput> output = ImageOutput::create(format_name(job.format));
     if (!output) throw FileError(path, "cannot be written: " + message(OIIO::geterror()));
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
+    // Write the picture and its facts.
     ImageSpec spec = spec_of(job);
     for (const auto& [fact, value] : job.facts) spec.attribute(kFactPrefix + fact, value);
     const TypeDesc type = job.format == FileFormat::png ? TypeDesc::UINT8 : TypeDesc::FLOAT;
@@ -172,7 +192,8 @@ StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const st
 }
 
 ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    if (is_for_stb(format)) return decode_info_stb(format, bytes, path);  // encode() writes no facts of them
+    if (is_for_stb(format))
+        return decode_info_stb(format, bytes, path);  // encode() doesn't write facts to these formats
     BoundedReader memory(bytes);
     const ImageSpec spec = open(format, memory, path)->spec();
     ImageInfo info{.width = spec.width, .height = spec.height, .channels = {}, .facts = read_facts(spec)};

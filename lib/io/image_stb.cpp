@@ -1,4 +1,4 @@
-// Pictures without OpenImageIO: PNG and HDR through stb.
+// Implements the image codec without OpenImageIO: writes PNG and HDR with stb, and reads what decode_stb.h reads.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
@@ -15,6 +15,7 @@ namespace limn {
 
 namespace {
 
+// Appends bytes to the vector `context`. stb calls this function to write.
 void append(void* context, void* data, int size) {
     const auto* begin = static_cast<const std::byte*>(data);
     auto* bytes = static_cast<std::vector<std::byte>*>(context);
@@ -26,26 +27,30 @@ void insert(std::vector<std::byte>& bytes, std::ptrdiff_t place, const std::stri
     bytes.insert(bytes.begin() + place, inserted.begin(), inserted.end());
 }
 
+// Returns the bytes of a PNG; none if there is not enough memory.
 std::vector<std::byte> encode_png(const EncodeJob& job, const std::uint8_t* values) {
     std::vector<std::byte> bytes;
     const int channels = job.colours();
     if (!stbi_write_png_to_func(append, &bytes, job.width, job.height, channels, values, channels * job.width))
         return {};
-    std::string chunks = png_chunk("sRGB", std::string(1, '\0'));  // 0: perceptual
+    // Insert an sRGB chunk, with perceptual as the rendering intent, and a text chunk for each fact.
+    std::string chunks = png_chunk("sRGB", std::string(1, '\0'));
     for (const auto& [name, value] : job.facts) chunks += png_chunk("tEXt", kFactPrefix + name + '\0' + value);
     insert(bytes, kPngHeaderEnd, chunks);
     return bytes;
 }
 
-// A fact is a comment line of the header, so line breaks in it become blanks.
+// Returns a fact as a comment line of an HDR's header. Line breaks in it become blanks.
 std::string hdr_comment(const std::string& name, std::string value) {
     std::replace(value.begin(), value.end(), '\n', ' ');
     return std::string("# ") + kFactPrefix + name + "=" + value + "\n";
 }
 
+// Returns the bytes of an HDR; none if there is not enough memory.
 std::vector<std::byte> encode_hdr(const EncodeJob& job, const float* values) {
     std::vector<std::byte> bytes;
     if (!stbi_write_hdr_to_func(append, &bytes, job.width, job.height, 3, values)) return {};
+    // Insert the facts after the first line.
     std::string comments;
     for (const auto& [name, value] : job.facts) comments += hdr_comment(name, value);
     insert(bytes, std::find(bytes.begin(), bytes.end(), std::byte{'\n'}) + 1 - bytes.begin(), comments);
@@ -85,7 +90,7 @@ void require_readable(FileFormat format, const std::string& path) {
 bool can_encode(FileFormat format) { return format == FileFormat::png || format == FileFormat::hdr; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
-    // stb counts bytes in int, with some room for what does not pack.
+    // stb counts bytes in an int. Packing may make the picture somewhat larger, so the limit is a little below 2^31.
     if (static_cast<double>(job.width) * job.height * job.colours() > 2e9)
         throw FileError(path, "this build, without OpenImageIO, cannot write a picture of more than 2e9 values");
     const std::vector<std::byte> bytes =

@@ -10,12 +10,14 @@ namespace limn {
 
 namespace {
 
-// A damaged binary STL cannot be told by its contents.
+// Returns true if a file has the suffix of an STL. Only a damaged binary STL needs this test: its contents are not
+// recognised.
 bool is_named_stl(const std::string& path) {
     const std::string suffix = std::filesystem::path(path).extension().string();
     return suffix == ".stl" || suffix == ".STL";
 }
 
+// Reads a model with the reader of its format. Contents that are not recognised are read as an OBJ.
 Model read_model(std::string_view bytes, const std::string& path, const ModelOptions& options) {
     const FileKind kind = kind_of_contents(bytes);
     if (kind.model == ModelFormat::gltf) return read_gltf(bytes, path, options);

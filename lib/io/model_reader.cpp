@@ -11,7 +11,8 @@ namespace limn {
 
 namespace {
 
-// Of every vertex the mean by area, unit; where there is none, any.
+// Returns a unit normal for each vertex: the mean of the normals of its triangles, weighted by area. Where they cancel
+// or there is no triangle, it is (0, 0, 1).
 std::vector<Vec3> normals_around(const MeshData& mesh) {
     std::vector<Vec3> sums(mesh.vertices.size());
     for (const Index3& t : mesh.triangles) {
@@ -53,6 +54,7 @@ void repair(MeshData& mesh, Model& model) {
     const auto warn = [&](std::size_t count, const char* what, const char* instead) {
         if (count > 0) model.warnings.push_back(std::to_string(count) + what + " of a vertex " + instead);
     };
+    // Replace normals. Compute those of the triangles only if any is needed.
     std::vector<Vec3> around;
     std::size_t normals = 0, uvs = 0;
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -62,6 +64,7 @@ void repair(MeshData& mesh, Model& model) {
         mesh.normals[i] = nearest_float3(around[i]);
         ++normals;
     }
+    // Replace texture coordinates.
     for (Float2& uv : mesh.uvs) {
         if (std::isfinite(uv.u) && std::isfinite(uv.v)) continue;
         uv = {};

@@ -1,4 +1,4 @@
-// The readers of models, and what they share.
+// Declares the readers of all model formats and the functions that they share.
 #pragma once
 
 #include <span>
@@ -10,24 +10,26 @@
 
 namespace limn {
 
-// Each reads a file in memory, which messages call `path`; what it names is beside that. \throws FileError, or a Fault
-// of the file as a whole
+// Read a model from the bytes of a file. Messages call the file `path`, and the paths of other files in it are relative
+// to `path`. \throws FileError; \throws Fault if the file as a whole is not readable
 Model read_gltf(std::string_view bytes, const std::string& path, const ModelOptions& options);
 Model read_obj(std::string_view text, const std::string& path, const ModelOptions& options);
 Model read_ply(std::string_view bytes, const std::string& path, const ModelOptions& options);
 Model read_stl(std::string_view bytes, const std::string& path, const ModelOptions& options);
 
+// Returns the vertices of a triangle with indices into `polygon`.
 inline TriangleVertices triangle_of(std::span<const Float3> polygon, const Index3& t) {
     return {to_point(polygon[t.a]), to_point(polygon[t.b]), to_point(polygon[t.c])};
 }
 
-// Cuts faces into triangles that have an area; what it leaves out it counts in the model.
+// Cuts faces into triangles that have an area. Counts the triangles and faces that it leaves out in the model.
 class FaceCutter {
 public:
     explicit FaceCutter(Model& model) : model_(model) {}
 
-    // Triangles as places in `polygon`; none if the face is dropped. \param unit,number where the face is, for a
-    // warning
+    // Returns the triangles as indices into `polygon`; none if the face is dropped. The vector is valid until the next
+    // call. A face that is too complicated is dropped with a warning.
+    // \param unit,number the place of the face, for the warning: "line" and 12, for example
     const std::vector<Index3>& cut(std::span<const Float3> polygon, const char* unit, std::size_t number);
 
 private:
@@ -36,18 +38,20 @@ private:
     std::vector<Index3> triangles_;
 };
 
-// \param none what is missing where the file has no face at all
-// \throws FileError if there is no triangle
+// Checks that there are triangles.
+// \param none what the message says if the file has no face at all
+// \throws FileError naming `path` if there is no triangle
 void require_faces(const MeshData& mesh, const Model& model, const std::string& path, const std::string& none);
 
-// Normals that are zero or not finite become those of the triangles around, texture coordinates that are not finite 0,
-// with a warning.
+// Replaces normals that are zero or not finite by the mean normal of the adjacent triangles, and texture coordinates
+// that are not finite by (0, 0). Gives a warning for each kind.
 void repair(MeshData& mesh, Model& model);
 
-// For slot 0.
+// Returns the material of slot 0, which is that of faces without a material.
 std::shared_ptr<const Material> default_material(const ModelOptions& options);
 
-// Adds a mesh, smoothed if that is wanted, and an instance of it.
+// Adds a mesh and an instance of it to the model. If the mesh has no normals and `options.crease` is set, it gets
+// smooth ones.
 void add_mesh(Model& model, MeshData data, std::vector<std::shared_ptr<const Material>> materials,
               const ModelOptions& options);
 

@@ -15,7 +15,7 @@ namespace limn {
 
 namespace {
 
-// `color` gives each pixel from its place.
+// Returns an image of the size of `like` with the pixels color(x, y).
 template <class Function>
 Image made(const Image& like, const Function& color) {
     Image image(like.width(), like.height());
@@ -24,10 +24,12 @@ Image made(const Image& like, const Function& color) {
     return image;
 }
 
+// Returns a value clamped to [0, largest]; 0 for NaN.
 double clamped(double value, double largest) { return value > 0 ? std::min(value, largest) : 0; }
 
 double mean(const Color& c) { return (c.r + c.g + c.b) / 3; }
 
+// Convert between texels and normals: a component in [-1, 1] is stored in [0, 1].
 Vec3 vector_of(const Color& texel) { return {2 * texel.r - 1, 2 * texel.g - 1, 2 * texel.b - 1}; }
 
 Color texel_of(const Vec3& normal) {
@@ -64,8 +66,9 @@ Image normals_of_heights(const Image& heights, double scale) {
         return mean(heights.at((x + width) % width, (y + rows) % rows));
     };
     return made(heights, [&](int x, int y) {
+        // Take central differences. v grows upward, but rows go downward.
         const double along = height(x + 1, y) - height(x - 1, y);
-        const double up = height(x, y - 1) - height(x, y + 1);  // rows go downward
+        const double up = height(x, y - 1) - height(x, y + 1);
         return texel_of({-0.5 * scale * along, -0.5 * scale * up, 1});
     });
 }
@@ -77,14 +80,16 @@ bool holds_normals(const Image& picture) {
         for (int x = 0; x < picture.width(); ++x) {
             const Color c = picture.at(x, y);
             if (c.b > 0.5 && std::abs(length(vector_of(c)) - 1) < 0.1) ++vectors;
-            sum += c, ++pixels;
+            sum += c;
+            ++pixels;
         }
     return vectors >= 0.9 * pixels && sum.b > std::max(sum.r, sum.g) + 0.1 * pixels;
 }
 
 std::shared_ptr<const Material> metallic_roughness_material(std::shared_ptr<const Texture> base_color, double metallic,
                                                             double roughness, double index) {
-    if (metallic == 0 && index == 1) return std::make_shared<Lambertian>(std::move(base_color));  // there is no coat
+    // An index of 1 makes a coat that reflects nothing.
+    if (metallic == 0 && index == 1) return std::make_shared<Lambertian>(std::move(base_color));
     if (metallic == 0) return std::make_shared<Plastic>(std::move(base_color), roughness, index);
     if (metallic == 1) return std::make_shared<RoughConductor>(std::move(base_color), roughness);
     return std::make_shared<MetallicRoughness>(std::move(base_color), metallic, roughness, index);

@@ -1,4 +1,4 @@
-// What the pictures and numbers of models' materials become.
+// Converts the pictures and parameters of the materials in model files.
 #pragma once
 
 #include <memory>
@@ -8,25 +8,27 @@
 
 namespace limn {
 
-// Times a colour, between 0 and `largest`; NaN becomes 0.
+// Returns the picture multiplied by a colour and clamped to [0, largest]. NaN becomes 0.
 Image scaled(const Image& picture, const Color& factor, double largest);
 
-// The mean of red, green and blue, between 0 and 1.
+// Returns the mean of red, green and blue, clamped to [0, 1], in all three channels.
 Image grey(const Image& picture);
 
-// Normals as NormalMap has them, whose coordinates along the surface are multiplied by `scale`.
+// Returns a normal map, encoded as NormalMap needs it, with the tangential components multiplied by `scale`.
 Image scaled_normals(const Image& normals, double scale);
 
-// Of heights, which are the mean of red, green and blue: where they differ by 1 from one texel to the next, the slope
-// is `scale`. They go on around the edges.
+// Converts a height map into a normal map. The height of a texel is the mean of red, green and blue. Where heights
+// differ by 1 from one texel to the next, the slope is `scale`. The map is continued periodically at its edges.
 Image normals_of_heights(const Image& heights, double scale);
 
-// Whether a picture holds normals and no heights: it is bluish, and nine of ten texels are vectors of length 1 that
-// point outward.
+// Returns true if a picture appears to be a normal map and not a height map: blue prevails, and at least nine of ten
+// texels are vectors of about length 1 that point outward.
 bool holds_normals(const Image& picture);
 
-// Plastic without metal, RoughConductor of nothing else, MetallicRoughness between. \param metallic,roughness in [0, 1]
-// \param index at least 1
+// Returns the simplest material for the parameters: Plastic (Lambertian if the index is 1) if metallic is 0,
+// RoughConductor if it is 1, and MetallicRoughness between.
+// \param metallic,roughness in [0, 1]
+// \param index refractive index, at least 1
 std::shared_ptr<const Material> metallic_roughness_material(std::shared_ptr<const Texture> base_color, double metallic,
                                                             double roughness, double index);
 

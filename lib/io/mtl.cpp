@@ -11,16 +11,17 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// What stands before a texture's name.
+// The options of a texture, which precede its name.
 struct MapOptions {
-    std::size_t words = 1;       // with map_Kd itself
-    std::size_t multiplier = 0;  // the place of the number behind -bm
-    bool are_there_others = false;
+    std::size_t words = 1;          // number of words before the name, the keyword included
+    std::size_t multiplier = 0;     // index of the word with the number of -bm; 0: there is no -bm
+    bool are_there_others = false;  // true if there are options other than -bm
 };
 
-// Wavefront, MTL Material Format v4.2, 1995, "Options for texture map statements".
+// Finds the options on a line (Wavefront, MTL Material Format v4.2, 1995, "Options for texture map statements").
 MapOptions options_of(const Words& words) {
     MapOptions options;
+    // Step over options and their arguments, up to the first word that is neither.
     std::size_t& place = options.words;
     while (place < words.size()) {
         const std::string_view option = words[place];
@@ -35,7 +36,8 @@ MapOptions options_of(const Words& words) {
         } else if (option == "-mm") {
             place += 3;
         } else if (is_one_of(option, {"-o", "-s", "-t"})) {
-            const std::size_t last = place + 3;  // the second and third number may be left out
+            // Take up to three numbers; the second and the third may be left out.
+            const std::size_t last = place + 3;
             for (++place; place <= last && place < words.size() && parse_float(words[place]);) ++place;
         } else {
             break;
@@ -46,6 +48,7 @@ MapOptions options_of(const Words& words) {
     return options;
 }
 
+// Implements parse_mtl(): reads an MTL line by line.
 class MtlParser {
 public:
     MtlParser(std::string_view text, const std::string& path, std::map<std::string, MtlMaterial>& materials,
@@ -61,6 +64,7 @@ public:
 private:
     void parse_line(const Words& words) {
         const std::string_view key = words[0];
+        // Call the reader of the keyword. Ka is skipped: it is for ambient light, which a path tracer does not have.
         if (key == "newmtl") {
             material(std::string(lines_.name()));
         } else if (MtlMap* const to = map_of(key)) {
@@ -85,14 +89,16 @@ private:
             transparency(number(words));
         } else if (key == "illum") {
             illumination(number(words));
-        } else if (key != "Ka") {  // of ambient light, which a path tracer has none of
+        } else if (key != "Ka") {
             unused(key);
         }
     }
 
-    // Lines before the first material, and those of a second one of a name, are read and left.
+    // Returns the material that the current line belongs to. Lines before the first newmtl, and those of a material
+    // whose name has occurred before, are checked, but their values are discarded.
     MtlMaterial& current() { return current_ ? *current_ : nobody_; }
 
+    // Starts a material.
     void material(const std::string& name) {
         current_ = nullptr;
         nobody_ = {};
@@ -104,6 +110,7 @@ private:
         current_->file = path_;
     }
 
+    // Returns the picture of the current material that a keyword names; null if it is no keyword of a picture.
     MtlMap* map_of(std::string_view key) {
         if (key == "map_Kd") return &current().diffuse_map;
         if (key == "map_Ks") return &current().specular_map;
@@ -127,12 +134,13 @@ private:
         if (words.size() > 1 && (words[1] == "spectral" || words[1] == "xyz")) return warn("only RGB colours are read");
         if (words.size() < 2) lines_.fail(std::string(words[0]) + " needs a number");
         if (words.size() == 3) lines_.fail(std::string(words[0]) + " needs one number or three");
-        // One number stands for all three.
+        // One number is the value of all three components.
         const auto at = [&](std::size_t i) { return double{lines_.require_number(words[words.size() == 2 ? 1 : i])}; };
         to = Color{at(1), at(2), at(3)};
         note(words[0]);
     }
 
+    // Reads the number of a line. The option -halo of d is skipped.
     double number(const Words& words) {
         const std::size_t place = words[0] == "d" && words.size() > 1 && words[1] == "-halo" ? 2 : 1;
         if (words.size() <= place) lines_.fail(std::string(words[0]) + " needs a number");
@@ -141,13 +149,15 @@ private:
         return value;
     }
 
+    // Reads a number and clamps it to [0, 1].
     double share(const Words& words) {
         const double value = number(words), within = std::clamp(value, 0.0, 1.0);
         if (within != value) warn(std::string(words[0]) + " was clamped");
         return within;
     }
 
-    // d stands, wherever it is; some programs write the same number as d and as Tr.
+    // Sets the opacity to 1 - Tr, unless the material has a d. Some programs write the same number as d and as Tr; then
+    // d counts, wherever it is.
     void transparency(double value) {
         if (!current().lines.contains("d")) current().opacity = 1 - value;
     }
@@ -158,6 +168,7 @@ private:
         current().illumination = is_known ? std::optional(static_cast<int>(value)) : std::nullopt;
     }
 
+    // Records a keyword that limn does not use. After the first 20, only "other words" is recorded.
     void unused(std::string_view key) {
         constexpr std::size_t kMost = 20;
         std::vector<MtlMaterial::Word>& words = current().unused;
@@ -166,6 +177,7 @@ private:
         if (std::none_of(words.begin(), words.end(), is_text)) words.push_back({text, lines_.number()});
     }
 
+    // Records the line of a keyword that has been read.
     void note(std::string_view key) { current().lines[std::string(key)] = lines_.number(); }
 
     void warn(const std::string& problem) {
@@ -177,8 +189,8 @@ private:
     std::map<std::string, MtlMaterial>& materials_;
     std::vector<std::string>& warnings_;
     bool has_material_ = false;
-    MtlMaterial* current_ = nullptr;
-    MtlMaterial nobody_;
+    MtlMaterial* current_ = nullptr;  // null if the lines are discarded
+    MtlMaterial nobody_;              // gets the values of discarded lines
 };
 
 }  // namespace

@@ -7,6 +7,7 @@ namespace limn {
 
 namespace {
 
+// The illumination models of an MTL, as far as limn distinguishes them.
 enum class Illum { unsaid, matte, highlight, mirror, transparent };
 
 Illum illum_of(const MtlMaterial& m) {
@@ -24,6 +25,7 @@ Illum illum_of(const MtlMaterial& m) {
     }
 }
 
+// Returns true if the material has the picture.
 bool is_there(const MtlMap& map) { return !map.name.empty(); }
 
 }  // namespace
@@ -55,6 +57,7 @@ std::vector<MtlMaterial::Word> words_without_use(const MtlMaterial& m, MtlLook l
     if (look == MtlLook::light || look == MtlLook::diffuse) add("Pr");
     if (look != MtlLook::metallic_roughness) add("Pm");
     const Illum illum = illum_of(m);
+    // Report illum if the material is not what it asks for.
     const bool is_as_illum_says =
         look == MtlLook::glass || illum == Illum::unsaid || illum == Illum::highlight ||
         (illum == Illum::matte && m.illumination != 10) ||
@@ -63,8 +66,9 @@ std::vector<MtlMaterial::Word> words_without_use(const MtlMaterial& m, MtlLook l
     return words;
 }
 
-// Pr, or that of the microfacets whose lobe is as wide as Phong's with exponent Ns: alpha = sqrt(2 / (Ns + 2)) (Walter
-// et al., Microfacet Models for Refraction through Rough Surfaces, EGSR 2007, section 5.2).
+// The roughness is Pr if the material has it. Otherwise it is that of microfacets whose lobe is as wide as a Phong lobe
+// with the exponent Ns: alpha = sqrt(2 / (Ns + 2)) (Walter et al., Microfacet Models for Refraction through Rough
+// Surfaces, EGSR 2007, section 5.2).
 double roughness_of(const MtlMaterial& m) {
     return m.roughness.value_or(std::sqrt(std::min(1.0, std::sqrt(2 / (std::max(m.shininess, 0.0) + 2)))));
 }

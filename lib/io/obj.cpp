@@ -8,7 +8,7 @@ namespace limn {
 
 namespace {
 
-// OBJ has no mark of its own, but others have.
+// Throws a FileError if the contents are recognised as another kind of file. An OBJ itself has no mark to recognise.
 void require_no_other_kind(const std::string& text, const std::string& path) {
     const FileKind kind = kind_of_contents(text);
     if (kind.name.empty() || kind.may_be_text) return;

@@ -32,7 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A path in an OBJ or MTL file is relative to that file; Windows programs write backslashes.
+// Returns the path that a name in an OBJ or MTL refers to. It is relative to that file. Windows programs write
+// backslashes.
 std::string beside(const std::string& file, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return (fs::path(file).parent_path() / name).string();
@@ -46,14 +47,18 @@ bool exists(const std::string& path) {
 using MaterialPtr = std::shared_ptr<const Material>;
 using TexturePtr = std::shared_ptr<const Texture>;
 
-enum class Use { color, opacity, normals, bumps };  // of a picture
+// The use of a picture. The same picture may have several.
+enum class Use { color, opacity, normals, bumps };
 
+// Reads the MTLs of an OBJ and makes the materials.
 class MaterialLoader {
 public:
     MaterialLoader(const ObjOptions& options, Model& model) : options_(options), model_(model) {}
 
+    // Reads the MTLs that an mtllib names: one name, which may contain blanks, or several names. A missing one gets a
+    // warning.
     void add_libraries(const ObjLibrary& library, const std::string& obj_path) {
-        const std::string& names = library.names;  // one name, which may contain blanks, or several
+        const std::string& names = library.names;
         const std::string at = "line " + std::to_string(library.line) + " of " + obj_path;
         if (names.empty()) return missing_.push_back(at + ": mtllib without the name of a file");
         if (exists(beside(obj_path, names))) return add_library(beside(obj_path, names));
@@ -68,6 +73,7 @@ public:
         }
     }
 
+    // Returns the default material and then one material for each name in Model::materials.
     std::vector<MaterialPtr> make_all() {
         std::vector<MaterialPtr> made{default_material(options_)};
         std::vector<std::string> unknown;
@@ -83,7 +89,7 @@ public:
         return made;
     }
 
-    // Once for each material.
+    // Warns once for each material that has pictures and a face without texture coordinates.
     void warn_of_missing_uvs(const ObjFile& file) {
         for (const ObjFace& face : file.faces) {
             const auto has_no_uv = [](const ObjCorner& corner) { return corner.uv == ObjCorner::kNone; };
@@ -99,7 +105,7 @@ public:
 
 private:
     void add_library(const std::string& path) {
-        // Behind the OBJ itself, so far.
+        // Skip an MTL that has been read. At this stage, `files` holds the OBJ, followed by the MTLs.
         if (std::find(model_.files.begin() + 1, model_.files.end(), path) != model_.files.end()) return;
         model_.files.push_back(path);
         std::string text;
@@ -113,6 +119,7 @@ private:
         parse_mtl(text, path, materials_, model_.warnings);
     }
 
+    // Converts a material of an MTL, and collects the keywords that limn does not use for it.
     MaterialPtr make(const std::string& name, const MtlMaterial& m) {
         const MtlColors colors{clamped(m.emission, HUGE_VAL, "Ke", name), clamped(m.diffuse, 1, "Kd", name),
                                clamped(m.specular, 1, "Ks", name)};
@@ -124,6 +131,7 @@ private:
         return look == MtlLook::glass ? material : masked(material, m, name);
     }
 
+    // Returns the material without its bumps and its opacity.
     MaterialPtr scattering(const MtlMaterial& m, MtlLook look, const MtlColors& colors) {
         const double index = m.index > 1 ? m.index : 1.5, roughness = roughness_of(m);
         switch (look) {
@@ -137,6 +145,7 @@ private:
         }
     }
 
+    // Returns the base colour. With a map_Kd that cannot be read and no Kd, it is a grey of 0.6.
     TexturePtr base(const MtlMaterial& m, const MtlColors& colors) {
         const bool is_unsaid = !m.diffuse_map.name.empty() && !m.lines.contains("Kd");
         return color(m, m.diffuse_map, is_unsaid ? Color{0.6, 0.6, 0.6} : colors.diffuse);
@@ -146,7 +155,7 @@ private:
         return color(m, m.specular_map, colors.specular);
     }
 
-    // Of the picture, if there is one that can be read.
+    // Returns the colours of a picture; `otherwise` if there is no picture, or if it cannot be read.
     TexturePtr color(const MtlMaterial& m, const MtlMap& map, const Color& otherwise) {
         const TexturePtr picture = texture(m, map, Use::color, 1, [](const std::string& path) {
             return scaled(load_image(path), {1, 1, 1}, 1);
@@ -154,19 +163,21 @@ private:
         return picture ? picture : std::make_shared<SolidColor>(otherwise);
     }
 
+    // Applies the normal map or the bump map of a material.
     MaterialPtr with_bumps(const MaterialPtr& material, const MtlMaterial& m) {
         TexturePtr normals = texture(m, m.normals, Use::normals, 1,
                                      [](const std::string& path) { return load_image(path, Encoding::raw); });
         if (m.normals.name.empty())
             normals = texture(m, m.bump, Use::bumps, m.bump.height, [&](const std::string& path) {
                 const Image picture = load_image(path, Encoding::raw);
-                // Blender names the pictures of its normal maps so.
+                // Blender writes normal maps as map_Bump.
                 return holds_normals(picture) ? scaled_normals(picture, m.bump.height)
                                               : normals_of_heights(picture, m.bump.height);
             });
         return normals ? std::make_shared<NormalMap>(material, normals) : material;
     }
 
+    // Applies the opacity of a material.
     MaterialPtr masked(const MaterialPtr& material, const MtlMaterial& m, const std::string& name) {
         const double share = std::clamp(m.opacity, 0.0, 1.0);
         const TexturePtr opacity = texture(m, m.opacity_map, Use::opacity, share, [&](const std::string& path) {
@@ -178,7 +189,7 @@ private:
         return share < 1 ? std::make_shared<AlphaMask>(material, share) : material;
     }
 
-    // One warning for each word of a file.
+    // Collects a keyword that limn does not use for a material. Each keyword of an MTL gets one warning.
     void count_unused(const MtlMaterial& m, const std::string& name, const MtlMaterial::Word& word) {
         const auto [place, is_new] = unused_places_.try_emplace({m.file, word.text}, unused_.size());
         if (is_new)
@@ -198,21 +209,24 @@ private:
     }
 
     void warn_of_unknown(const std::vector<std::string>& names) {
-        constexpr std::size_t kMost = 3;  // are named
+        constexpr std::size_t kMost = 3;  // the number of materials that are named
         for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
             model_.warnings.push_back("unknown material " + names[i]);
         if (names.size() > kMost)
             model_.warnings.push_back("and " + std::to_string(names.size() - kMost) + " more unknown materials");
     }
 
+    // Clamps a colour to [0, largest], with a warning that names the keyword and the material.
     Color clamped(const Color& c, double largest, const char* key, const std::string& name) {
         const Color result{std::clamp(c.r, 0.0, largest), std::clamp(c.g, 0.0, largest), std::clamp(c.b, 0.0, largest)};
         if (result != c) model_.warnings.push_back("material " + in_quotes(name) + ": " + key + " was clamped");
         return result;
     }
 
-    // What `load` makes of a picture; null if there is none, and, with a warning, if it cannot be read. \param number
-    // that `load` depends on
+    // Returns the texture of load(path), where `path` is that of a picture. Returns null if there is no picture, if
+    // ModelOptions::textures is false, or, with a warning, if it cannot be read. Textures with the same path, use and
+    // number are shared.
+    // \param number a parameter that the result of `load` depends on
     template <class Load>
     TexturePtr texture(const MtlMaterial& m, const MtlMap& map, Use use, double number, const Load& load) {
         if (map.name.empty() || !options_.textures) return nullptr;
@@ -231,14 +245,14 @@ private:
 
     const ObjOptions& options_;
     Model& model_;
-    std::vector<bool> has_pictures_;    // of Model::materials
-    std::vector<std::string> missing_;  // warnings that stand before all others
+    std::vector<bool> has_pictures_;    // for each of Model::materials, true if a picture of it could be read
+    std::vector<std::string> missing_;  // the warnings that precede all others
     struct Unused {
-        std::string text;
+        std::string text;  // the warning
         std::size_t other_materials;
     };
     std::vector<Unused> unused_;
-    std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // by file and word
+    std::map<std::pair<std::string, std::string>, std::size_t> unused_places_;  // indices in unused_, by file and word
     std::map<std::string, MtlMaterial> materials_;
     std::map<std::tuple<std::string, Use, double>, TexturePtr> textures_;
 };

@@ -1,4 +1,5 @@
-// The only source that holds tinyobjloader, under a name of limn's own so that a program may link another copy.
+// Parses OBJ files with tinyobjloader. This is the only source that contains tinyobjloader. Its namespace is renamed,
+// so that a program may link another copy.
 #define tinyobj limn_tinyobj
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -14,7 +15,8 @@ namespace limn {
 
 namespace {
 
-// The text holds float32 values, which survive the way through double.
+// Returns the functions that store what tinyobjloader reads in an ObjFile. The text of clean_obj() holds exact float32
+// values; they are not changed by the conversion to double and back.
 tinyobj::callback_t callbacks() {
     tinyobj::callback_t result;
     result.vertex_cb = [](void* file, double x, double y, double z, double) {
@@ -26,7 +28,7 @@ tinyobj::callback_t callbacks() {
     result.texcoord_cb = [](void* file, double u, double v, double) {
         static_cast<ObjFile*>(file)->uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
     };
-    // Counted from 1, 0 for none.
+    // tinyobjloader counts from 1; an index of 0 is missing.
     result.index_cb = [](void* file, tinyobj::index_t* indices, int count) {
         for (const tinyobj::index_t& i : std::span(indices, static_cast<std::size_t>(count)))
             static_cast<ObjFile*>(file)->corners.push_back(
@@ -35,6 +37,7 @@ tinyobj::callback_t callbacks() {
     return result;
 }
 
+// Throws a FileError if a face refers to an element that the file does not have.
 void require_in_range(const ObjFile& file, const std::string& path) {
     for (const ObjFace& face : file.faces) {
         const auto check = [&](int index, std::size_t count, const char* name) {

@@ -1,4 +1,5 @@
-// The steps of load_obj, each in a source of its own. What they count and warn of goes into the model.
+// Declares the steps of reading an OBJ, each of which has a source of its own. Counts and warnings are stored in the
+// model.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace limn {
 
-// Places in the arrays of an ObjFile; kNone where the corner has no such thing.
+// A corner of a face: indices into the arrays of an ObjFile, or kNone.
 struct ObjCorner {
     static constexpr int kNone = -1;
     int position = kNone, uv = kNone, normal = kNone;
@@ -22,15 +23,16 @@ struct ObjCorner {
 
 struct ObjFace {
     std::size_t line = 0, first_corner = 0, corner_count = 0;
-    std::uint32_t slot = 0;  // 0 without a material, i + 1 for Model::materials[i]
+    std::uint32_t slot = 0;  // the material slot: 0 without a material, i + 1 for Model::materials[i]
 };
 
+// An mtllib statement.
 struct ObjLibrary {
-    std::string names;  // what stands behind mtllib
+    std::string names;  // the rest of the line
     std::size_t line = 0;
 };
 
-// An OBJ as plain arrays, checked.
+// The contents of an OBJ as arrays. All indices have been checked.
 struct ObjFile {
     std::vector<Float3> positions, normals;
     std::vector<Float2> uvs;
@@ -43,25 +45,30 @@ struct ObjFile {
     }
 };
 
-// What stands between a user's OBJ file and tinyobjloader, which reads well-formed text right, but is silent about much
-// that is not (a byte order mark, a continued line, an index that wraps, 1e40, "nan"). Every line is checked here, and
-// v, vt, vn and f are written anew in the one form that it cannot misread: exact float32, positive indices. All else
-// goes into `file`, the faces without their corners. \throws FileError naming `path` and the line: a malformed number
-// or corner, a value that is not a finite float32, a relative index that reaches before the first element; naming
-// `path`: lines, but none that an OBJ has
+// Checks every line of an OBJ and returns a text that tinyobjloader cannot misread. tinyobjloader reads well-formed
+// text correctly, but reports no error for much that is not: a byte order mark, a continued line, an index that wraps
+// around, 1e40, "nan". The returned text has only v, vt, vn and f, with exact float32 values and positive indices. All
+// other statements are stored in `file` and `model`, and so are the faces without their corners.
+// \throws FileError naming `path` and the line if a number or a corner is malformed, if a value is not a finite
+// float32, or if a relative index refers to an element before the first
+// \throws FileError naming `path` if there are lines, but no line is a statement of an OBJ
 std::string clean_obj(std::string_view text, const std::string& path, ObjFile& file, Model& model);
 
-/// \throws FileError naming `path` and the line of what is wrong
+// Parses an OBJ: checks it with clean_obj() and gives the result to tinyobjloader. Sets the numbers of vertices and
+// faces of the model.
+// \throws FileError naming `path` and the line, as clean_obj(), and if an index is out of range
 ObjFile parse_obj(std::string_view text, const std::string& path, Model& model);
 
-/// Cuts faces into triangles and leaves out those without an area; empty if no face is usable. If no face names a
-/// normal or texture coordinate, the vertices are those of the file; otherwise there is one for every combination that
-/// occurs, and a corner that names no normal, or one of length zero, gets its face's, one that names no texture
-/// coordinate gets (0, 0).
+// Cuts the faces into triangles and leaves out those without an area. The mesh is empty if no face is usable.
+//
+// If no face names a normal or a texture coordinate, the vertices are those of the file. Otherwise there is one vertex
+// for each combination that occurs. Then a corner that names no normal, or one of length zero, gets the normal of its
+// face. A corner that names no texture coordinate gets (0, 0).
 MeshData build_mesh(const ObjFile& file, Model& model);
 
-/// The fallback, then a material for each name in Model::materials, as the table in limn/io/obj.h says. What is missing
-/// is replaced by the fallback, with a warning. \throws FileError naming the MTL and the line of a malformed number
+// Returns the default material, then a material for each name in Model::materials, as the table in limn/io/obj.h says.
+// A missing material is replaced by the default one, with a warning.
+// \throws FileError naming the MTL and the line if a number in it is missing or malformed
 std::vector<std::shared_ptr<const Material>> load_obj_materials(const ObjFile& file, const std::string& obj_path,
                                                                 const ObjOptions& options, Model& model);
 

@@ -11,6 +11,7 @@ namespace limn {
 
 namespace {
 
+// Reads the vertices, faces and triangle strips of a PLY. Other elements are skipped.
 class PlyReader {
 public:
     PlyReader(std::string_view bytes, const std::string& path, Model& model)
@@ -32,10 +33,10 @@ public:
     }
 
     MeshData data;
-    std::vector<Float3> colors;  // of the vertices, linear; or empty
+    std::vector<Float3> colors;  // linear colours of the vertices, or empty
 
 private:
-    // Which properties make a vector; none if one lacks.
+    // The indices of three properties that form a vector; std::nullopt if the element lacks one of them.
     using Places = std::optional<std::array<std::size_t, 3>>;
     using Names = std::initializer_list<std::string_view>;
 
@@ -45,17 +46,20 @@ private:
         return std::array{*a, *b, *c};
     }
 
+    // Returns a vector of the current row. \pre `at` has a value
     Float3 vector_at(const Places& at) const {
         const auto number = [&](std::size_t i) { return static_cast<float>(values_[(*at)[i]]); };
         return {number(0), number(1), number(2)};
     }
 
     void read_vertices(const PlyElement& element) {
+        // Find the properties that limn uses.
         const Places position = places(element, {"x"}, {"y"}, {"z"}), normal = places(element, {"nx"}, {"ny"}, {"nz"});
         const Places color = places(element, {"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"},
                                     {"blue", "b", "diffuse_blue"});
         const auto u = element.find({"s", "u", "texture_u"}), v = element.find({"t", "v", "texture_v"});
         if (!position) source_.fail("its vertices have no x, y and z");
+        // Read the rows.
         for (std::uint64_t i = 0; i < element.count; ++i) {
             source_.read_row(element, {}, values_, list_);
             const Float3 p = vector_at(position);
@@ -69,16 +73,18 @@ private:
         model_.vertices = data.vertices.size();
     }
 
-    // Integers are sRGB, from 0 to 255 whatever their type but ushort, as programs write them; others are linear.
+    // Returns the linear value of a colour. Floats are linear already. Integers are sRGB: a ushort from 0 to 65535, any
+    // other type from 0 to 255, as programs write them.
     static Float3 linear(const Float3& c, PlyType type) {
         const double largest = !is_integer(type) ? 1 : type == PlyType::uint16 ? 65535 : 255;
         const auto decode = [&](float stored) {
-            const double value = stored > 0 ? std::min(stored / largest, 1.0) : 0;  // NaN is black
+            const double value = stored > 0 ? std::min(stored / largest, 1.0) : 0;  // NaN becomes 0
             return static_cast<float>(is_integer(type) ? srgb_decode(value) : value);
         };
         return {decode(c.x), decode(c.y), decode(c.z)};
     }
 
+    // Reads the list of vertex indices in each row of an element, and calls add() for it.
     template <class Add>
     void read_lists(const PlyElement& element, const Add& add) {
         if (element.count == 0) return;
@@ -92,6 +98,7 @@ private:
         }
     }
 
+    // Converts an index of a vertex, after a check of its range.
     std::uint32_t vertex(double index) const {
         if (!(index >= 0 && index < static_cast<double>(data.vertices.size())))
             source_.fail("face " + std::to_string(model_.faces) + " refers to vertex " + integer_text(index) +
@@ -105,7 +112,8 @@ private:
         add_polygon();
     }
 
-    // Triangles of three corners that follow each other, every other one the other way round; -1 begins anew.
+    // Adds triangle strips. Each three consecutive corners form a triangle, and every second triangle is reversed. An
+    // index of -1 starts a new strip.
     void add_strips() {
         std::size_t begin = 0;
         for (std::size_t i = 0; i < list_.size(); ++i) {
@@ -117,6 +125,7 @@ private:
         }
     }
 
+    // Adds the face with the corners `corners_`.
     void add_polygon() {
         polygon_.clear();
         for (const std::uint32_t corner : corners_) polygon_.push_back(data.vertices[corner]);
@@ -130,8 +139,8 @@ private:
     PlySource source_;
     Model& model_;
     FaceCutter cutter_;
-    std::vector<double> values_, list_;   // of the current row
-    std::vector<std::uint32_t> corners_;  // of the current face
+    std::vector<double> values_, list_;   // the current row
+    std::vector<std::uint32_t> corners_;  // the current face
     std::vector<Float3> polygon_;
 };
 

@@ -17,13 +17,14 @@ struct TypeName {
     std::string_view old_name, new_name;
     std::size_t size;
 };
-// In the order of PlyType.
+// The names and sizes of the types, in the order of PlyType.
 constexpr TypeName kTypes[] = {{"char", "int8", 1},     {"uchar", "uint8", 1},   {"short", "int16", 2},
                                {"ushort", "uint16", 2}, {"int", "int32", 4},     {"uint", "uint32", 4},
                                {"float", "float32", 4}, {"double", "float64", 8}};
 
 std::size_t size_of(PlyType type) { return kTypes[static_cast<std::size_t>(type)].size; }
 
+// Returns the value of a number of the type with these bits.
 double number_of_bits(PlyType type, std::uint64_t bits) {
     switch (type) {
         case PlyType::int8: return static_cast<std::int8_t>(bits);
@@ -38,7 +39,7 @@ double number_of_bits(PlyType type, std::uint64_t bits) {
     return static_cast<double>(bits);
 }
 
-// All of the word is a number.
+// Parses a word; std::nullopt if it is not a number as a whole.
 template <class Number>
 std::optional<Number> parse(std::string_view word) {
     Number number{};
@@ -49,7 +50,7 @@ std::optional<Number> parse(std::string_view word) {
 
 }  // namespace
 
-// A text may state integers up to 2^63, which as a double is no long long.
+// The value is clamped, because rounding to double may have raised it to 2^63, which a long long does not hold.
 std::string integer_text(double value) {
     return std::to_string(static_cast<long long>(std::clamp(value, -0x1p62, 0x1p62)));
 }
@@ -64,7 +65,8 @@ PlySource::PlySource(std::string_view bytes, const std::string& path, std::vecto
     : bytes_(bytes), path_(path), lines_(bytes, path, LineForm::plain), data_({}) {
     read_header(warnings);
     if (form_ == Form::ascii) return;
-    // Where lines end in CR alone, an LF behind the last one is data.
+    // Find the first byte of the data. TextLines takes CR LF for one end of a line. If the lines of the header end in
+    // CR alone, an LF after the last one belongs to the data.
     std::size_t begin = bytes.size() - lines_.rest().size();
     const std::size_t first_end = bytes.find_first_of("\r\n");
     const bool ends_in_cr = bytes.substr(first_end, 1) == "\r" && bytes.substr(first_end, 2) != "\r\n";
@@ -189,7 +191,7 @@ double PlySource::value_of_word(PlyType type) {
         return static_cast<double>(*number);
     }
     if (const auto number = parse_float(word)) return double{*number};
-    // Beyond float32, infinite or NaN, which harms only where the value is used.
+    // Accept a value that is too large for float32, infinite or NaN. It is an error only if the value is used.
     const auto number = parse<double>(word);
     if (!number) lines_.fail(in_quotes(word) + " is not a number");
     return *number;

@@ -1,4 +1,5 @@
-// The header and the numbers of a PLY file (Turk, The PLY Polygon File Format, 1994), whichever way it is written.
+// Reads the header and the numbers of a PLY file in any of its three forms: text, or binary of either byte order (Turk,
+// The PLY Polygon File Format, 1994).
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,13 @@ enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, f
 
 inline bool is_integer(PlyType type) { return type < PlyType::float32; }
 
-// Of a value of an integer type, for a message.
+// Returns the text of an integer for a message.
 std::string integer_text(double value);
 
 struct PlyProperty {
     std::string name;
     PlyType type;
-    std::optional<PlyType> count_type{};  // of a list
+    std::optional<PlyType> count_type{};  // the type of a list's length; std::nullopt for a number
 };
 
 struct PlyElement {
@@ -30,26 +31,29 @@ struct PlyElement {
     std::uint64_t count;
     std::vector<PlyProperty> properties{};
 
-    // The place of the first property of one of these names, among lists or among numbers.
+    // Returns the index of the first property that has one of these names. Considers only lists if `is_list` is true,
+    // else only numbers.
     std::optional<std::size_t> find(std::initializer_list<std::string_view> names, bool is_list = false) const;
 };
 
+// Reads a PLY file row by row. Errors are FileErrors that name the file and the line, or the byte of a binary file. The
+// bytes are not owned.
 class PlySource {
 public:
-    /// Reads the header. \throws FileError naming `path` and the line
+    // Reads the header.
     PlySource(std::string_view bytes, const std::string& path, std::vector<std::string>& warnings);
 
     const std::vector<PlyElement>& elements() const { return elements_; }
 
-    // The next row of an element, one value for each property; that of a list has no meaning, and of the list `wanted`
-    // `list` gets the numbers. \throws FileError naming the place
+    // Reads the next row of an element. `values` gets one value for each property; that of a list is 0. If `wanted` is
+    // the index of a list, `list` gets its numbers.
     void read_row(const PlyElement& element, std::optional<std::size_t> wanted, std::vector<double>& values,
                   std::vector<double>& list);
 
-    // What lies behind the last row, or nothing.
+    // Adds a warning if anything follows the last row.
     void warn_of_rest(std::vector<std::string>& warnings) const;
 
-    /// \throws FileError naming the line, or the byte of a binary file
+    // Throws a FileError with a problem at the current place.
     [[noreturn]] void fail(const std::string& problem) const;
 
 private:
@@ -69,8 +73,8 @@ private:
     TextLines lines_;
     std::optional<Form> form_;
     std::vector<PlyElement> elements_;
-    Cursor data_;                          // of a binary file
-    std::vector<std::string_view> words_;  // of the line of a text that is being read, the last first
+    Cursor data_;                          // the rest of a binary file
+    std::vector<std::string_view> words_;  // the rest of the current line of a text, in reverse order
 };
 
 }  // namespace limn

@@ -9,16 +9,18 @@ namespace limn {
 
 namespace {
 
-// PNG specification (W3C, 2003), 5.2 and 5.3: eight bytes of signature, then chunks of length, type, data, CRC.
+// A PNG is a signature of eight bytes, followed by chunks. A chunk is a length, a type, data and a CRC (PNG
+// specification, W3C, 2003, 5.2 and 5.3).
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 
+// Returns a number as four bytes, big-endian.
 std::string bytes_of(std::uint32_t value) {
     std::string bytes;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
     return bytes;
 }
 
-// CRC-32 of ISO 3309 (PNG specification, 5.5), of one byte at the end of a remainder.
+// The table of CRC-32 (ISO 3309; PNG specification, 5.5): the remainder of each value of a byte.
 constexpr std::array<std::uint32_t, 256> kCrcTable = [] {
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
@@ -43,8 +45,9 @@ PngChunk take_chunk(Cursor& file) {
     return {text.substr(0, 4), text.substr(4), type_and_data, file.big(4)};
 }
 
-// The image header (11.2.2): width, height, depth, colour type, and three bytes of methods. `packed` is how many bytes
-// of pixels there are: deflate makes at most 1032 bytes of one, and rows begin with a byte.
+// Checks the image header (11.2.2): width, height, depth, colour type, and three bytes of methods. Checks that `packed`
+// bytes of compressed pixels suffice for the picture. Deflate unpacks a byte to at most 1032 bytes, and each row begins
+// with a byte for its filter. \throws Fault
 void check_header(std::span<const std::byte> data, std::uint64_t packed) {
     demand(data.size() == 13, "its size is damaged");
     const std::uint64_t width = big_endian(data, 0, 4), height = big_endian(data, 4, 4);

@@ -18,12 +18,15 @@ Vec3 newell_normal(std::span<const Float3> polygon) {
 }
 
 bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& triangles) {
+    // Make a fan of a triangle, and of a polygon that cannot be projected.
     triangles.clear();
     const Place count = static_cast<Place>(polygon.size());
     if (count == 3 || !project(polygon)) {
         for (Place i = 1; i + 1 < count; ++i) triangles.push_back({0, i, i + 1});
         return true;
     }
+    // Link the corners into a ring, and make each of them a candidate. Begin at corner 1, so that a quadrilateral is
+    // cut between 0 and 2.
     previous_.resize(count);
     next_.resize(count);
     version_.assign(count, 0);
@@ -33,27 +36,34 @@ bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& tr
         previous_[i] = i == 0 ? count - 1 : i - 1;
         next_[i] = i + 1 == count ? 0 : i + 1;
         is_dent_[i] = turn(previous_[i], i, next_[i]) <= 0;
-        candidates_.push_back({next_[i], 0});  // from corner 1 on: a quadrilateral is cut between 0 and 2
+        candidates_.push_back({next_[i], 0});
     }
     fill_grid();
     remaining_ = count;
     tests_ = 0;
 
+    // Clip ears until a triangle is left.
     Place on_ring = 0;
     bool progress = false;
     for (std::size_t head = 0; remaining_ > 3; ++head) {
+        // When all candidates have been tested, make all corners of the ring candidates again.
         if (head == candidates_.size()) {
             tests_ += remaining_;
+            // If no ear was found since the last time, clip a corner of zero area. If there is none, the polygon
+            // crosses itself.
             if (!progress) on_ring = without_area(on_ring);
-            if (!progress && turn(previous_[on_ring], on_ring, next_[on_ring]) != 0)
-                break;  // no ear: it crosses itself
-            if (!progress) clip(on_ring, triangles), on_ring = next_[on_ring];
+            if (!progress && turn(previous_[on_ring], on_ring, next_[on_ring]) != 0) break;
+            if (!progress) {
+                clip(on_ring, triangles);
+                on_ring = next_[on_ring];
+            }
             candidates_.clear();
             head = 0;
             progress = false;
             for (std::size_t i = 0; i < remaining_; ++i, on_ring = next_[on_ring])
                 candidates_.push_back({on_ring, version_[on_ring]});
         }
+        // Test the next candidate. Skip it if it was queued again or clipped since.
         const auto [i, version] = candidates_[head];
         if (version != version_[i]) continue;
         if (is_ear(i)) {
@@ -63,11 +73,13 @@ bool PolygonCutter::cut(std::span<const Float3> polygon, std::vector<Index3>& tr
         }
         if (tests_ > kMaxTests) return false;
     }
+    // Cut the rest as a fan.
     for (; remaining_ >= 3; on_ring = next_[on_ring]) clip(on_ring, triangles);
     return true;
 }
 
-// Onto the axes' plane in which the polygon looks largest, turning left. False if it has no side to look at.
+// Projects the polygon along the axis where its normal is largest, so that it turns left in the plane of the other two.
+// Returns false if the normal is zero or NaN.
 bool PolygonCutter::project(std::span<const Float3> polygon) {
     const Vec3 normal = newell_normal(polygon), size = abs(normal);
     const std::size_t axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
@@ -79,15 +91,18 @@ bool PolygonCutter::project(std::span<const Float3> polygon) {
     return true;
 }
 
+// Sorts the dents into the cells of the grid.
 void PolygonCutter::fill_grid() {
+    // Choose a grid with about one dent a cell.
     const std::size_t dents = static_cast<std::size_t>(std::count(is_dent_.begin(), is_dent_.end(), true));
-    side_ = static_cast<std::size_t>(std::sqrt(static_cast<double>(dents)));  // about one dent a cell
+    side_ = static_cast<std::size_t>(std::sqrt(static_cast<double>(dents)));
     if (dents == 0) return;
     lower_ = upper_ = points_[0];
     for (const Point& p : points_) {
         lower_ = {std::min(lower_[0], p[0]), std::min(lower_[1], p[1])};
         upper_ = {std::max(upper_[0], p[0]), std::max(upper_[1], p[1])};
     }
+    // Count the dents in each cell, sum up the counts, and put each dent into its place.
     const auto cell_of = [this](Place i) { return cell(1, points_[i][1]) * side_ + cell(0, points_[i][0]); };
     cell_start_.assign(side_ * side_ + 1, 0);
     for (Place i = 0; i < points_.size(); ++i)
@@ -98,25 +113,29 @@ void PolygonCutter::fill_grid() {
         if (is_dent_[i]) dents_[--cell_start_[cell_of(i)]] = i;
 }
 
+// Returns the row or column of the grid for a coordinate along an axis.
 std::size_t PolygonCutter::cell(std::size_t axis, double place) const {
     const double cells = (place - lower_[axis]) / (upper_[axis] - lower_[axis]) * static_cast<double>(side_);
     return std::min(static_cast<std::size_t>(cells), side_ - 1);
 }
 
-// Twice the signed area of a triangle, positive where it turns left.
+// Returns twice the signed area of a triangle. It is positive if the triangle turns left.
 double PolygonCutter::turn(Place a, Place b, Place c) const {
     const Point p = points_[a], q = points_[b], r = points_[c];
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
+// Returns true if corner i can be clipped: it is at the same point as a neighbour, or it is convex and its triangle
+// holds no dent.
 bool PolygonCutter::is_ear(Place i) {
     const Place a = previous_[i], b = next_[i];
-    if (points_[i] == points_[a] || points_[i] == points_[b]) return true;  // the same point twice
+    if (points_[i] == points_[a] || points_[i] == points_[b]) return true;
     return turn(a, i, b) > 0 && !holds_a_dent(a, i, b);
 }
 
-// Whether another part of the ring reaches into the closed triangle: then one of its dents does. Corners in the same
-// place as one of the triangle's are no obstacle (the ends of a cut that leads to a hole).
+// Returns true if another part of the ring reaches into the closed triangle. It is enough to test the dents: if any
+// part is inside, a dent is. A dent at the same point as a corner of the triangle does not count, because it is the end
+// of a cut that leads to a hole.
 bool PolygonCutter::holds_a_dent(Place a, Place i, Place b) {
     if (side_ == 0) return false;
     const auto [x0, x1] = std::minmax({points_[a][0], points_[i][0], points_[b][0]});
@@ -133,6 +152,7 @@ bool PolygonCutter::holds_a_dent(Place a, Place i, Place b) {
     return false;
 }
 
+// Removes corner i from the ring and adds its triangle, which begins with its lowest corner.
 void PolygonCutter::clip(Place i, std::vector<Index3>& triangles) {
     const Place a = previous_[i], b = next_[i];
     const Place lowest = std::min({a, i, b});
@@ -146,14 +166,14 @@ void PolygonCutter::clip(Place i, std::vector<Index3>& triangles) {
     touch(b);
 }
 
-// A corner with a new neighbour goes to the end of the queue, so that ears are taken all around before any next to each
-// other: the triangles stay small.
+// Updates a corner that has a new neighbour, and moves it to the end of the queue. Ears are therefore taken all around
+// the polygon before two that are adjacent, which keeps the triangles small.
 void PolygonCutter::touch(Place i) {
     is_dent_[i] = is_dent_[i] && turn(previous_[i], i, next_[i]) <= 0;
     candidates_.push_back({i, ++version_[i]});
 }
 
-// The next corner on the ring that its neighbours are in line with, or else `start`.
+// Returns the next corner on the ring that is on a line with its neighbours; `start` if there is none.
 PolygonCutter::Place PolygonCutter::without_area(Place start) const {
     Place i = start;
     do {

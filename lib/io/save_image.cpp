@@ -1,4 +1,5 @@
-// Writing pictures: suffixes, what can be written, verification.
+// Implements the functions that write pictures: checks the arguments, encodes the picture, decodes it again to verify
+// it, and replaces the file.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -23,6 +24,7 @@ constexpr float kLargestRgbe = 0xFFp119f;  // 255 2^(127 - 8) (Ward, Real Pixels
 constexpr std::pair<const char*, FileFormat> kSuffixes[] = {
     {".exr", FileFormat::exr}, {".png", FileFormat::png}, {".hdr", FileFormat::hdr}};
 
+// Returns the format for the suffix of a file. \throws FileError if it cannot be written
 FileFormat format_of(const std::string& path) {
     const std::string suffix = in_lower_case(std::filesystem::path(path).extension().string());
     std::string known;
@@ -35,7 +37,8 @@ FileFormat format_of(const std::string& path) {
     throw FileError(path, hint + ("the name of a picture must end in " + known));
 }
 
-// With its prefix, a PNG keyword has at most 79 characters (PNG specification, 11.3.4.2).
+// Returns true if the text can be the name of a fact or a channel. The limit of 70 characters is for PNG: a keyword,
+// kFactPrefix included, has at most 79 (PNG specification, 11.3.4.2).
 bool is_name(const std::string& text) {
     return !text.empty() && text.size() <= 70 &&
            std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
@@ -73,6 +76,7 @@ void check_part(const std::optional<PartOf>& part, const Image& image) {
         throw ArgumentError("save_image: the picture does not lie in that of which it is a part");
 }
 
+// Throws a FileError if the picture is empty or if the format cannot store one of its values.
 void check_values(const Image& image, const std::string& path, FileFormat format, bool half) {
     if (image.empty()) throw FileError(path, "the image has no pixels");
     const auto refuse = [&](auto bad, const std::string& why) {
@@ -90,15 +94,16 @@ void check_values(const Image& image, const std::string& path, FileFormat format
         refuse([](float v) { return std::abs(v) > kLargestHalf && !std::isinf(v); }, "too large for half (65504)");
 }
 
-// The nearest half, ties to even, of a value that has one: 11 significant bits, the last at least 2^-24.
+// Returns the nearest half, ties to even. A half has 11 significant bits, and its last bit is at least 2^-24. \pre the
+// value is not finite, or within the range of half
 float round_to_half(float v) {
     if (v == 0 || !std::isfinite(v)) return v;
     const int last_bit = std::max(std::ilogb(v) - 10, -24);
     return std::ldexp(std::nearbyint(std::ldexp(v, -last_bit)), last_bit);
 }
 
-// The nearest colour whose components have 8 bits below the largest one's exponent; none are negative. Those that stb
-// takes for black are.
+// Rounds a colour to the nearest one that an HDR stores: no component is negative, and all have the 8 bits of the
+// largest one. A colour that stb takes for black becomes black.
 void round_to_rgbe(std::span<float, 3> rgb) {
     const float largest = std::max({rgb[0], rgb[1], rgb[2]});
     int last_bit = largest < 1e-32f ? 0 : std::ilogb(largest) - 7;
@@ -107,7 +112,8 @@ void round_to_rgbe(std::span<float, 3> rgb) {
         v = largest < 1e-32f || v <= 0 ? 0 : std::ldexp(std::nearbyint(std::ldexp(v, -last_bit)), last_bit);
 }
 
-// What a file of floats holds: pixel by pixel the colour, alpha, and one value of each layer.
+// Returns the values of a file of floats, rounded to the precision of the format. Each pixel has the colour, alpha if
+// there is one, and a value of each layer.
 std::vector<float> interleaved(const Image& image, const SaveOptions& options, FileFormat format) {
     const bool is_exr = format == FileFormat::exr, is_half = is_exr && options.half;
     const std::size_t layers = is_exr ? options.layers.size() : 0, alpha = is_exr && !options.alpha.empty() ? 1 : 0;
@@ -125,14 +131,14 @@ std::vector<float> interleaved(const Image& image, const SaveOptions& options, F
     return values;
 }
 
+// Return true if the values have the same bits. Any two NaNs are equal, because half shortens the payload of a NaN.
 bool same_value(std::uint8_t a, std::uint8_t b) { return a == b; }
-// Bit for bit but for the payload of a NaN, which half cuts.
 bool same_value(float a, float b) {
     return (a == b && std::signbit(a) == std::signbit(b)) || (std::isnan(a) && std::isnan(b));
 }
 
-// For each channel of the file which one of the job it is: readers have an order of their own for layers. Empty if the
-// file has others.
+// Returns, for each channel of the file, the index of the same channel in the job. Readers may change the order of
+// layers. Returns an empty vector if the file has a channel that the job does not have.
 std::vector<std::size_t> order_of(const std::vector<ImageChannel>& channels, const EncodeJob& job) {
     const auto first_layer = static_cast<std::size_t>(job.colours());
     std::vector<std::size_t> order;
@@ -144,13 +150,16 @@ std::vector<std::size_t> order_of(const std::vector<ImageChannel>& channels, con
     return order;
 }
 
-// The file holds just the values that were to be written.
+// Returns true if a picture file holds exactly the values of the job.
 bool holds(const std::vector<std::byte>& bytes, const EncodeJob& job, const std::string& path) {
+    // Decode it, and compare the size.
     const StoredImage stored = decode(job.format, bytes, path, job.channels());
     if (stored.width != job.width || stored.height != job.height || stored.channels != job.channels()) return false;
+    // Find the order of its channels.
     std::vector<std::size_t> order(static_cast<std::size_t>(job.channels()));
     std::iota(order.begin(), order.end(), std::size_t{0});
     if (!job.layers.empty()) order = order_of(decode_header(job.format, bytes, path).channels, job);
+    // Compare the values.
     const auto equal = [&](const auto& values) {
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
         const auto* back = std::get_if<std::vector<Value>>(&stored.values);
@@ -163,6 +172,7 @@ bool holds(const std::vector<std::byte>& bytes, const EncodeJob& job, const std:
     return std::visit(equal, job.values);
 }
 
+// Returns the job for a picture, without its values.
 EncodeJob job_of(const Image& image, FileFormat format, const SaveOptions& options) {
     EncodeJob job{format, image.width(), image.height(), {}, options.half, options.facts};
     job.has_alpha = !options.alpha.empty() && format != FileFormat::hdr;
@@ -173,11 +183,13 @@ EncodeJob job_of(const Image& image, FileFormat format, const SaveOptions& optio
 }
 
 void save(const Image& image, const std::string& path, const SaveOptions& options) {
+    // Check the arguments.
     const FileFormat format = format_of(path);
     check_facts(options.facts);
     check_layers(options, image);
     check_part(options.part_of, image);
     check_values(image, path, format, options.half);
+    // Convert the values to those that the file stores.
     const bool is_png = format == FileFormat::png;
     std::vector<std::uint8_t> bytes_of_png;
     std::vector<float> floats;
@@ -188,12 +200,13 @@ void save(const Image& image, const std::string& path, const SaveOptions& option
         job.values = image.values();
     else
         job.values = std::span<const float>(floats = interleaved(image, options, format));
+    // Encode the picture, verify it, and write the file.
     const std::vector<std::byte> bytes = encode(job, path);
     if (!holds(bytes, job, path)) throw FileError(path, "what was written does not read back");
     replace_file(path, bytes);
 }
 
-// Running out of memory is a fault that concerns the file.
+// Calls `call` and reports running out of memory as a FileError.
 template <class Call>
 void with_memory(const std::string& path, Call call) try {
     call();

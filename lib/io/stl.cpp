@@ -1,5 +1,5 @@
-// STL (3D Systems, StereoLithography Interface Specification, 1989): triangles alone. Their stated normals are not
-// used: the order of the corners says what is outside.
+// Reads STL files, text or binary (3D Systems, StereoLithography Interface Specification, 1989). An STL holds only
+// triangles. The normals that it states are not used; the order of the corners determines the outward side.
 #include <cmath>
 #include <unordered_map>
 
@@ -15,11 +15,12 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// Corners at the same position become one vertex.
+// Collects the triangles of an STL. Corners at the same position become one vertex.
 class StlMesh {
 public:
     explicit StlMesh(Model& model) : model_(model), cutter_(model) {}
 
+    // Adds a triangle, unless it has no area. \param unit,number as for FaceCutter::cut
     void add(std::span<const Float3> corners, const char* unit, std::size_t number) {
         const auto face = static_cast<std::uint32_t>(model_.faces++);
         if (cutter_.cut(corners, unit, number).empty()) return;
@@ -33,8 +34,9 @@ public:
     }
 
 private:
+    // Returns the index of the vertex at a position. Adds the vertex when it first occurs.
     std::uint32_t vertex(const Float3& p) {
-        const Float3 position{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // no -0
+        const Float3 position{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // turns -0 into +0, for BytesHash
         const auto next = static_cast<std::uint32_t>(data_.vertices.size());
         const auto [place, is_new] = numbers_.try_emplace(position, next);
         if (is_new) data_.vertices.push_back(position);
@@ -47,6 +49,7 @@ private:
     std::unordered_map<Float3, std::uint32_t, BytesHash> numbers_;
 };
 
+// Reads the text form line by line.
 class AsciiReader {
 public:
     AsciiReader(std::string_view text, const std::string& path, StlMesh& mesh, Model& model)
@@ -64,6 +67,7 @@ private:
     enum class State { outside, solid, facet, loop };
 
     void read_line(const Words& words) {
+        // Take the step of the keyword. Lines with other keywords are skipped.
         const std::string key = in_lower_case(words[0]);
         if (key == "solid") {
             step(key, State::outside, State::solid);
@@ -92,6 +96,7 @@ private:
         }
     }
 
+    // Changes the state. Fails if the keyword is not allowed in the current one.
     void step(const std::string& key, State from, State to) {
         if (state_ != from) lines_.fail(key + " must not stand here");
         state_ = to;
@@ -113,8 +118,9 @@ private:
     PassedOver passed_over_;
 };
 
-// For each triangle a normal, three corners and two bytes, which some programs write a colour to.
+// Reads the binary form. A triangle is a normal, three corners and two bytes, which some programs use for a colour.
 void read_binary(std::string_view bytes, StlMesh& mesh, Model& model) {
+    // Read the number of triangles.
     Cursor file(std::as_bytes(std::span(bytes)), "is no STL: it is shorter than the header of one");
     file.take(kStlHeader - 4);
     const std::uint64_t stated = file.little(4), held = file.rest().size() / kStlTriangle;
@@ -123,13 +129,16 @@ void read_binary(std::string_view bytes, StlMesh& mesh, Model& model) {
     if (file.rest().size() > stated * kStlTriangle)
         model.warnings.push_back(std::to_string(file.rest().size() - stated * kStlTriangle) +
                                  " bytes behind the last triangle were passed over");
+    // Read the triangles.
     for (std::uint64_t i = 0; i < stated; ++i) {
         Cursor triangle(file.take(kStlTriangle));
         triangle.take(12);
         const auto number = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(triangle.little(4))); };
         Float3 corners[3];
         for (Float3& c : corners) {
-            c.x = number(), c.y = number(), c.z = number();
+            c.x = number();
+            c.y = number();
+            c.z = number();
             demand(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z),
                    "triangle " + std::to_string(i) + " has a corner that is not finite");
         }

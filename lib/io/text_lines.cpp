@@ -21,7 +21,7 @@ std::string_view trim(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-// Takes the next physical line off the front of `text`.
+// Removes a physical line from the front of `text` and returns it without its end.
 std::string_view take_line(std::string_view& text) {
     const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
     text.remove_prefix(line.size());
@@ -44,7 +44,8 @@ bool TextLines::next() {
         const std::string_view part = take_line(rest_of_text_);
         ++next_number_;
         line_ += part;
-        continues = part.ends_with('\\') && !trim(line_).starts_with('#');  // comments may end in a Windows folder
+        // Don't continue a comment: it may end in the path of a Windows folder.
+        continues = part.ends_with('\\') && !trim(line_).starts_with('#');
         continues = continues && form_ == LineForm::as_in_obj;
         if (continues) line_.back() = ' ';
     }
@@ -96,7 +97,7 @@ std::optional<float> parse_float(std::string_view word) {
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (error == std::errc::invalid_argument || stop != end) return std::nullopt;
     if (error == std::errc::result_out_of_range) {
-        // Too large, or so small that it is zero: a stream in the classic locale tells which.
+        // The number is too large, or so small that it rounds to zero. Only a stream distinguishes the two.
         std::istringstream stream{std::string(word)};
         stream.imbue(std::locale::classic());
         if (!(stream >> value)) return std::nullopt;

@@ -12,9 +12,10 @@ namespace limn {
 
 namespace {
 
-using Corners = std::array<Float3, 3>;
+using Corners = std::array<Float3, 3>;  // the colours of the corners of a triangle
 
-// Squares of two by two texels, row by row.
+// A texture that is divided into squares of two by two texels, numbered row by row. Each square holds the colours of a
+// triangle.
 class Atlas {
 public:
     explicit Atlas(std::size_t squares)
@@ -23,7 +24,8 @@ public:
                                  static_cast<std::size_t>(columns_))),
           image_(2 * columns_, 2 * rows_) {}
 
-    // The corners lie in the middles of three texels.
+    // Stores the colours of a triangle. Its corners are at the centres of three texels; the fourth texel continues the
+    // linear interpolation.
     void set(std::size_t square, const Corners& c) {
         const auto [x, y] = texel(square);
         const auto color = [](const Float3& v) { return Color{v.x, v.y, v.z}; };
@@ -33,6 +35,7 @@ public:
         image_.set(x + 1, y + 1, color(c[1]) + color(c[2]) - color(c[0]));
     }
 
+    // Returns the texture coordinates of the corners.
     std::array<Float2, 3> uvs(std::size_t square) const {
         const auto [x, y] = texel(square);
         const auto at = [&](int column, int row) {
@@ -45,6 +48,7 @@ public:
     Image take() { return std::move(image_); }
 
 private:
+    // Returns the column and the row of a square's upper left texel.
     std::pair<int, int> texel(std::size_t square) const {
         const std::size_t columns = static_cast<std::size_t>(columns_);
         return {2 * static_cast<int>(square % columns), 2 * static_cast<int>(square / columns)};
@@ -57,14 +61,17 @@ private:
 }  // namespace
 
 std::shared_ptr<const Material> paint(MeshData& mesh, const std::vector<Float3>& colors) {
+    // Assign a square to each combination of three colours.
     std::unordered_map<Corners, std::size_t, BytesHash> squares;
     std::vector<std::size_t> square_of;
     for (const Index3& t : mesh.triangles) {
         const auto [place, is_new] = squares.try_emplace({colors[t.a], colors[t.b], colors[t.c]}, squares.size());
         square_of.push_back(place->second);
     }
+    // Fill the texture.
     Atlas atlas(squares.size());
     for (const auto& [corners, square] : squares) atlas.set(square, corners);
+    // Give each triangle vertices of its own, with the texture coordinates of its square.
     MeshData painted;
     painted.faces = std::move(mesh.faces);
     painted.material_slots.assign(mesh.triangles.size(), 1);

@@ -8,9 +8,12 @@
 
 namespace limn {
 
-/// Colours of vertices, linear, as a texture: each three that a triangle has are four texels, between which bilinear
-/// look-ups interpolate as weights of the corners do. Gives the mesh texture coordinates in place of those that it has,
-/// vertices of their own for each triangle, and material slot 1, for which the diffuse material is.
+// Converts linear colours of vertices into a texture, and returns a diffuse material with it for slot 1. Each
+// combination of three colours that a triangle has becomes four texels. A bilinear look-up between them interpolates
+// like the barycentric weights of the corners.
+//
+// Changes the mesh: each triangle gets vertices of its own, the texture coordinates are replaced, and all material
+// slots become 1.
 std::shared_ptr<const Material> paint(MeshData& mesh, const std::vector<Float3>& colors);
 
 }  // namespace limn

@@ -1,4 +1,5 @@
-// The lanes of a mask, one after the other. Per-target include guard, as Highway has it.
+// Compression of vectors: the lanes that a mask selects are moved to the front. The include guard is per target, as
+// Highway requires.
 #if defined(LIMN_LANES_COMPRESS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_LANES_COMPRESS_INL_H
 #undef LIMN_LANES_COMPRESS_INL_H
@@ -11,11 +12,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// Moves the lanes that a mask has to the front; what follows them is not specified. Not always by Highway: g++ copies the
-// tables of its version 1.0.3 (eight floats with AVX2, eight doubles with AVX-512) to the stack on each use.
+// Compress<N> is a function that moves the lanes which a mask selects to the front, in order. The lanes behind them are
+// unspecified. hn::Compress of Highway 1.0.3 is avoided in two cases, eight floats with AVX2 and eight doubles with
+// AVX-512: g++ copies its tables to the stack on each use.
 #if HWY_TARGET == HWY_AVX2
 
-// For each mask of eight lanes those that are set, in order.
+// A table: of[mask] lists the numbers of the lanes that are set in a mask of eight lanes, in ascending order.
 struct SetLanes {
     alignas(8) std::uint8_t of[256][8] = {};
 
@@ -30,6 +32,7 @@ inline constexpr SetLanes kSetLanes;
 template <class N>
 class Compress {
 public:
+    // Eight floats are eight words of 32 bits; four doubles are eight words too, two for each lane.
     HWY_INLINE explicit Compress(Mask<N> lanes) {
         const auto words = hn::MaskFromVec(hn::BitCast(Words(), hn::VecFromMask(D(), lanes.m)));
         const std::uint8_t* const set = kSetLanes.of[bits(WideMask<Words>{words})];
@@ -45,7 +48,7 @@ private:
     using D = typename N::Tag;
     using Words = hn::Repartition<float, D>;
     static_assert(hn::MaxLanes(Words()) == 8);
-    hn::Vec<hn::RebindToSigned<Words>> order_;
+    hn::Vec<hn::RebindToSigned<Words>> order_;  // for each word of the result, the index of the word to move there
 };
 
 #else

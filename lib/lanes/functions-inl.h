@@ -1,5 +1,5 @@
-// Elementary functions of our own, for results that are the same bits on every processor and in every lane. Per-target
-// include guard, as Highway has it.
+// Elementary functions of limn's own. Their results have the same bits on every processor and in every lane. The
+// include guard is per target, as Highway requires.
 #if defined(LIMN_LANES_FUNCTIONS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_LANES_FUNCTIONS_INL_H
 #undef LIMN_LANES_FUNCTIONS_INL_H
@@ -16,8 +16,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
+// The upper 32 bits of a double.
 inline constexpr std::int64_t kHighBits = ~std::int64_t{0xffffffff};
 
+// Returns the polynomial with these coefficients at x.
 template <class N, std::size_t n>
 HWY_INLINE N polynomial(N x, const double (&highest_first)[n]) {
     N sum = highest_first[0];
@@ -25,7 +27,8 @@ HWY_INLINE N polynomial(N x, const double (&highest_first)[n]) {
     return sum;
 }
 
-// Of |x| <= pi / 4, within a unit in the last place: the polynomials of fdlibm (k_sin.c, k_cos.c).
+// Returns sine and cosine of x radians, with an error of at most one unit in the last place, by the polynomials of
+// fdlibm (k_sin.c, k_cos.c). \pre |x| <= pi / 4
 template <class N>
 HWY_INLINE SineCosine<N> sine_cosine_near_zero(N x) {
     constexpr double kSine[] = {1.58969099521155010221e-10,  -2.50507602534068634195e-08, 2.75573137070700676789e-06,
@@ -37,25 +40,26 @@ HWY_INLINE SineCosine<N> sine_cosine_near_zero(N x) {
     return {x + x * z * polynomial(z, kSine), one_less + (((1.0 - one_less) - half) + z * z * polynomial(z, kCosine))};
 }
 
-// Those of an angle and a whole number of quarter turns, |quarters| < 2^32.
+// Returns sine and cosine of an angle plus `quarters` quarter turns, given those of the angle. \pre `quarters` is an
+// integer, |quarters| < 2^32
 template <class N>
 HWY_INLINE SineCosine<N> turned(SineCosine<N> s, N quarters) {
-    // Which quarter: 0 ... 3.
+    // quarters modulo 4, in 0 ... 3
     const N quarter = quarters - floor(quarters * 0.25) * 4.0;
     const Mask<N> odd = (quarter == 1.0) | (quarter == 3.0);
     const N sine = select(odd, s.cosine, s.sine), cosine = select(odd, s.sine, s.cosine);
     return {select(quarter >= 2.0, -sine, sine), select((quarter == 1.0) | (quarter == 2.0), -cosine, cosine)};
 }
 
-// Of `turns` times 2 pi, |turns| < 2^30.
+// Returns sine and cosine of 2 pi times `turns`. \pre |turns| < 2^30
 template <class N>
 HWY_INLINE SineCosine<N> sine_cosine_of_turns(N turns) {
     const N quarters = round(turns * 4.0);
     return turned(sine_cosine_near_zero<N>((turns - quarters * 0.25) * (2 * kPi)), quarters);
 }
 
-// Of |radians| <= 2^20. A quarter turn is subtracted in three parts, the products of the first two without rounding
-// (fdlibm, e_rem_pio2.c).
+// Returns sine and cosine of an angle. The quarter turns are subtracted in three parts of pi / 2; the products of the
+// first two parts are exact (fdlibm, e_rem_pio2.c). \pre |radians| <= 2^20
 template <class N>
 HWY_INLINE SineCosine<N> sine_cosine(N radians) {
     constexpr double kFirst = 1.57079632673412561417, kSecond = 6.07710050630396597660e-11,
@@ -65,8 +69,8 @@ HWY_INLINE SineCosine<N> sine_cosine(N radians) {
     return turned(sine_cosine_near_zero<N>(rest - (quarters * kThird - ((more - rest) - second))), quarters);
 }
 
-// The angle of (cosine, |sine|), of any length but 0, from 0 to pi, within some units in the last place. Arc tangent as
-// in Cephes (atan.c).
+// Returns the angle of the vector (cosine, |sine|), from 0 to pi, with an error of a few units in the last place. The
+// vector may have any length but 0. The arc tangent is that of Cephes (atan.c).
 template <class N>
 HWY_INLINE N angle_of_upper(const SineCosine<N>& at) {
     constexpr double kUpper[] = {-8.750608600031904122785e-1, -1.615753718733365076637e1, -7.500855792314704667340e1,
@@ -77,12 +81,14 @@ HWY_INLINE N angle_of_upper(const SineCosine<N>& at) {
                                  4.328810604912902668951e2,
                                  4.853903996359136964868e2,
                                  1.945506571482613964425e2};
+    // Reduce the vector to the first octant, where its slope low / high is in [0, 1].
     const N x = abs(at.cosine), y = abs(at.sine);
     const Mask<N> steep = y > x;
     const N low = select(steep, x, y), high = select(steep, y, x);
-    // Of a ratio over tan(pi / 8) the arc tangent is pi / 4 and that of (ratio - 1) / (ratio + 1).
+    // Reduce slopes r above tan(pi / 8) by atan(r) = pi / 4 + atan((r - 1) / (r + 1)).
     const Mask<N> large = low > 0.41421356237309503 * high;
     const N t = select(large, low - high, low) / select(large, low + high, high);
+    // Compute the arc tangent of t, then undo the reductions.
     const N z = t * t;
     const N arc = t + t * (z * polynomial(z, kUpper) / polynomial(z, kLower));
     N angle = select(large, kPi / 4 + arc, arc);
@@ -90,14 +96,15 @@ HWY_INLINE N angle_of_upper(const SineCosine<N>& at) {
     return select(at.cosine < 0.0, kPi - angle, angle);
 }
 
-// The angle of (cosine, sine), from 0 to 2 pi.
+// Returns the angle of the vector (cosine, sine), from 0 to 2 pi, as angle_of_upper() does.
 template <class N>
 HWY_INLINE N angle_of(const SineCosine<N>& at) {
     const N angle = angle_of_upper(at);
     return select(at.sine < 0.0, 2 * kPi - angle, angle);
 }
 
-// The number whose bits, as an integer, are a third of x's highest ones and `more`.
+// Returns the double whose bits, taken as an integer, are a third of x's plus `more`. Only the upper 32 bits of x
+// count.
 HWY_INLINE double third_of_bits(double x, double more) {
     const auto bits = static_cast<double>(std::bit_cast<std::int64_t>(x) & kHighBits);
     return std::bit_cast<double>(static_cast<std::int64_t>(bits / 3 + more));
@@ -109,7 +116,8 @@ HWY_INLINE Wide<D> third_of_bits(Wide<D> x, double more) {
     return hn::BitCast(D(), hn::ConvertTo(whole, (bits / 3.0 + more).v));
 }
 
-// Of x in [0, 1], within some units in the last place: Halley's iteration from a guess that divides the exponent by 3.
+// Returns the cube root of x, with an error of a few units in the last place. The first guess divides the exponent by
+// 3: 682 is two thirds of the bias 1023 of exponents. Halley's iteration improves the guess. \pre 0 <= x <= 1
 template <class N>
 HWY_INLINE N cube_root(N x) {
     const N positive = max(x, 0x1p-900);

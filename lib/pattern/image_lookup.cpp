@@ -7,24 +7,25 @@ namespace limn::pattern {
 
 namespace {
 
-// Brings a coordinate into [0, 1]; what is not a number, or an infinity with no place in a period, becomes 0.
+// Maps a coordinate to [0, 1]. NaN becomes 0. An infinity becomes 0 too, unless it's clamped.
 double fold(double x, Wrap wrap) {
     if (x >= 0 && x <= 1) return x;
     if (wrap == Wrap::clamp) return std::fmin(std::fmax(x, 0), 1);
     if (wrap == Wrap::repeat) return std::fmax(x - std::floor(x), 0);
-    const double in_period = std::abs(x) - 2 * std::floor(std::abs(x) / 2);  // of length 2: there and back
+    const double in_period = std::abs(x) - 2 * std::floor(std::abs(x) / 2);  // in [0, 2): the second half is mirrored
     return std::fmax(in_period <= 1 ? in_period : 2 - in_period, 0);
 }
 
-// The two texels around a position in a row or column, and the weight of the second.
+// The two texels next to a position in a row or column, and the interpolation weight of the second.
 struct Neighbours {
     int first, second;
     double weight;
 };
 
-// A texel's number is at its centre. Beyond the ends the image begins again, or the last texel goes on: a mirror image
-// begins with it too. Positions are rounded to 2^-24 texels, as fine as the float32 of a texel can show, so that the
-// centre of a texel gives that texel exactly although u W is rounded.
+// Returns the neighbours of a folded coordinate among `size` texels. A texel's value is at its centre. Beyond the ends
+// the image is repeated or its last texel continues; the latter is right for a mirrored image too. Positions are
+// rounded to 2^-24 texels, the resolution of a float32 texel. The centre of a texel then gives that texel exactly,
+// although u W is rounded.
 Neighbours neighbours(double folded, int size, Wrap wrap) {
     const double x = std::nearbyint((folded * size - 0.5) * 0x1p24) * 0x1p-24;
     const double below = std::floor(x);

@@ -11,14 +11,15 @@ namespace {
 
 constexpr int kOctaves = 7;  // Shirley, Ray Tracing: The Next Week, section 5.6
 
-// Where a coordinate lies in the lattice along one axis.
+// The position of a coordinate among the lattice points of one axis.
 struct Cell {
-    std::size_t corner[2];  // lattice coordinates modulo 256 of the two sides
-    double offset[2];       // from each side
-    double weight[2];       // of each side: the Hermite smoothstep 3 t^2 - 2 t^3
+    std::size_t corner[2];  // the lattice points below and above, modulo 256
+    double offset[2];       // the coordinate minus each lattice point
+    double weight[2];       // weight of each lattice point: the Hermite smoothstep 3 t^2 - 2 t^3
 };
 
-// Every step is exact, so there is nothing to overflow: a double from 2^53 on is a lattice point.
+// Returns the cell of a finite coordinate. The cell and the offset are exact for every double; one of magnitude 2^53 or
+// more is a lattice point itself.
 Cell cell_of(double x) {
     const double below = std::floor(x), t = x - below;
     const auto i = static_cast<std::size_t>(below - 256 * std::floor(below / 256));

@@ -1,5 +1,5 @@
-// Bounds of the primitives, one definition for the described and the compiled world. Each contains the shape that its
-// numbers define exactly: what was rounded on the way is rounded outward.
+// Bounding boxes of the primitives, for described and compiled scenes. A box contains the shape that the primitive's
+// numbers define exactly: every rounding on the way is made up for by rounding outward.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace limn {
 
-// a - b rounded up, and rounded down. The error of a sum is exact in double: Knuth, The Art of Computer Programming,
-// vol. 2, section 4.2.2, theorem B.
+// These two return a - b rounded up and rounded down. They compute the rounding error of the difference, which is
+// always a double (Knuth, The Art of Computer Programming, vol. 2, section 4.2.2, theorem B).
 inline double difference_up(double a, double b) {
     const double difference = a - b, b_seen = a - difference, a_seen = difference + b_seen;
     const double error = (a - a_seen) + (b_seen - b);
@@ -20,6 +20,7 @@ inline double difference_up(double a, double b) {
 }
 inline double difference_down(double a, double b) { return -difference_up(b, a); }
 
+// Returns the box of a sphere whose centre moves from center0 to center1 on a straight line.
 inline Box sphere_bounds(const Point3& center0, const Point3& center1, double radius) {
     const double r = std::abs(radius);
     Box box;
@@ -28,7 +29,7 @@ inline Box sphere_bounds(const Point3& center0, const Point3& center1, double ra
             box.lower[a] = std::min(box.lower[a], difference_down(c[a], r));
             box.upper[a] = std::max(box.upper[a], difference_up(c[a], -r));
         }
-    // A moving centre is rounded on its way; a still one is where it is.
+    // The centre between both ends is interpolated with rounding. A centre that does not move is exact.
     const double rounding = center0 == center1 ? 0 : gamma(4) * std::max(max_abs(center0), max_abs(center1));
     return grow(box, along_every_axis(rounding));
 }
@@ -41,7 +42,8 @@ inline Box quad_bounds(const Point3& corner, const Vec3& edge_u, const Vec3& edg
     for (std::size_t a = 0; a < 3; ++a)
         rounding[a] = gamma(3) * (std::abs(corner[a]) + std::abs(edge_u[a]) + std::abs(edge_v[a]));
     const Box grown = grow(box, rounding);
-    for (std::size_t a = 0; a < 3; ++a) {  // where the quad is flat it has the corner's own coordinate, exactly
+    // Along an axis that both edges are perpendicular to, every point has exactly the corner's coordinate.
+    for (std::size_t a = 0; a < 3; ++a) {
         const bool flat = edge_u[a] == 0 && edge_v[a] == 0;
         box.lower[a] = flat ? corner[a] : grown.lower[a];
         box.upper[a] = flat ? corner[a] : grown.upper[a];
@@ -49,8 +51,8 @@ inline Box quad_bounds(const Point3& corner, const Vec3& edge_u, const Vec3& edg
     return box;
 }
 
-// Points of a moving instance go on straight lines, so the boxes at both ends enclose all between, but for the rounding
-// of the interpolation.
+// Returns the box of a moving instance. Its points move on straight lines. Therefore the union of the boxes at both
+// ends contains all boxes between, except for the rounding of the interpolation, by which it is grown.
 inline Box instance_bounds(const Transform& at_time0, const Transform& at_time1, const Box& object) {
     const Box box = transform_box(at_time0, object);
     if (at_time0 == at_time1 || box.is_empty()) return box;

@@ -1,4 +1,4 @@
-// Numbers of an object by their place, without branches.
+// Access to the numbers of an object by index, without branches.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace limn {
 
-// The i-th of the numbers that an object consists of. Read from the object's bytes: no pointer to one member reaches
-// the next one, and compilers make use of that.
+// Returns the i-th of the numbers that an object consists of. It is read from the bytes of the object: a pointer to one
+// member must not be used to read the next one, and compilers rely on that.
 template <class Number, class Object>
 inline Number number_of(const Object& object, std::size_t i) {
     Number value;

@@ -1,4 +1,4 @@
-// Ray against disk. Per-target include guard, as Highway has it.
+// The filter of rays against disks. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_DISK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_DISK_INL_H
 #undef LIMN_PREDICATES_DISK_INL_H
@@ -12,31 +12,43 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// Where a ray meets the plane of a disk, from its center: w / b, at t = -a / b; and what each is off by.
+// The intersection of a ray with the plane of a disk: the point center + w / b, at t = -a / b. Each of the numbers has
+// a bound on its error.
 template <class N>
 struct DiskCrossing {
     Vector<N> w;
     N a, b, w_error, a_error, b_error;
-    Mask<N> known;  // else products may have overflowed, or underflowed by more than that
+    Mask<N> known;  // false if products may have overflowed, or underflowed by more than the bounds
 };
 
+// The filter of a disk. Its rim belongs to it; a ray in its plane misses.
 template <class N>
 struct DiskPredicate {
     using Ray = RayOf<N>;
     static constexpr std::size_t kNumbers = 7;
-    Vector<N> center, normal;  // the normal is as long as it likes
+    Vector<N> center, normal;  // the normal may have any length but 0
     N radius;
 
-    // number(i): the i-th of kNumbers.
+    // Returns the disk whose i-th number is number(i), i < kNumbers.
     template <class Number>
     HWY_INLINE static DiskPredicate from(const Number& number) {
         return {three<N>(number, 0), three<N>(number, 3), number(6)};
     }
 
-    // With p = o - c, a = p.n, b = d.n the plane is met at t = -a / b, at c + w / b, w = b p - a d. Let P, D, M be the
-    // largest coordinates of p, d, n, origin and direction be off by e and s, u = 2^-53. Then p is off by u P + e; a by
-    // A = 12 u P M + 4 M e, b by B = 9 u D M + 4 M s; w by (15 u P D M + 3 D M e + 3 P M s) from each of its products
-    // and 6 u P D M from their difference, by E = 40 u P D M + 7 D M e + 7 P M s in all.
+    // Returns the intersection with the plane of the disk.
+    //
+    // Let o be the ray's origin, d its direction, c the centre, n the normal, and p = o - c, a = p.n, b = d.n. The ray
+    // crosses the plane at t = -a / b, in the point c + w / b, where w = b p - a d.
+    //
+    // Let P, D and M be the largest magnitudes of the coordinates of p, d and n. Let each coordinate of the origin be
+    // off by e, each of the direction by s, and u = 2^-53. Then
+    //   - each coordinate of p is off by u P + e;
+    //   - a is off by A = 12 u P M + 4 M e;
+    //   - b is off by B = 9 u D M + 4 M s;
+    //   - b p is off by 15 u P D M + 3 D M e + 4 P M s;
+    //   - a d is off by 15 u P D M + 4 D M e + 3 P M s;
+    //   - their difference is at most 6 P D M, so its rounding adds 6 u P D M.
+    // The last three add up to E = 40 u P D M + 7 D M e + 7 P M s, the bound on the error of each coordinate of w.
     HWY_INLINE DiskCrossing<N> crossing(const Ray& ray) const {
         const Vector<N> p = ray.origin - center;
         const Vector<N>& d = ray.direction;
@@ -53,11 +65,18 @@ struct DiskPredicate {
                 .known = Mask<N>(is_in_range(reach) & is_in_range(along) & is_in_range(size) & is_in_range(radius))};
     }
 
-    // The rim belongs to the disk, a ray in its plane misses: inside is where w.w <= r^2 b^2. w.w is off by 6 |w| E + 3
-    // E^2 and 8 u |w|^2, |w| the largest coordinate, and r^2 b^2 by r^2 B (2 |b| + B) and 3 u of itself. Where r^2 b^2
-    // exceeds w.w by more than both, |b| > 2 B, and t is off by 2 (A + |t| B) / |b|, and u of itself.
+    // Returns the hits and misses that double precision can prove.
+    //
+    // The disk is hit if w.w <= r^2 b^2 and b is not 0. Let |w| be the largest magnitude of the coordinates of w. Then
+    //   - w.w is off by 6 |w| E + 3 E^2 because of the error of w, and by 8 u |w|^2 because of its own rounding;
+    //   - r^2 b^2 is off by r^2 B (2 |b| + B) because of the error of b, and by 3 u r^2 b^2 because of its own
+    //     rounding.
+    // If r^2 b^2 exceeds w.w by more than both errors, then r^2 b^2 > r^2 B (2 |b| + B), and so |b| > 2 B. Then the
+    // magnitude of the exact b is at least |b| / 2, and t is off by at most 2 (A + |t| B) / |b| plus its own rounding u
+    // |t|.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
         const auto [w, a, b, w_error, a_error, b_error, known] = crossing(ray);
+        // Compare w.w with r^2 b^2.
         const N across = max_abs(w), slope = abs(b);
         const N r2 = radius * radius, inside_by = r2 * (b * b) - dot(w, w);
         const N error = 3 * w_error * (2 * across + w_error) + r2 * b_error * (2 * slope + b_error) +
@@ -66,6 +85,7 @@ struct DiskPredicate {
         const Mask<N> missed = known & (inside_by < -bound), inside = known & (inside_by > bound);
         if (!any(inside)) return {inside, missed, N(0.0), N(0.0), N(0.0)};
 
+        // Compare t with the interval.
         const N t = -a / b;
         const N t_error = (2 * (a_error + abs(t) * b_error) / slope + 2 * kRoundoff * abs(t)) * (1 + 0x1p-30);
         const Judgement<N> j = judge(t, t_error, within);
@@ -81,7 +101,7 @@ struct DiskPredicate {
     }
 };
 
-// The same in all lanes.
+// Returns the filter of one disk in all lanes.
 template <class N>
 HWY_INLINE DiskPredicate<N> disk_of(const Point3& center, const Vec3& normal, double radius) {
     return {broadcast<N>(center), broadcast<N>(normal), N(radius)};

@@ -1,4 +1,5 @@
-// Ray against disk, exactly: the points of the plane through `center` across `normal`, as far as `radius` from it.
+// Exact intersection of rays with disks. A disk consists of the points at most `radius` away from `center` in the plane
+// through `center` that is perpendicular to `normal`.
 #pragma once
 
 #include "limn/core/box.h"
@@ -8,15 +9,18 @@
 
 namespace limn {
 
-// Whether the closed disk is hit, and t within the search, as kAccurate says. u and v go from 0 to 1 over the square
-// around it, along the tangents of Frame(normal). \pre radius > 0, and the normal is not zero
+// Returns true if the ray hits the disk, including its rim, and t is within the search. Then sets `hit`, as accurate as
+// kAccurate and kAccurateWeight demand. u and v go from 0 to 1 over the square around the disk, along x and y of
+// Frame(normal). A ray in the plane of the disk misses. \pre radius > 0, and the normal is not zero
 bool intersect_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame,
                     const Search& search, PlanarHit& hit);
 
-// The same without a filter. Where the disk is hit, `hit` is set even if t is not within the search.
+// Returns the same, computed in exact arithmetic only. If the line of the ray intersects the disk, `hit` is set even if
+// t is not within the search.
 bool exact_disk(const Point3& center, const Vec3& normal, double radius, const RayFrame& frame, const Search& search,
                 PlanarHit& hit);
 
+// Returns a box that contains the disk.
 Box disk_bounds(const Point3& center, const Vec3& normal, double radius);
 
 }  // namespace limn

@@ -23,15 +23,16 @@ Dyadic::Dyadic(double x) {
 }
 
 void Dyadic::set(Limb bits, std::ptrdiff_t exponent) {
-    exponent_ = exponent >> 6;  // rounded down
+    exponent_ = exponent >> 6;  // exponent / 64, rounded down
     const Wide shifted = Wide{bits} << (exponent & 63);
     size_ = 2;
-    inline_[0] = low(shifted), inline_[1] = high(shifted);
+    inline_[0] = low(shifted);
+    inline_[1] = high(shifted);
     trim();
 }
 
-// Keeps numbers short: no zero limb at either end.
 void Dyadic::trim() {
+    // Drop zero limbs at both ends.
     while (size_ > 0 && limbs()[size_ - 1] == 0) --size_;
     std::size_t zeros = 0;
     while (zeros < size_ && limbs()[zeros] == 0) ++zeros;
@@ -40,6 +41,7 @@ void Dyadic::trim() {
         size_ -= zeros;
         exponent_ += static_cast<std::ptrdiff_t>(zeros);
     }
+    // Move the limbs out of the heap if they fit.
     if (heap_ && size_ <= kInline) {
         std::copy_n(heap_.get(), size_, inline_.data());
         heap_.reset();
@@ -58,7 +60,8 @@ Dyadic operator+(const Dyadic& a, const Dyadic& b) {
     const std::ptrdiff_t first = std::min(a.exponent_, b.exponent_), last = std::max(a.end(), b.end());
     Dyadic sum(static_cast<std::size_t>(last - first + 1), first, a.negative_);
     Dyadic::Limb* const limbs = sum.limbs();
-    // As a sees it: what is carried is a borrow where it is negative, and in the end the sum is in two's complement.
+    // Add the limbs, with the sign of `a` taken as positive. A negative carry is a borrow. If the last carry is
+    // negative, the limbs are the sum in two's complement.
     SignedWide carry = 0;
     for (std::ptrdiff_t place = first; place <= last; ++place) {
         const SignedWide x = a.limb_at(place), y = b.limb_at(place);
@@ -66,6 +69,7 @@ Dyadic operator+(const Dyadic& a, const Dyadic& b) {
         limbs[place - first] = static_cast<Dyadic::Limb>(carry);
         carry >>= 64;
     }
+    // Negate the limbs of a negative sum.
     if (carry < 0) {
         sum.negative_ = !a.negative_;
         Wide up = 1;
@@ -107,7 +111,8 @@ Dyadic::Leading Dyadic::leading() const {
 double ratio(const Dyadic& a, const Dyadic& b) {
     if (a.size_ == 0) return 0;
     const Dyadic::Leading over = a.leading(), under = b.leading();
-    // Halved, so that the quotient by the upper half of b, at least 2^63, fits into 64 bits; it has 62 of them or more.
+    // Divide half of the leading 128 bits of `a` by the leading 64 bits of `b`, which are at least 2^63. The halving
+    // makes the quotient fit into 64 bits. The quotient has at least 62 bits.
     const Wide numerator = (Wide{over.high} << 64 | over.low) >> 1;
     const double quotient = static_cast<double>(low(numerator / under.high));
     const std::ptrdiff_t exponent = std::clamp<std::ptrdiff_t>(over.exponent + 1 - (under.exponent + 64), -9999, 9999);
@@ -117,11 +122,12 @@ double ratio(const Dyadic& a, const Dyadic& b) {
 
 Dyadic Dyadic::square_root() const {
     if (size_ == 0) return {};
-    // An even exponent, and at most 2^126, so that the root fits into 63 bits.
+    // Shift the leading bits so that their exponent is even and they are below 2^126. Then the root has at most 63
+    // bits.
     const Leading top = leading();
     const int shift = top.exponent % 2 == 0 ? 2 : 3;
     const Wide square = (Wide{top.high} << 64 | top.low) >> shift;
-    // Newton's iteration doubles the 53 bits of the first guess.
+    // The first guess has 53 correct bits. One step of Newton's iteration doubles their number.
     auto root = static_cast<Limb>(std::sqrt(static_cast<double>(square)));
     root = low((root + square / root) / 2);
     while (Wide{root} * root > square) --root;

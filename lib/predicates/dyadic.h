@@ -1,4 +1,4 @@
-// Exact numbers for the decisions that double cannot make.
+// Exact arithmetic, for decisions that cannot be made in double.
 #pragma once
 
 #include <algorithm>
@@ -9,20 +9,24 @@
 
 namespace limn {
 
-// An integer times a power of two, as large as it has to be: sums, differences and products of finite doubles are
-// exact, without overflow or underflow. Slow beside a double (some 20 ns an operation), so filters come first.
+// An integer of any size times a power of two. Sums, differences and products of finite doubles are exact and do not
+// overflow or underflow. An operation takes about 20 ns. Therefore filters in double are tried first.
 class Dyadic {
 public:
     Dyadic() = default;
-    Dyadic(double x);  // exactly; \pre finite
+    Dyadic(double x);  // \pre x is finite
     Dyadic(const Dyadic& other) { *this = other; }
     Dyadic& operator=(const Dyadic& other) {
-        size_ = other.size_, exponent_ = other.exponent_, negative_ = other.negative_, heap_ = other.heap_;
+        size_ = other.size_;
+        exponent_ = other.exponent_;
+        negative_ = other.negative_;
+        heap_ = other.heap_;
         if (!heap_ && this != &other) std::copy_n(other.inline_.data(), size_, inline_.data());
         return *this;
     }
     ~Dyadic() = default;
 
+    // Returns -1, 0 or 1.
     int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
 
     Dyadic operator-() const;
@@ -30,16 +34,17 @@ public:
     friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + -b; }
     friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
 
-    // The square root, rounded down to 62 bits or more; exact for squares of so few. \pre sign() >= 0
+    // Returns the square root, rounded down to at least 62 bits. It is exact if the root has no more than 62 bits. \pre
+    // sign() >= 0
     Dyadic square_root() const;
 
-    // a / b, off by at most 2^-61 of itself before it is rounded to the nearest double: exact where a double can say
-    // it. Infinite beyond the range of doubles. \pre b.sign() != 0
+    // Returns a / b with a relative error of at most 2^-61, then rounded to the nearest double. It is exact if the
+    // quotient is a double, and infinite if the quotient is beyond their range. \pre b.sign() != 0
     friend double ratio(const Dyadic& a, const Dyadic& b);
 
 private:
     using Limb = std::uint64_t;
-    static constexpr std::size_t kInline = 14;  // 896 bits: what usual coordinates need
+    static constexpr std::size_t kInline = 14;  // 896 bits: enough for usual coordinates
 
     Dyadic(std::size_t limbs, std::ptrdiff_t exponent, bool negative)
         : size_(limbs), exponent_(exponent), negative_(negative) {
@@ -47,27 +52,32 @@ private:
     }
     Limb* limbs() { return heap_ ? heap_.get() : inline_.data(); }
     const Limb* limbs() const { return heap_ ? heap_.get() : inline_.data(); }
-    Limb limb_at(std::ptrdiff_t place) const {  // of weight 2^(64 place)
+    // Returns the limb of weight 2^(64 place).
+    Limb limb_at(std::ptrdiff_t place) const {
         const std::ptrdiff_t i = place - exponent_;
         return i >= 0 && i < static_cast<std::ptrdiff_t>(size_) ? limbs()[i] : 0;
     }
+    // Returns the place after that of the most significant limb.
     std::ptrdiff_t end() const { return exponent_ + static_cast<std::ptrdiff_t>(size_); }
-    void set(Limb bits, std::ptrdiff_t exponent);  // to bits times 2^exponent
+    // Sets the magnitude to bits * 2^exponent.
+    void set(Limb bits, std::ptrdiff_t exponent);
+    // Removes zero limbs at both ends, and the heap memory if it is no longer needed.
     void trim();
 
-    // The leading 128 bits, the first of them set: about {high, low} 2^exponent, rounded down.
+    // The leading 128 bits of a number: its magnitude is (2^64 high + low) 2^exponent, rounded down. The highest bit of
+    // `high` is set.
     struct Leading {
         Limb high, low;
         std::ptrdiff_t exponent;
     };
     Leading leading() const;
 
-    // Limbs from the least significant on; the value is their sum times 2^(64 exponent_). No limb at either end is 0.
+    // The magnitude is the sum of limb i times 2^(64 (exponent_ + i)). The first and the last limb are not 0.
     std::size_t size_ = 0;
     std::ptrdiff_t exponent_ = 0;
     bool negative_ = false;
-    std::shared_ptr<Limb[]> heap_;      // shared by copies: the limbs stay as they were made
-    std::array<Limb, kInline> inline_;  // only size_ of them are set: to clear all would take a third more time
+    std::shared_ptr<Limb[]> heap_;      // the limbs if there are more than kInline; copies share them, unchanged
+    std::array<Limb, kInline> inline_;  // else the limbs; only size_ are set, clearing all takes a third more time
 };
 
 double ratio(const Dyadic& a, const Dyadic& b);
@@ -75,10 +85,12 @@ double ratio(const Dyadic& a, const Dyadic& b);
 inline bool operator==(const Dyadic& a, const Dyadic& b) { return (a - b).sign() == 0; }
 inline bool operator<(const Dyadic& a, const Dyadic& b) { return (a - b).sign() < 0; }
 
+// A vector of exact numbers.
 struct Dyadic3 {
     Dyadic x, y, z;
 };
 
+// Converts a point or vector exactly.
 template <class Vector>
 Dyadic3 to_dyadic(const Vector& v) {
     return {v.x, v.y, v.z};

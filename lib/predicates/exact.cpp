@@ -8,8 +8,10 @@ namespace limn {
 
 namespace {
 
+// Returns the vector from the ray's origin to p, times ray.unit.
 Dyadic3 from_origin(const Point3& p, const ExactRay& ray) { return ray.unit * to_dyadic(p) - ray.origin; }
 
+// Returns (b - a) x (c - a).
 Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
     const Dyadic3 origin = to_dyadic(a);
     return cross(to_dyadic(b) - origin, to_dyadic(c) - origin);
@@ -17,8 +19,10 @@ Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
 
 }  // namespace
 
-// The edge values are D.(B x C), D.(C x A), D.(A x B), all seen from the origin; their sum is D.n, and t n.D = n.A,
-// where n.A = A.(B x C).
+// Let A, B and C be the vertices relative to the ray's origin, D the direction and n the normal. The edge values are
+//     wa = D.(B x C), wb = D.(C x A), wc = D.(A x B).
+// Their sum is D.n. The ray hits if no two of them have opposite signs and the sum is not 0. Then t = n.A / n.D, where
+// n.A = A.(B x C).
 bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                     PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);
@@ -35,7 +39,9 @@ bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const Ray
     return search.contains(hit.t);
 }
 
-// Q + u U + v V = t D. The scalar product with V x D leaves u, that with U x D leaves v, that with U x V leaves t.
+// Solves Q + u U + v V = t D, where Q is the corner relative to the ray's origin, U and V are the edges, and D is the
+// direction. In the scalar product of both sides with V x D only u remains. With U x D only v remains, and with U x V
+// only t.
 bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
                 const Search& search, PlanarHit& hit) {
     const ExactRay ray = exact_ray(frame);
@@ -44,6 +50,7 @@ bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, co
     const Dyadic3 normal = cross(u, v);
     const Dyadic det = dot(ray.direction, normal);
     if (det.sign() == 0) return false;
+    // True if w / det is in [0, 1].
     const auto is_weight = [&](const Dyadic& w) {
         return w.sign() * det.sign() >= 0 && (det - w).sign() * det.sign() >= 0;
     };
@@ -53,10 +60,11 @@ bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, co
     return search.contains(hit.t);
 }
 
-// A t^2 + 2 B t + C = 0. The root that does not cancel is q / -A with q = B + sign(B) sqrt(B^2 - A C), the other C /
-// -q.
+// Solves A t^2 + 2 B t + C = 0. With q = B + sign(B) sqrt(B^2 - A C), the root that does not cancel is -q / A
+// (`outer`), and the other is -C / q (`inner`).
 SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& frame, const double* near,
                         const double* far, const Search& search) {
+    // Compute the coefficients and the discriminant.
     const ExactRay ray = exact_ray(frame);
     const Dyadic3 p = ray.origin - ray.unit * to_dyadic(center);
     const Dyadic r = ray.unit * Dyadic(radius);
@@ -64,6 +72,7 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     const Dyadic discriminant = b * b - a * c;
     if (discriminant.sign() < 0) return {};
 
+    // Compute both roots, except for those that the caller has.
     const Dyadic root = discriminant.square_root();
     const Dyadic q = b.sign() < 0 ? b - root : b + root;
     const double outer = ratio(-q, a);
@@ -71,7 +80,8 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     SphereHits hits;
     hits.near = near != nullptr ? *near : b.sign() < 0 ? inner : outer;
     hits.far = far != nullptr ? *far : b.sign() < 0 ? outer : inner;
-    // Roundings may reverse them. The one that the filter knows stays: a search that it decides alone reports it.
+    // Rounding may reverse the order of the roots: make them equal then. A root that the filter knows must not change,
+    // because a search that the filter decides alone reports that root.
     if (near != nullptr)
         hits.far = larger(hits.far, hits.near);
     else
@@ -84,7 +94,8 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
 bool are_parallel(const Vec3& u, const Vec3& v) { return are_collinear(Point3{}, Point3{} + u, Point3{} + v); }
 
 bool are_collinear(const Point3& a, const Point3& b, const Point3& c) {
-    // Each coordinate of the product is off by at most 8 roundings of |u| |v|: 4 from u and v, 3 of its own.
+    // Each coordinate of the cross product is off by at most 8 kRoundoff |u| |v|, where |u| and |v| are the largest
+    // coordinates: 4 from the roundings of u and v, 4 from its own.
     const Vec3 u = b - a, v = c - a;
     const double largest = max_abs(cross(u, v)), bound = 16 * kRoundoff * max_abs(u) * max_abs(v) + 0x1p-1000;
     if (largest > bound && largest < kInfinity) return false;

@@ -1,7 +1,8 @@
-// What the intersections share: a decision is first tried in double, with a proven bound on the error; what the bound
-// leaves undecided the exact fallback decides (exact.h). So no decision depends on how well a filter does. The t that
-// is reported does, by rounding: it is the filter's where that decides and is accurate, else the exact fallback's,
-// wherever the shape is met.
+// Definitions that all intersections share.
+//
+// A filter computes in double, with a proven bound on its error, and decides if it can. Otherwise the exact fallback
+// decides (exact.h). Therefore decisions do not depend on the quality of the filters. The rounding of the reported t
+// does depend on it: the t is computed by the filter if the filter decides and is accurate, else by the exact fallback.
 #pragma once
 
 #include <cmath>
@@ -10,18 +11,18 @@
 
 namespace limn {
 
-// The largest errors that a filter may report a hit with: of t relative, of u and v absolute.
+// The largest relative error of t, and the largest absolute error of u and v, with which a filter may report a hit.
 inline constexpr double kAccurate = 0x1p-32, kAccurateWeight = 0x1p-26;
 
-// Where hits may lie: t in (t_min, t_max], finite. The t that is reported decides, so that the interval and the
-// order of hits are judged by the number that the caller sees.
+// The interval in which a hit is searched: t in (t_min, t_max], and finite. A hit is within it if its reported, rounded
+// t is. Thus the interval and the order of hits are judged by the numbers that the caller sees.
 struct Search {
     double t_min, t_max;
 
     bool contains(double t) const { return t > t_min && t <= t_max && t < kInfinity; }
 };
 
-// A hit of a shape; u and v of those that have them.
+// A hit. u and v are 0 for shapes without such coordinates.
 struct PlanarHit {
     double t, u, v;
 };

@@ -1,4 +1,4 @@
-// What float tests find. Per-target include guard, as Highway has it.
+// The results of tests in float. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_FLOAT_HITS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_FLOAT_HITS_INL_H
 #undef LIMN_PREDICATES_FLOAT_HITS_INL_H
@@ -11,14 +11,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// Where a shape may be hit within the search; where it surely is, whatever t; and bounds on t.
+// The result of a float test.
 template <class N>
 struct FloatHits {
-    Mask<N> possible, certain;
-    N near, far;
+    Mask<N> possible;  // the shape may be hit within the search
+    Mask<N> certain;   // the ray surely hits the shape between near and far, which may be outside the search
+    N near, far;       // bounds on t
 };
 
-// t, beyond what rounding to float and what is reported may be off by.
+// These return t moved up and down by more than the sum of two errors: the rounding of t to float, and the error of the
+// t that will be reported.
 HWY_INLINE float above(float t) { return t * (t > 0 ? 1 + 0x1p-22f : 1 - 0x1p-22f); }
 HWY_INLINE float below(float t) { return t * (t > 0 ? 1 - 0x1p-22f : 1 + 0x1p-22f); }
 template <class N>

@@ -24,7 +24,8 @@ std::size_t intersect_mesh(const MeshView& mesh, const RayFrame& frame, const Se
                                       {search.t_min, hit.t}, found))
             continue;
         if (found.t == hit.t && nearest != mesh.triangles.size()) continue;
-        hit = found, nearest = i;
+        hit = found;
+        nearest = i;
     }
     return nearest;
 }

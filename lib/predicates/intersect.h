@@ -1,4 +1,4 @@
-// Rays against the shapes as they are described: the same filters and the same exact fallback as for compiled ones.
+// Intersections of rays with described shapes. Compiled shapes use the same filters and the same exact fallback.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,16 @@
 
 namespace limn {
 
-// Exact: whether the closed shape is hit, and t within the search. t, u, v as kAccurate says.
+// These return true if the ray hits the closed shape and t is within the search. This decision is exact. If true, t, u
+// and v are set, as accurate as kAccurate and kAccurateWeight demand.
 bool intersect_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                         PlanarHit& hit);
 bool intersect_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
                     const Search& search, PlanarHit& hit);
-// The nearest triangle of a mesh, of equally near ones the first; how many there are if none is hit.
+// Returns the index of the nearest triangle of a mesh, the first of several with the same t. Returns the number of
+// triangles if none is hit.
 std::size_t intersect_mesh(const MeshView& mesh, const RayFrame& frame, const Search& search, PlanarHit& hit);
-// The first root. \pre radius > 0
+// The hit is at the first root that is within the search. \pre radius > 0
 bool intersect_sphere(const Point3& center, double radius, const RayFrame& frame, const Search& search, PlanarHit& hit);
 
 }  // namespace limn

@@ -1,4 +1,4 @@
-// One triangle of an indexed mesh, one definition for the described and the compiled world.
+// One triangle of an indexed mesh, for described and compiled scenes.
 #pragma once
 
 #include "limn/core/box.h"
@@ -20,7 +20,7 @@ inline TriangleVertices triangle_vertices(const MeshView& mesh, std::size_t i) {
     return {to_point(mesh.vertices[t.a]), to_point(mesh.vertices[t.b]), to_point(mesh.vertices[t.c])};
 }
 
-// Exactly no area.
+// Returns true if the triangle has exactly no area.
 inline bool is_degenerate(const TriangleVertices& v) { return are_collinear(v.a, v.b, v.c); }
 
 inline Box triangle_bounds(const TriangleVertices& v) {
@@ -29,7 +29,8 @@ inline Box triangle_bounds(const TriangleVertices& v) {
     return box;
 }
 
-// Interpolated, unit, on the outward side as the mesh has it; `flat` where there are none or they cancel.
+// Returns the interpolated unit shading normal, on the side of the mesh's own normals. Returns `flat` if the mesh has
+// no normals or if they cancel.
 inline Normal3 shading_normal(const MeshView& mesh, std::size_t i, const PlanarHit& hit, const Normal3& flat) {
     if (mesh.normals.empty()) return flat;
     const Index3 t = mesh.triangles[i];
@@ -39,6 +40,7 @@ inline Normal3 shading_normal(const MeshView& mesh, std::size_t i, const PlanarH
     return is_finite(unit) ? Normal3(unit) : flat;
 }
 
+// Returns the interpolated texture coordinates, or the hit's u and v if the mesh has none.
 inline Uv texture_coordinates(const MeshView& mesh, std::size_t i, const PlanarHit& hit) {
     if (mesh.uvs.empty()) return {hit.u, hit.v};
     const Index3 t = mesh.triangles[i];

@@ -10,7 +10,7 @@ namespace limn {
 
 namespace {
 
-// Of value + move . slope.
+// Returns the sign of value + move.slope for the move of passage.h.
 int moved_sign(const Dyadic& value, const Dyadic3& slope, const RayFrame& frame) {
     if (value.sign() != 0) return value.sign();
     for (std::size_t a = 0; a < 3; ++a) {
@@ -22,7 +22,8 @@ int moved_sign(const Dyadic& value, const Dyadic3& slope, const RayFrame& frame)
     return 0;
 }
 
-// A flat convex shape: its corners seen from the origin, counter-clockwise about its normal, homogeneous as the ray is.
+// A flat convex shape. Its corners are relative to the ray's origin, multiplied by ray.unit, and counter-clockwise
+// about the normal.
 template <std::size_t kCorners>
 struct Polygon {
     std::array<Dyadic3, kCorners> corners;
@@ -45,19 +46,26 @@ Polygon<4> polygon_of(const Point3& corner, const Vec3& edge_u, const Vec3& edge
     return {{q, at_u, plus(at_u, v), plus(q, v)}, cross(u, v)};
 }
 
-// The side of an edge that the ray passes on is the sign of D.(A x B), which the move E changes by E.(D x (B - A)): it
-// is none for edges along the ray, and of the faces that have such the moved ray sees nothing. With t = A.N / D.N, t -
-// t_end has the sign of A.N - t_end D.N times that of D.N; the move takes E.N from it.
+// Returns true if the moved ray passes through the polygon, and sets t and `inward` of the passage.
+//
+// Let D be the direction, N the normal, A and B the two corners of an edge, and E the move.
+//   - The ray passes an edge on the side given by the sign of D.(A x B). The move adds E.(D x (B - A)). The sign is 0
+//     for an edge along the ray. Then the face is parallel to the ray, and D.N = 0: such a face has no passage.
+//   - t = A.N / D.N. Therefore t - t_end has the sign of A.N - t_end D.N, times the sign of D.N. The move subtracts E.N
+//     from A.N.
 template <std::size_t kCorners>
 bool passes(const Polygon<kCorners>& polygon, const ExactRay& ray, const RayFrame& frame, const Search& search,
             Passage& passage) {
+    // A ray parallel to the plane has no passage.
     const Dyadic along = dot(ray.direction, polygon.normal);
     const int side = along.sign();
     if (side == 0) return false;
+    // The ray must pass all edges on the same side.
     for (std::size_t i = 0; i < kCorners; ++i) {
         const Dyadic3 &a = polygon.corners[i], &b = polygon.next(i);
         if (moved_sign(dot(ray.direction, cross(a, b)), cross(ray.direction, b - a), frame) != side) return false;
     }
+    // The passage must be between the ends of the ray.
     const Dyadic to_plane = dot(polygon.corners[0], polygon.normal);
     const Dyadic3 slope = Dyadic(-1.0) * polygon.normal;
     const auto is_after = [&](double end) {
@@ -70,7 +78,8 @@ bool passes(const Polygon<kCorners>& polygon, const ExactRay& ray, const RayFram
     return true;
 }
 
-// n.((b - a) x (o - a)) of no edge is negative; seen from o, that is n.(a x b).
+// Returns true if the ray's origin o is on the polygon: in its plane, and with n.((b - a) x (o - a)) not negative for
+// any edge from a to b. As the corners are relative to o, this is n.(a x b).
 template <std::size_t kCorners>
 bool holds_origin(const Polygon<kCorners>& polygon) {
     if (dot(polygon.corners[0], polygon.normal).sign() != 0) return false;
@@ -79,7 +88,9 @@ bool holds_origin(const Polygon<kCorners>& polygon) {
     return true;
 }
 
-// A t^2 + 2 B t + C is the power of the ray's point at t, of a sphere around P's origin.
+// A sphere and a ray. p is the ray's origin relative to the centre. The power of a point is its squared distance from
+// the centre minus the squared radius; for the point of the ray at t it is a t^2 + 2 b t + c. All numbers are
+// multiplied by powers of ray.unit.
 struct ExactSphere {
     ExactRay ray;
     Dyadic3 p;
@@ -88,17 +99,21 @@ struct ExactSphere {
     ExactSphere(const Point3& center, double radius, const RayFrame& frame) : ray(exact_ray(frame)) {
         p = ray.origin - ray.unit * to_dyadic(center);
         const Dyadic r = ray.unit * Dyadic(radius);
-        a = dot(ray.direction, ray.direction), b = dot(p, ray.direction), c = dot(p, p) - r * r;
+        a = dot(ray.direction, ray.direction);
+        b = dot(p, ray.direction);
+        c = dot(p, p) - r * r;
     }
 
-    // The move E changes the power by 2 E.(P + t D), which on the sphere is not zero for all E.
+    // Returns true if the moved ray is inside the sphere at t = `end`: if the power there is negative. The move E adds
+    // 2 E.(p + t d), d the direction, to the power. On the sphere p + t d is not the zero vector. An infinite end is
+    // outside.
     bool is_inside(double end, const RayFrame& frame) const {
         if (!std::isfinite(end)) return false;
         const Dyadic t(end);
         const Dyadic3 back = Dyadic(-1.0) * (t * ray.direction);
         return moved_sign(t * (t * a + b + b) + c, p - back, frame) < 0;
     }
-    // Whether the middle of the chord lies ahead of it.
+    // Returns true if the middle of the chord is at a larger t than `end`.
     bool is_before_middle(double end) const {
         return end < 0 && !std::isfinite(end) ? true : std::isfinite(end) && (b + Dyadic(end) * a).sign() < 0;
     }
@@ -133,12 +148,15 @@ bool exact_passage(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v,
 int exact_passages(const Point3& center, double radius, const RayFrame& frame, const Search& search,
                    Passage (&passages)[2]) {
     const ExactSphere sphere(center, radius, frame);
+    // Find out on which side the ends are, and whether a ray from outside to outside crosses the sphere.
     const bool starts_inside = sphere.is_inside(search.t_min, frame),
                ends_inside = sphere.is_inside(search.t_max, frame);
     const bool is_met = (sphere.b * sphere.b - sphere.a * sphere.c).sign() > 0;
     if (starts_inside && ends_inside) return 0;
     const bool is_crossed = is_met && sphere.is_before_middle(search.t_min) && !sphere.is_before_middle(search.t_max);
     if (!starts_inside && !ends_inside && !is_crossed) return 0;
+    // The ray enters the sphere at the first root unless it starts inside, and leaves it at the second unless it ends
+    // inside.
     const SphereHits hits = exact_sphere(center, radius, frame, nullptr, nullptr, {-kInfinity, kInfinity});
     int count = 0;
     if (!starts_inside) passages[count++] = {{hits.near, 0, 0}, radius > 0};

@@ -1,15 +1,22 @@
-// Where rays pass through surfaces, by a rule that decides every case (Edelsbrunner, Muecke, Simulation of Simplicity,
-// ACM TOG 9(1), 1990).
+// Passages of rays through surfaces, by a rule that decides every case: Edelsbrunner, Muecke, Simulation of Simplicity,
+// ACM TOG 9(1), 1990.
 //
-// A ray counts as moved by (e, e^2, e^3), e > 0 and smaller than any number; its direction stays. The moved ray meets
-// no edge and no vertex, lies in no plane of a face, and its ends t_min and t_max, which move along, lie on no surface.
-// So it passes through a closed surface as often as its ends say, whose winding numbers differ by the sum of the
-// passages' signs. Every decision is the sign of a polynomial in the coordinates as they were given and in e: that
-// of the value where it is not zero, else of the first coordinate of its slope that is not. Flat shapes' are linear in
-// the move. A sphere is missed by a ray that touches it, and an end on it is decided by the slope.
-// An edge's sign is the same for all faces that share it, so that they agree where the ray passes.
+// The ray is treated as if it were moved by the vector (e, e^2, e^3), where e > 0 is smaller than any positive number.
+// Its direction is unchanged. Its ends at t_min and t_max move with it. A passage is an intersection of the moved ray,
+// between its ends, with a surface. In this position
+//   - the ray intersects no edge and no vertex, and it is in the plane of no face;
+//   - its ends are on no surface;
+//   - therefore the signs of its passages through a closed surface add up to the difference of the winding numbers at
+//     its ends.
 //
-// The move is that of the world. Instances see its image.
+// Every decision is the sign of a polynomial in the given coordinates and in e. Its value for the given ray decides if
+// it is not 0. Otherwise its slope decides, the derivative with respect to the move: the sign of the first coordinate
+// of the slope that is not 0.
+//   - The polynomials of flat shapes are linear in the move.
+//   - The sign for an edge is the same for all faces that share it. Therefore they agree on which side the ray passes.
+//   - A ray that touches a sphere misses it. If an end of the ray is on a sphere, the slope decides.
+//
+// The move is a vector in world space. Inside an instance it is transformed.
 #pragma once
 
 #include "predicates/exact.h"
@@ -18,31 +25,39 @@
 
 namespace limn {
 
-// t, u and v are those of the ray where it was given; t may lie at an end, or beyond it by rounding.
+// An intersection of the moved ray with a surface. t, u and v are those of the given ray. Therefore t may be equal to
+// an end of the ray, or beyond it by rounding.
 struct Passage : PlanarHit {
-    bool inward;  // against the outward normal
+    bool inward;  // true if the ray goes against the outward normal
 };
 
-// Whether the moved ray passes through, between its moved ends.
+// These two return true if the moved ray passes through a triangle or quad, and set `passage`. All decisions are exact.
 bool exact_passage(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
                    Passage& passage);
 bool exact_passage(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
                    const Search& search, Passage& passage);
-// In their order; how many there are. \pre radius is not 0; negative: the normal points inward
+// Sets the passages through a sphere in their order along the ray, and returns their number: 0, 1 or 2. If `radius` is
+// negative, the outward normal points to the centre. \pre radius is not 0
 int exact_passages(const Point3& center, double radius, const RayFrame& frame, const Search& search,
                    Passage (&passages)[2]);
 
-// The sign of n.d, n being the outward normal.
+// These two return the exact sign of n.d, where n is the outward normal and d the direction of the ray.
 int exact_facing(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame);
 int exact_facing(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame);
 
-// Whether the origin lies on the closed shape, exactly.
+// These return true if the origin of the ray is exactly on the closed shape.
 bool is_origin_on(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame);
 bool is_origin_on(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame);
 bool is_origin_on(const Point3& center, double radius, const RayFrame& frame);
 
-// The sign of n.d, n = u x v; 0 where double cannot tell. Edges may be off by a rounding. Each coordinate of n is off
-// by 8 units of |u| |v|, its product with d by 9, the sum of three by 42 in all; a direction that is off by s adds 6 s.
+// Returns the sign of n.d, where n = u x v and d is the direction of the ray. Returns 0 if double precision cannot
+// prove the sign. The edges u and v may be off by a rounding.
+//
+// Let U, V and D be the largest magnitudes of the coordinates of u, v and d. In units of kRoundoff
+//   - each coordinate of n is off by 8 U V: 4 from the edges, 2 from its two products, 2 from their difference;
+//   - its product with a coordinate of d is off by 10 U V D, because the product is at most 2 U V D;
+//   - the sum of three such products is off by 42 U V D.
+// A direction that is off by s along each axis adds 6 s U V.
 inline int facing(const Vec3& u, const Vec3& v, const RayFrame& frame) {
     const double edges = max_abs(u) * max_abs(v), along = max_abs(frame.ray.direction);
     const double product = dot(cross(u, v), frame.ray.direction);

@@ -1,4 +1,4 @@
-// What the filters of flat shapes share. Per-target include guard, as Highway has it.
+// Definitions that the filters of triangles and quads share. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_PLANAR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_PLANAR_INL_H
 #undef LIMN_PREDICATES_PLANAR_INL_H
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// The permutation of axes that makes a direction largest along z.
+// The cyclic permutation of the axes after which the largest coordinate of a direction is z.
 template <class N>
 class Axes {
 public:
@@ -29,7 +29,7 @@ public:
 private:
     Mask<N> x_over_y_, z_longest_;
 };
-// In a vector of one lane: branches could not be predicted.
+// One double is permuted as a vector of one lane. This avoids branches, which could not be predicted.
 template <>
 class Axes<double> {
 public:
@@ -44,39 +44,55 @@ private:
     Axes<Lane> axes_;
 };
 
-// The axes are permuted so that the direction is largest along z; shearing maps it onto z, so that a triangle is hit
-// where the origin lies inside its projection (Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1),
-// 2013; here in double).
+// A ray in the frame of Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013, here in double. The
+// axes are permuted so that the largest coordinate of the direction is z. A shear maps the direction onto the z axis.
+// Then the ray hits a triangle if the origin is inside the triangle's projection along z.
 //
-// Error of a sheared coordinate p = fl(A_x - fl(S A_z)), where A = fl(a - o) has no coordinate above M, |S| <= 1, u =
-// 2^-53, the origin is off by e and S by s: u M + e from A_x; (u + s) M + (u M + e) from S A_z; u M from that product;
-// 2 u M from the difference: (6 u + s) M + 2 e in all. Products of two such coordinates, no larger than P, and their
-// difference lose 2 u P^2 each; P <= 2 M. So with E = (8 u + s) M + 2 e every 2x2 determinant is off by at most 4 (P +
-// E) E. An edge vector, which is not a difference, loses less.
+// Error of a sheared coordinate. Let p = fl(A_x - fl(S A_z)) be the coordinate, where A = fl(a - o) is the vertex a
+// relative to the origin o, M the largest magnitude of its coordinates, S the shear with |S| <= 1, and u = 2^-53. Let
+// each coordinate of the origin be off by e, and S by s besides its rounding. The error of p is the sum of
+//   - u M + e, the error of A_x;
+//   - (u + s) M, the error of S times A_z;
+//   - u M + e, the error of A_z times S;
+//   - u M, the rounding of the product;
+//   - 2 u M, the rounding of the difference, which is at most 2 M.
+// This is (6 u + s) M + 2 e = E', say.
+//
+// Error of a 2x2 determinant of sheared coordinates. Let P be their largest magnitude, P <= 2 M. The determinant is a
+// difference of two products. Its error is the sum of
+//   - 2 (2 P E' + E'^2), the errors of the factors of both products;
+//   - 2 u P^2, the rounding of both products;
+//   - 2 u P^2, the rounding of their difference.
+// The last two are 4 P (u P) <= 4 P (2 u M). With E = E' + 2 u M = (8 u + s) M + 2 e the sum is at most 4 (P + E) E.
+//
+// The coordinates of an edge vector are not differences from the origin, so their error is smaller.
 template <class N>
 struct ShearedRay {
     Axes<N> axes;
     Vector<N> origin, direction;  // permuted
     N shear_x, shear_y;
     N relative, absolute;  // E = relative M + absolute
-    N direction_error;     // of direction.z, relative
+    N direction_error;     // bound on the relative error of direction.z, and on s
 
     HWY_INLINE explicit ShearedRay(const RayOf<N>& ray)
         : axes(ray.direction), origin(axes.permuted(ray.origin)), direction(axes.permuted(ray.direction)) {
-        shear_x = direction.x / direction.z, shear_y = direction.y / direction.z;
-        // |d_x / d_z - (d_x + e) / (d_z + e')| <= 2 e / (|d_z| - e); 4 e / |d_z| as long as that is below 1/2.
+        shear_x = direction.x / direction.z;
+        shear_y = direction.y / direction.z;
+        // Let d be the direction and e the bound on its error. As |d_x| <= |d_z|, for all |e1|, |e2| <= e: |d_x / d_z -
+        // (d_x + e1) / (d_z + e2)| <= 2 e / (|d_z| - e). This is at most 4 e / |d_z| if that is below 1/2.
         const N error = 4 * ray.direction_error / abs(direction.z);
         direction_error = select(error < 0.5, error, N(kInfinity));
         relative = (8 * kRoundoff + direction_error) * (1 + 0x1p-30);
-        absolute = 2 * ray.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // |S| <= 1 + s
+        absolute = 2 * ray.origin_error * (1 + direction_error) * (1 + 0x1p-30);  // the exact |S| is at most 1 + s
     }
 
-    // z is left as it is: dividing by direction.z turns it into t.
+    // Returns the sheared vector. Its z is not scaled: divided by direction.z it is t.
     HWY_INLINE Vector<N> sheared(const Vector<N>& v) const { return {v.x - shear_x * v.z, v.y - shear_y * v.z, v.z}; }
 
-    // Of a sheared coordinate, and of a 2x2 determinant of them: E and 4 (P + E) E. `reach`: the largest coordinate
-    // before shearing; `across`: the largest x or y after it. Infinite, so that nothing is decided, where products of
-    // three coordinates could overflow, or underflow by more than the bound.
+    // These return the bound E on the error of a sheared coordinate, and the bound 4 (P + E) E on that of a 2x2
+    // determinant. `reach` is M, the largest magnitude of a coordinate before shearing. `across` is P, the largest
+    // magnitude of x and y after shearing. If products of three coordinates could overflow, or underflow by more than
+    // the bound, it is infinite: then nothing is decided.
     HWY_INLINE N coordinate_error(N reach) const { return relative * reach + absolute; }
     HWY_INLINE N determinant_error(N reach, N across) const {
         const N e = coordinate_error(reach);
@@ -84,20 +100,27 @@ struct ShearedRay {
     }
 };
 
-// The largest x or y.
+// Returns the largest magnitude of x and y in these vectors.
 template <class N>
 HWY_INLINE N across(const Vector<N>& a, const Vector<N>& b, const Vector<N>& c) {
     return max(max(abs(a.x), max(abs(b.x), abs(c.x))), max(abs(a.y), max(abs(b.y), abs(c.y))));
 }
 
-// A flat shape where its inside is hit: the depth z as a weighted mean, computed by at most 8 operations. Its weights
-// are off by `weight_error`, u and v among them. Over the shape z varies by `depth`.
+// A hit of the inside of a flat shape. z is the weighted mean of the sheared z of the vertices, computed by at most 8
+// operations.
 template <class N>
 struct InsideHit {
     N z, u, v;
-    N coordinate_error, weight_error, depth;
+    N coordinate_error;  // bound on the error of a sheared coordinate: E
+    N weight_error;      // bound on the error of each weight of the mean, u and v included
+    N depth;             // difference between the largest and the smallest z of the shape
 };
 
+// Compares the t of hits of the inside with the interval, and returns the result of the filter.
+//
+// The errors of the weights change z by at most 2 weight_error depth, since the weights add up to 1. The errors of the
+// vertices' z and the 8 operations change z by at most 2 E, because E >= 8 u M. The relative error of direction.z is
+// also one of t.
 template <class N>
 HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> missed, Mask<N> inside,
                                   const InsideHit<N>& h) {
@@ -110,11 +133,20 @@ HWY_INLINE FilterResult<N> judged(const ShearedRay<N>& ray, const Interval<N>& w
     return {.hit = hit, .miss = Mask<N>(missed | (inside & j.miss())), .t = t, .u = h.u, .v = h.v};
 }
 
-// Whether a plane lies behind the ray's origin: a surface behind the ray that leaves it, which the t of a search, close
-// to 0, seldom tells. The plane is spanned by the edges u and v, off by at most `edge_error` each, q goes from the
-// origin to a point of it, and `against` says whether n.d < 0, n = u x v. Let `edge` be their largest coordinate: then
-// n is off by 4 edge edge_error + 4 u edge^2 and less than a third of the former, and n.q by three times that times
-// |q|, 6 edge^2 (u |q| + e) from q, and 18 u edge^2 |q| from the products.
+// Returns true if a plane is surely behind the ray's origin. A ray that starts on a surface needs this test for that
+// surface: the t of the hit is so close to 0 that its error bound seldom excludes t > 0.
+//
+// The plane is spanned by the edges u and v, whose coordinates are off by at most `edge_error`. The vector q goes from
+// the origin, which is off by `origin_error`, to a point of the plane. `against` is n.d < 0, where n = u x v and d is
+// the direction. The plane is behind the origin if n.q and n.d have opposite signs.
+//
+// Error of n.q. Let U (`edge` in the code) be the largest magnitude of the coordinates of both edges, |q| (`way`) that
+// of q, a the edge_error, e the origin_error, and r = 2^-53.
+//   - A coordinate of n is off by (4/3) 4 U a + 4 r U^2. The factor 4/3 covers terms in a^2. This adds three times as
+//     much times |q| to the error: 16 U a |q| + 12 r U^2 |q|.
+//   - A coordinate of q is off by r |q| + e, and one of n is at most 2 U^2. This adds 6 U^2 (r |q| + e).
+//   - The rounding of the three products and of their sum adds 18 r U^2 |q|.
+// The sum is U (16 a |q| + U (36 r |q| + 6 e)).
 template <class N>
 HWY_INLINE Mask<N> is_behind(const Vector<N>& u, const Vector<N>& v, const Vector<N>& q, N edge_error, N origin_error,
                              Mask<N> against) {
@@ -124,10 +156,17 @@ HWY_INLINE Mask<N> is_behind(const Vector<N>& u, const Vector<N>& v, const Vecto
     return (abs(product) > error) & ((product < 0.0) ^ against);
 }
 
-// Whether a plane lies beyond the end of a search: that of a lamp, whose shadow rays end just before it, and which from
-// beside it the t of a search does not tell. The end is seen from q; the edges u and v are off by their own rounding, q
-// - t_max d by 3 u (|q| + t_max |d|), the rest is as above. That is far more than what t is rounded by. Only for rays
-// as they were given.
+// Returns true if a plane is surely beyond the end of a search. A shadow ray needs this test for the plane of its
+// light: it ends just before the light, and at a grazing angle the error bound of t is too large to decide.
+//
+// The parameters are those of is_behind(). `rest` = q - t_max d is the vector from the end of the search to a point of
+// the plane. The plane is beyond the end if n.rest and n.d have the same sign.
+//
+// The error of n.rest follows as in is_behind(), with a = r U, the rounding of the edges, and e = 3 r (|q| + t_max
+// |d|), the rounding of `rest`. It is r U^2 (52 |rest| + 18 (|q| + t_max |d|)). This bound is far larger than the
+// rounding of the t that would be reported, which is therefore beyond t_max too.
+//
+// The test only holds for rays in world space, whose origin and direction are exact. It returns false for others.
 template <class N>
 HWY_INLINE Mask<N> is_beyond(const ShearedRay<N>& ray, const Vector<N>& u, const Vector<N>& v, const Vector<N>& q,
                              N t_max, Mask<N> against) {
@@ -139,7 +178,8 @@ HWY_INLINE Mask<N> is_beyond(const ShearedRay<N>& ray, const Vector<N>& u, const
     return is_as_given & (abs(product) > error) & !((product < 0.0) ^ against);
 }
 
-// Both, for what a filter leaves undecided of rays that start at t = 0 or later.
+// Adds the misses that is_behind() and is_beyond() find to the result of a filter. They are tried only if the inside is
+// hit, the filter has not decided, and t_min >= 0.
 template <class N>
 HWY_INLINE void tell_by_side(const ShearedRay<N>& ray, const Interval<N>& within, Mask<N> inside, const Vector<N>& u,
                              const Vector<N>& v, const Vector<N>& q, N edge_error, Mask<N> against,

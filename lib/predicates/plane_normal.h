@@ -1,4 +1,4 @@
-// Unit normals of flat shapes, for thin and tiny ones too.
+// Unit normals of flat shapes. They are accurate for thin and tiny shapes too.
 #pragma once
 
 #include "limn/core/vec.h"
@@ -6,7 +6,8 @@
 
 namespace limn {
 
-// Along cross(u, v), which loses 2^-50 of |u| |v| in double: good for edges that are not nearly parallel.
+// Sets the unit normal along cross(u, v) and returns true. In double the cross product is off by about 2^-50 |u| |v|.
+// Returns false if this is too much, because the edges are nearly parallel, or if squares could overflow or underflow.
 inline bool normalize_cross(const Vec3& u, const Vec3& v, Normal3& normal) {
     const Vec3 n = cross(u, v);
     const double squared = dot(n, n);
@@ -15,14 +16,14 @@ inline bool normalize_cross(const Vec3& u, const Vec3& v, Normal3& normal) {
     return true;
 }
 
-// \pre !are_parallel(edge_u, edge_v)
+// Returns the unit normal of a quad, along edge_u x edge_v. \pre !are_parallel(edge_u, edge_v)
 inline Normal3 quad_normal(const Vec3& edge_u, const Vec3& edge_v) {
     Normal3 normal;
     return normalize_cross(edge_u, edge_v, normal) ? normal
                                                    : exact_normal(Point3{}, Point3{} + edge_u, Point3{} + edge_v);
 }
 
-// (b - a) x (c - a). \pre !are_collinear(a, b, c)
+// Returns the unit normal of a triangle, along (b - a) x (c - a). \pre !are_collinear(a, b, c)
 inline Normal3 triangle_normal(const Point3& a, const Point3& b, const Point3& c) {
     Normal3 normal;
     return normalize_cross(b - a, c - a, normal) ? normal : exact_normal(a, b, c);

@@ -1,4 +1,4 @@
-// Ray against parallelogram. Per-target include guard, as Highway has it.
+// The filter of rays against parallelograms. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_QUAD_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_QUAD_INL_H
 #undef LIMN_PREDICATES_QUAD_INL_H
@@ -12,35 +12,46 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
+// The filter of a parallelogram. Its border belongs to it; a ray in its plane misses.
 template <class N>
 struct QuadPredicate {
     using Ray = ShearedRay<N>;
     static constexpr std::size_t kNumbers = 9;
     Vector<N> corner, edge_u, edge_v;
 
-    // number(i): the i-th of kNumbers.
+    // Returns the quad whose i-th number is number(i), i < kNumbers.
     template <class Number>
     HWY_INLINE static QuadPredicate from(const Number& number) {
         return {three<N>(number, 0), three<N>(number, 3), three<N>(number, 6)};
     }
+    // Returns the outward normal, of any length.
     HWY_INLINE Vector<N> outward() const { return cross(edge_u, edge_v); }
 
-    // Solves corner + u edge_u + v edge_v = origin in the sheared plane by Cramer's rule: u = wu / det, v = wv / det.
-    // All three determinants are off by at most e (ShearedRay), det - w by 3 e with its own rounding. The border
-    // belongs to the quad, a ray in its plane misses. A ray can only hit if |w| <= |det|, which tells rays along the
-    // plane apart from those in it.
+    // Returns the hits and misses that double precision can prove. u and v are the coordinates along the edges.
     //
-    // u and v are off by at most 4 e / |det|; z changes by at most |edge_u.z| + |edge_v.z| over the quad.
+    // The filter solves corner + u edge_u + v edge_v = origin in the sheared plane by Cramer's rule: u = wu / det, v =
+    // wv / det. All three determinants are off by at most e (ShearedRay). det - w is off by at most 3 e, including its
+    // own rounding.
+    //
+    // The ray hits if det is not 0 and both 0 <= w / det <= 1. Therefore |w| > |det| is a miss, even if det may be 0:
+    // this decides for rays that are parallel to the plane but not in it.
+    //
+    // u and v are off by at most 4 e / |det|. Over the quad z changes by at most |edge_u.z| + |edge_v.z|.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
+        // Shear the corner and the edges, and compute the determinants.
         const Vector<N> at_u = ray.axes.permuted(edge_u), at_v = ray.axes.permuted(edge_v);
         const Vector<N> to_corner = ray.axes.permuted(corner) - ray.origin;
         const Vector<N> q = ray.sheared(to_corner), eu = ray.sheared(at_u), ev = ray.sheared(at_v);
         N det = eu.x * ev.y - eu.y * ev.x;
         N wu = ev.x * q.y - ev.y * q.x;
         N wv = q.x * eu.y - q.y * eu.x;
+        // Make det positive.
         const auto turned = det < 0.0;
         const N sign = copy_sign(N(1.0), det);
-        det = abs(det), wu = sign * wu, wv = sign * wv;
+        det = abs(det);
+        wu = sign * wu;
+        wv = sign * wv;
+        // Decide whether the ray passes through the inside.
         const N least = min(wu, wv), most = max(wu, wv);
         const N reach = max(max_abs(to_corner), max(max_abs(at_u), max_abs(at_v)));
         const N e = ray.determinant_error(reach, across(q, eu, ev));
@@ -48,6 +59,7 @@ struct QuadPredicate {
         const Mask<N> inside = (least > e) & (det - most > 3 * e);
         if (!any(inside)) return {inside, missed, N(0.0), N(0.0), N(0.0)};
 
+        // Compute z, and compare t with the interval.
         const N u = wu / det, v = wv / det;
         const InsideHit<N> h{.z = q.z + (u * eu.z + v * ev.z),
                              .u = u,
@@ -56,6 +68,7 @@ struct QuadPredicate {
                              .weight_error = 4 * e / det,
                              .depth = abs(eu.z) + abs(ev.z)};
         FilterResult<N> result = judged(ray, within, missed, inside, h);
+        // If t is too uncertain, try the side of the plane on which the ray starts or ends.
         tell_by_side(ray, within, inside, at_u, at_v, to_corner, N(0.0), turned ^ (ray.direction.z < 0.0), result);
         return result;
     }
@@ -66,7 +79,7 @@ struct QuadPredicate {
     }
 };
 
-// The same in all lanes.
+// Returns the filter of one quad in all lanes.
 template <class N>
 HWY_INLINE QuadPredicate<N> quad_of(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v) {
     return {broadcast<N>(corner), broadcast<N>(edge_u), broadcast<N>(edge_v)};

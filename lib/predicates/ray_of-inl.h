@@ -1,4 +1,4 @@
-// A ray, or one in each lane, and what the filters say of it. Per-target include guard, as Highway has it.
+// A ray, or one ray in each lane, and the results of filters. The include guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_RAY_OF_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_RAY_OF_INL_H
 #undef LIMN_PREDICATES_RAY_OF_INL_H
@@ -14,47 +14,54 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
+// The numbers of a RayFrame that filters use.
 template <class N>
 struct RayOf {
     Vector<N> origin, direction;
-    N origin_error, direction_error;  // RayFrame's
+    N origin_error, direction_error;  // bounds on the error of each coordinate: see RayFrame
 };
 
+// Returns the ray of a frame in all lanes.
 template <class N>
 HWY_INLINE RayOf<N> ray_of(const RayFrame& frame) {
     return {broadcast<N>(frame.ray.origin), broadcast<N>(frame.ray.direction), N(frame.origin_error),
             N(frame.direction_error)};
 }
 
-// Where hits may lie: see Search.
+// The interval in which hits are searched: see Search.
 template <class N>
 struct Interval {
     N t_min, t_max;
 };
 
-// number(i), number(i + 1) and number(i + 2).
+// Returns the vector of number(i), number(i + 1) and number(i + 2).
 template <class N, class Number>
 HWY_INLINE Vector<N> three(const Number& number, std::size_t i) {
     return {number(i), number(i + 1), number(i + 2)};
 }
 
-// What a filter finds.
+// The result of a filter.
 template <class N>
 struct FilterResult {
-    Mask<N> hit, miss;  // neither: undecided
+    Mask<N> hit, miss;  // sure hits and sure misses; undecided if neither is set
     N t, u, v;          // of hits
 };
 
-// What is known of a t that is off by at most some error. It is beyond the search for sure; or it is accurate, so that
-// it is the one to report. Not where the exact one may be a float32 that it just misses: such round numbers are what
-// people put into t_min and t_max. What is neither the exact fallback decides.
+// The judgement of a t with a bound on its error: see judge().
+//
+// If t is neither `beyond` nor `accurate`, the exact fallback decides. A t is not accurate if it is not a float but the
+// nearest float is within its error. The exact t may then be that float, and t_min and t_max are often such round
+// numbers.
 template <class N>
 struct Judgement {
-    Mask<N> beyond, accurate, within;
+    Mask<N> beyond;    // the exact t is surely outside the search
+    Mask<N> accurate;  // t may be reported
+    Mask<N> within;    // t as computed is within the search
 
     HWY_INLINE Mask<N> hit() const { return accurate & within & !beyond; }
     HWY_INLINE Mask<N> miss() const { return beyond | (accurate & !within); }
 };
+// Judges a t that is off by at most `error`.
 template <class N>
 HWY_INLINE Judgement<N> judge(N t, N error, const Interval<N>& within) {
     const N round = rounded_to_float(t);
@@ -64,14 +71,14 @@ HWY_INLINE Judgement<N> judge(N t, N error, const Interval<N>& within) {
             .within = Mask<N>((t > within.t_min) & (t <= within.t_max) & (t < kInfinity))};
 }
 
-// A shape's numbers, the same in all lanes.
+// Returns the filter of one shape in all lanes.
 template <class N, template <class> class Predicate>
 HWY_INLINE Predicate<N> in_lanes(const Predicate<double>& shape) {
     return Predicate<N>::from([&](std::size_t i) HWY_ATTR { return N(number_of<double>(shape, i)); });
 }
 
-// Exact: whether a shape is hit within the search. t, u, v as kAccurate says. `ray`: the frame's, as such shapes see
-// it.
+// Returns true if the ray hits the shape within the search. This decision is exact. If true, t, u and v are set, as
+// accurate as kAccurate and kAccurateWeight demand. `ray` is the ray of `frame` in the form that the filter uses.
 template <template <class> class Predicate>
 HWY_INLINE bool intersect(const Predicate<double>& shape, const typename Predicate<double>::Ray& ray,
                           const RayFrame& frame, const Search& search, PlanarHit& hit) {

@@ -1,4 +1,5 @@
-// Spheres against rays in float: many of either, with one of the other. Per-target include guard, as Highway has it.
+// Tests of rays against spheres in float: many spheres against one ray, or many rays against one sphere. The include
+// guard is per target, as Highway requires.
 #if defined(LIMN_PREDICATES_SPHERE_FLOAT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_PREDICATES_SPHERE_FLOAT_INL_H
 #undef LIMN_PREDICATES_SPHERE_FLOAT_INL_H
@@ -11,18 +12,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// The foot point is off by relative L + absolute, see SpherePredicate: by (2 + 10 + 8 * 2) u L + e where the origin is
-// a sum of two floats.
+// A ray for spheres, in float. Its origin is the sum of two floats, `high` and `low`.
+//
+// The foot point is off by relative L + absolute, with L as in SpherePredicate::roots(). By the derivation there the
+// error is (2 + 10 + 8 * 2) u L + e with u = 2^-24: 2 u because the origin is a sum of two floats, and s = 2 u because
+// the direction is rounded to float.
 template <class N>
 struct SphereFloatRay {
     static constexpr std::size_t kNumbers = 14;
     Vector<N> high, low, direction;
-    N inverse_squared;  // of the direction's length
-    N inverse_length;   // at least 1 / length
+    N inverse_squared;  // 1 / |direction|^2
+    N inverse_length;   // at least 1 / |direction|
     N relative, absolute;
-    N t_scale;
+    N t_scale;  // factor from the parameter along `direction` to t
 
-    // number(i): the i-th of kNumbers.
+    // Returns the ray whose i-th number is number(i), i < kNumbers.
     template <class Number>
     HWY_INLINE static SphereFloatRay from(const Number& number) {
         return {three<N>(number, 0), three<N>(number, 3), three<N>(number, 6), number(9),
@@ -30,19 +34,22 @@ struct SphereFloatRay {
     }
 };
 
-// Both roots: bounds on each where the line surely meets the sphere, else both times on the whole of it. Set unless all
-// have missed.
+// Bounds on the two roots of a sphere. If it is not certain that the ray hits, the bounds on both roots enclose the
+// whole sphere. If all lanes miss, only `missed` is set.
 template <class N>
 struct FloatRoots {
-    Mask<N> missed, certain;
-    N near_first, far_first, near_last, far_last;
+    Mask<N> missed, certain;  // the line of the ray surely misses, or surely hits
+    N near_first, far_first;  // bounds on the first root
+    N near_last, far_last;    // bounds on the second root
 };
 
-// SpherePredicate's discriminant in float, and its bound. Where the discriminant is beyond it the roots are off by what
-// is said there of `outer`, here with the rounding of float and twice over.
+// Returns bounds on the roots. The discriminant and the bound on its error are those of SpherePredicate::roots(), with
+// u = 2^-24. If the discriminant exceeds the bound, both roots are off by what is derived there for `outer`; here that
+// error is doubled.
 template <class N>
 HWY_INLINE FloatRoots<N> float_roots(const Vector<N>& center, N radius, const SphereFloatRay<N>& ray) {
     constexpr float kUlp = 0x1p-24f;
+    // Compare the discriminant with the bound on its error.
     const Vector<N> p = (center - ray.high) - ray.low;
     const Vector<N>& d = ray.direction;
     const N foot_t = mul_add(p.x, d.x, mul_add(p.y, d.y, p.z * d.z)) * ray.inverse_squared;
@@ -55,8 +62,11 @@ HWY_INLINE FloatRoots<N> float_roots(const Vector<N>& center, N radius, const Sp
     r.missed = -discriminant > error;
     if (HWY_LIKELY(!any(!r.missed))) return r;
 
+    // If the sign is not certain, the roots are between foot_t - half and foot_t + half: the half chord is at most the
+    // radius.
     r.certain = discriminant > error;
     const N half = mul_add(1.001f, radius, 4.0f * foot_error) * ray.inverse_length;
+    // If it is certain, compute both roots and the bound on their error.
     const N half_chord = sqrt(discriminant * ray.inverse_squared);
     const N relative = error / discriminant + ray.relative;
     const N root_error = mul_add(foot_error, 2.0f * ray.inverse_length,
@@ -70,7 +80,8 @@ HWY_INLINE FloatRoots<N> float_roots(const Vector<N>& center, N radius, const Sp
     return r;
 }
 
-// The first root within the search. t after `surely_after` lies behind t_min for sure.
+// Returns the first root within the interval. A root whose bounds are above `surely_after` is surely greater than
+// t_min.
 template <class N>
 HWY_INLINE FloatHits<N> first_root(const FloatRoots<N>& r, N surely_after, const Interval<N>& within) {
     const auto is_first = r.certain & (r.near_first > surely_after);

@@ -1,4 +1,4 @@
-// Disks.
+// Disks as primitives.
 #pragma once
 
 #include <tuple>

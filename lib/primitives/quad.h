@@ -1,4 +1,4 @@
-// Parallelograms.
+// Parallelograms as primitives.
 #pragma once
 
 #include <tuple>
@@ -14,8 +14,8 @@ struct Quad : QuadRecord, Primitive {
     static constexpr auto kRecords = &SceneRecords::quads;
     static auto fields(const QuadRecord& q) { return std::tie(q.corner, q.edge_u, q.edge_v, q.material); }
 
-    Normal3 normal;  // unit
-    Vec3 error;      // of points on it
+    Normal3 normal;  // unit length
+    Vec3 error;      // bounds the rounding error of a hit point along each axis
 
     explicit Quad(const QuadRecord& q)
         : QuadRecord(q), normal(quad_normal(q.edge_u, q.edge_v)), error(planar_error(q.corner, q.edge_u, q.edge_v)) {}

@@ -1,4 +1,4 @@
-// All kinds of primitives that have a row for each.
+// The registry of all kinds of primitives that have a table with a row for each primitive.
 #pragma once
 
 #include <tuple>
@@ -12,11 +12,11 @@
 
 namespace limn::primitives {
 
-// In the order of their names in CompiledScene::features().
+// The tables, in the order of the names in CompiledScene::features().
 using Tables = std::tuple<std::vector<Sphere>, std::vector<MovingSphere>, std::vector<Triangle>, std::vector<Quad>,
                           std::vector<Disk>>;
 
-// visit(std::type_identity<Kind>()) with each.
+// Calls visit(std::type_identity<Kind>()) for each kind.
 template <class Visit>
 constexpr void for_each_kind(const Visit& visit) {
     [&]<class... Kind>(std::type_identity<std::tuple<std::vector<Kind>...>>) {
@@ -24,7 +24,8 @@ constexpr void for_each_kind(const Visit& visit) {
     }(std::type_identity<Tables>());
 }
 
-// What it returns for the one that a value stands for, if any.
+// Returns visit(std::type_identity<Kind>()) for the type of the given kind, or `otherwise` if the kind isn't in the
+// registry.
 template <class Answer, class Visit>
 constexpr Answer value_of_kind(PrimitiveKind kind, Answer otherwise, const Visit& visit) {
     for_each_kind([&]<class Kind>(std::type_identity<Kind> k) {
@@ -33,7 +34,7 @@ constexpr Answer value_of_kind(PrimitiveKind kind, Answer otherwise, const Visit
     return otherwise;
 }
 
-// visit(the row), if its kind has one.
+// Calls visit() with the given row of the table of `kind`. Does nothing if the kind has no table.
 template <class Visit>
 void with_row(const Tables& tables, PrimitiveKind kind, std::size_t row, const Visit& visit) {
     for_each_kind([&]<class Kind>(std::type_identity<Kind>) {

@@ -1,4 +1,4 @@
-// Spheres, still and moving.
+// Still and moving spheres as primitives.
 #pragma once
 
 #include <tuple>
@@ -8,7 +8,7 @@
 
 namespace limn::primitives {
 
-// Without the second centre.
+// A still sphere. Unlike a SphereRecord it stores a single centre.
 struct Sphere : Primitive {
     static constexpr PrimitiveKind kKind = PrimitiveKind::sphere;
     static constexpr const char* kName = "sphere";
@@ -16,7 +16,7 @@ struct Sphere : Primitive {
     static auto fields(const SphereRecord& s) { return std::tie(s.center0, s.center1, s.radius, s.material); }
 
     Point3 center;
-    double radius;  // negative: the normal points inward
+    double radius;  // the normal points inward if this is negative
     MaterialId material;
 
     explicit Sphere(const SphereRecord& s) : center(s.center0), radius(s.radius), material(s.material) {}
@@ -46,7 +46,7 @@ struct MovingSphere : SphereRecord, Primitive {
         const Point3 center = interpolate(center0, center1, time);
         return Sphere({center, center, radius, material});
     }
-    // The way between two floats is rounded three times.
+    // The second term covers the three roundings of the interpolation between two centres of floats.
     double packed_error() const {
         return std::max(float_error(center0), float_error(center1)) +
                0x1p-22 * std::max(max_abs(center0), max_abs(center1));

@@ -1,4 +1,4 @@
-// Single triangles, and what those of meshes are once their vertices are known.
+// Triangles as primitives. A triangle of a mesh is converted to this type once its vertices are known.
 #pragma once
 
 #include <tuple>

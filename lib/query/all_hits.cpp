@@ -1,4 +1,4 @@
-// Every hit along a ray.
+// Implements the forms of CompiledScene::all_hits for one ray.
 #include <algorithm>
 #include <vector>
 
@@ -11,10 +11,12 @@ namespace limn {
 
 namespace {
 
+// Sorts `found` along the ray, removes duplicates from it, and appends it to `hits`.
 void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::vector<RayHit>& hits) {
     query::sort_along_ray(found);
+    // The two hits of a sphere that the ray only touches have the same t.
     const auto same = [](const trace::Crossing& a, const trace::Crossing& b) {
-        return a.t == b.t && a.primitive == b.primitive;  // a sphere that is touched
+        return a.t == b.t && a.primitive == b.primitive;
     };
     found.erase(std::unique(found.begin(), found.end(), same), found.end());
     hits.reserve(found.size());

@@ -1,4 +1,5 @@
-// Queries for many rays and points.
+// Implements the queries for batches of rays and points. The batches without a filter of closest_hit and any_hit are in
+// compiled_scene.cpp.
 #include <atomic>
 #include <vector>
 
@@ -14,7 +15,7 @@ using query::check_length, query::for_all_parts, query::kPart;
 
 namespace {
 
-// work(i) for each ray that can be used, refuse(i) for the others; how many those are.
+// Calls work(i) for each usable ray i and refuse(i) for each unusable one. Returns the number of unusable rays.
 template <class Work, class Refuse>
 std::size_t for_each_ray(std::span<const Ray> rays, int threads, const char* who, const Work& work,
                          const Refuse& refuse) {
@@ -22,16 +23,18 @@ std::size_t for_each_ray(std::span<const Ray> rays, int threads, const char* who
     for_all_parts(rays.size(), threads, who, [&](std::size_t first, std::size_t count) {
         const FloatEnvironment environment;
         for (std::size_t i = first; i < first + count; ++i) {
-            if (query::is_fit(rays[i]))
+            if (query::is_fit(rays[i])) {
                 work(i);
-            else
-                refuse(i), ++unusable;
+            } else {
+                refuse(i);
+                ++unusable;
+            }
         }
     });
     return unusable;
 }
 
-// work(i) for each point.
+// Calls work(i) for each point i.
 template <class Work>
 void for_each_point(std::size_t count, int threads, const char* who, const Work& work) {
     for_all_parts(count, threads, who, [&](std::size_t first, std::size_t some) {
@@ -39,12 +42,14 @@ void for_each_point(std::size_t count, int threads, const char* who, const Work&
     });
 }
 
-// `filter` as it is for one of the rays.
+// Returns the filter of ray i. `all` is the checked filter of the whole batch.
 trace::Filter filter_of(trace::Filter all, const RayFilter& filter, std::size_t i) {
     if (!filter.without_each.empty()) all.without = filter.without_each[i];
     return all;
 }
 
+// Converts the filter of a batch of `rays` rays.
+// \throws ArgumentError if the filter does not fit the scene or the batch; the message begins with `who`
 trace::Filter checked(const flat::Scene& scene, const RayFilter& filter, std::size_t rays, const char* who) {
     if (!filter.without_each.empty() && filter.without_each.size() != rays)
         throw ArgumentError(std::string(who) + ": filter.without_each must be empty or as long as there are rays");
@@ -76,8 +81,8 @@ std::size_t CompiledScene::any_hit(std::span<const Ray> rays, const RayFilter& f
         [&](std::size_t i) { occluded[i] = 0; });
 }
 
-// Each part's hits stand apart until all are known.
 std::size_t CompiledScene::all_hits(std::span<const Ray> rays, RayHits& hits, int threads) const {
+    // Collect the hits of each part of the batch, and store the number of hits of ray i in hits.first[i + 1].
     const std::size_t part = threads == 1 ? std::max<std::size_t>(rays.size(), 1) : kPart;
     std::vector<std::vector<RayHit>> parts((rays.size() + part - 1) / part);
     hits.first.assign(rays.size() + 1, 0);
@@ -92,6 +97,7 @@ std::size_t CompiledScene::all_hits(std::span<const Ray> rays, RayHits& hits, in
             hits.first[i + 1] = of_ray.size();
         }
     });
+    // Sum up the numbers of hits, and concatenate the hits of all parts.
     for (std::size_t i = 0; i < rays.size(); ++i) hits.first[i + 1] += hits.first[i];
     hits.hits.clear();
     hits.hits.reserve(hits.first.back());

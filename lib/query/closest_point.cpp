@@ -1,4 +1,4 @@
-// The nearest point of all surfaces, and how far away it is.
+// Implements CompiledScene::closest_point and signed_distance.
 #include <cmath>
 
 #include "core/float_environment.h"

@@ -20,9 +20,11 @@ using query::complete, query::is_fit;
 
 namespace {
 
-// Media are apart, and not inlined: scenes without them pay for a comparison alone.
+// The two functions below handle the boundaries of media, which trace::closest_hit and any_hit leave out. They aren't
+// inlined, so that a scene without media pays only for one comparison.
 
-// Puts the hit of a medium's boundary in place of `best` where it comes first.
+// Replaces `best` if the ray hits the boundary of a medium before it. Of hits at the same t, the one of the primitive
+// with the lowest number is kept.
 [[gnu::noinline]] void nearer_boundary(const flat::Scene& scene, const Ray& ray, trace::Hit& best) {
     for (const flat::Medium& medium : scene.media) {
         Ray rest = ray;
@@ -33,13 +35,15 @@ namespace {
     }
 }
 
+// Returns true if the ray hits the boundary of any medium.
 [[gnu::noinline]] bool meets_boundary(const flat::Scene& scene, const Ray& ray) {
     return std::ranges::any_of(scene.media, [&](const flat::Medium& medium) {
         return trace::closest_boundary(scene, medium, ray).primitive != flat::RawHit::kMiss;
     });
 }
 
-// \pre is_usable(ray), as below. Inlined although batches with media call it too.
+// Returns the closest hit of one ray, boundaries of media included. The attribute makes the compiler inline it although
+// it has two callers. \pre is_usable(ray)
 [[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray) {
     trace::Hit hit = trace::closest_hit(scene, ray);
     if (!scene.media.empty()) nearer_boundary(scene, ray, hit);
@@ -47,12 +51,13 @@ namespace {
     return complete(scene, hit);
 }
 
+// Returns true if the ray has any hit, boundaries of media included. \pre is_usable(ray)
 bool find_any(const flat::Scene& scene, const Ray& ray) {
     return trace::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
 }
 
-// work(first, count) for every run of rays that can be used, at most trace::kMostRays long, and refuse(i) for each
-// of the others; how many those are.
+// Calls work(first, count) for each run of consecutive usable rays, of at most trace::kMostRays rays. Calls refuse(i)
+// for each unusable ray i. Returns the number of unusable rays.
 template <class Work, class Refuse>
 std::size_t for_each_run(std::span<const Ray> rays, const Work& work, const Refuse& refuse) {
     const FloatEnvironment environment;
@@ -60,14 +65,18 @@ std::size_t for_each_run(std::span<const Ray> rays, const Work& work, const Refu
     for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
         while (end < rays.size() && end - first < trace::kMostRays && is_fit(rays[end])) ++end;
         if (end > first) work(first, end - first);
-        if (end < rays.size() && !is_fit(rays[end])) refuse(end++), ++unusable;
+        if (end < rays.size() && !is_fit(rays[end])) {
+            refuse(end++);
+            ++unusable;
+        }
     }
     return unusable;
 }
 
-// Of a batch; how many of the rays cannot be used.
+// Finds the closest hit of each ray of a batch. Returns the number of unusable rays.
 std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, std::span<RayHit> hits) {
     const auto refuse = [&](std::size_t i) { hits[i] = {}; };
+    // In a scene with media, trace the rays one by one.
     if (!scene.media.empty())
         return for_each_run(
             rays,
@@ -76,6 +85,7 @@ std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, st
                     hits[i] = find_closest(scene, rays[i]).value_or(RayHit{});
             },
             refuse);
+    // Otherwise, trace runs of rays together.
     std::array<trace::Hit, trace::kMostRays> found;
     return for_each_run(
         rays,
@@ -87,6 +97,7 @@ std::size_t find_closest(const flat::Scene& scene, std::span<const Ray> rays, st
         refuse);
 }
 
+// Sets occluded[i] to 1 if ray i of a batch has any hit, else to 0. Returns the number of unusable rays.
 std::size_t find_any(const flat::Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
     return for_each_run(
         rays,

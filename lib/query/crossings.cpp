@@ -1,4 +1,5 @@
-// Passages through surfaces, and what follows from them: how often surfaces wind around a point.
+// Implements crossings, count_intersections, winding_number, locate and contains of CompiledScene. All of them follow
+// from the passages of a ray through surfaces (predicates/passage.h).
 #include <cmath>
 #include <vector>
 
@@ -11,26 +12,34 @@ namespace limn {
 
 namespace {
 
+// Sorts `found` along the ray and appends it to `crossings`.
 void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::vector<RayCrossing>& crossings) {
     query::sort_along_ray(found);
     crossings.reserve(found.size());
     for (const trace::Crossing& c : found) crossings.push_back({query::complete(scene, c), c.inward});
 }
 
+// Counts the passages of a ray; an unusable ray has none. If `wants_touched` is true, the surface that the ray's origin
+// is exactly on is looked for too.
 trace::PassageCount count(const flat::Scene& scene, const Ray& ray, bool wants_touched) {
     const FloatEnvironment environment;
     return query::is_fit(ray) ? trace::passages(scene, ray, wants_touched, nullptr) : trace::PassageCount{};
 }
 
-// Any direction gives the same numbers; the shortest way out of the bounds meets least. Aside a little, so that faces
-// along the axes do not need exact arithmetic.
+// Returns the direction of the ray that locate() counts passages along. For closed surfaces, every direction gives the
+// same winding number. This one takes the shortest way out of the bounds, where a ray intersects the fewest surfaces.
+// It is tilted a little against the axes, so that faces parallel to the axes do not need exact arithmetic.
 Vec3 way_out(const Box& bounds, const Point3& p) {
     std::size_t axis = 0;
     double shortest = kInfinity, sign = 1;
     for (std::size_t a = 0; a < 3; ++a)
         for (const double s : {-1.0, 1.0}) {
             const double way = s < 0 ? p[a] - bounds.lower[a] : bounds.upper[a] - p[a];
-            if (way < shortest) shortest = way, axis = a, sign = s;
+            if (way < shortest) {
+                shortest = way;
+                axis = a;
+                sign = s;
+            }
         }
     Vec3 direction{0.0432751, -0.0791537, 0.0613921};
     direction[axis] = sign;

@@ -1,4 +1,4 @@
-// Filters of rays as the searches take them.
+// Converts the filters of the public interface into those of the traversal.
 #pragma once
 
 #include <string>
@@ -9,7 +9,9 @@
 
 namespace limn::query {
 
-// \throws ArgumentError if the filter does not fit the scene
+// Returns the filter of one ray in the form that traversal uses. RayFilter::without_each is ignored.
+// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects; the message begins
+// with `who`
 inline trace::Filter checked(const flat::Scene& scene, const RayFilter& filter, const char* who) {
     if (!filter.objects.empty() && filter.objects.size() != scene.first_of_object.size())
         throw ArgumentError(std::string(who) + ": filter.objects must be empty or as long as the scene has objects");

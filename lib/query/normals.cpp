@@ -13,9 +13,10 @@ namespace limn {
 
 namespace {
 
-constexpr std::size_t kTogether = 256;  // hits whose triangles come from memory at the same time
+constexpr std::size_t kTogether = 256;  // number of hits whose triangles are prefetched together
 
-// Where it says in which block a triangle is; null for what is not packed.
+// Returns a pointer to the entry of flat::Mesh::places for the triangle of a hit, which says where its vertices are
+// packed. Returns null for a miss and for a primitive whose vertices are not packed.
 const std::uint32_t* place_of(const flat::Scene& scene, const RayHit& hit) {
     if (hit.t == kInfinity) return nullptr;
     const flat::Place place = flat::locate(scene, hit.primitive);
@@ -24,7 +25,8 @@ const std::uint32_t* place_of(const flat::Scene& scene, const RayHit& hit) {
     return &scene.meshes[range.first_row].places[place.element];
 }
 
-// Triangles are as far apart as rays go different ways: one by one, each would wait for memory twice.
+// Prefetches the triangles of at most kTogether hits: first their entries of flat::Mesh::places, then their blocks.
+// Without the prefetch, each hit of an incoherent ray would wait for memory twice.
 void prefetch(const flat::Scene& scene, std::span<const RayHit> hits) {
     std::array<const std::uint32_t*, kTogether> places;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -52,6 +54,7 @@ void outward_normals(const CompiledScene& scene, std::span<const Ray> rays, std:
             if (hit.t == kInfinity) continue;
             query::surface_at(scene.flat(), rays[i], {{hit.t, hit.primitive}, hit.u, hit.v},
                               {.uv = false, .tangents = false}, found);
+            // The normal of a Surface is on the side of the ray: turn it back to the outward side.
             const Vec3 normal(found.surface.normal);
             normals[i] = found.surface.front_face ? normal : -normal;
         }

@@ -1,4 +1,5 @@
-// What all queries share: which rays can be traced, and hits as they are reported.
+// Helpers that all queries share: a fast test for usable rays, the conversion of hits into RayHit, and memory for lists
+// of hits.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 namespace limn::query {
 
+// Converts a hit of the traversal into the form that queries return. \pre the hit is not a miss
 inline RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
     const std::size_t object = flat::object_of(scene, hit.primitive);
     return {.t = hit.t,
@@ -26,15 +28,17 @@ inline RayHit complete(const flat::Scene& scene, const trace::Crossing& c) {
     return complete(scene, trace::Hit{{c.t, c.primitive}, c.u, c.v, c.index_matched});
 }
 
-// is_usable, sooner for most: a sum of magnitudes tells whether all are finite.
+// Returns is_usable(r), faster for most rays: a sum of magnitudes below infinity has only finite terms. The sum may
+// also overflow; then is_usable() decides.
 inline bool is_fit(const Ray& r) {
     const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
     const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
     return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
-// What is found along a ray: empty, and of a thread, so that a ray costs no allocation. One at a time; user-defined
-// shapes that query a scene themselves get another.
+// An empty list for the hits along one ray. It reuses memory that is kept for the thread, so that a query usually
+// allocates nothing. Lists may be nested, because a user-defined shape may query a scene during a query: the inner list
+// allocates memory of its own.
 class Found {
 public:
     Found() : hits_(std::move(kept())) { hits_.clear(); }
@@ -52,6 +56,7 @@ private:
     std::vector<trace::Crossing> hits_;
 };
 
+// Sorts hits by t and, if t is equal, by the number of the primitive.
 inline void sort_along_ray(std::vector<trace::Crossing>& hits) {
     std::sort(hits.begin(), hits.end(), [](const trace::Crossing& a, const trace::Crossing& b) {
         return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);

@@ -9,8 +9,10 @@ namespace limn::query {
 
 namespace {
 
+// Sets `out` to the surface of a user-defined shape that is hit at t.
 void on_user_defined(const flat::UserDefined& shape, Ray ray, double t, SurfaceHit& out) {
-    // Called once more for what traversal did not keep; a pure shape returns what it did then.
+    // Call the shape's hit function again, because traversal did not keep the rest of its result. A function without
+    // side effects returns the same hit.
     ray.t_max = t;
     UserDefinedHit hit;
     out = {};
@@ -25,16 +27,17 @@ void on_user_defined(const flat::UserDefined& shape, Ray ray, double t, SurfaceH
     out.index_matched = hit.index_matched;
 }
 
-// Of what lies in a plane, where u and v are the weights of its edges.
+// Sets the tangents of a flat primitive to its edges: u and v are the weights of the edges.
 template <class Primitive>
 requires requires(const Primitive& p) { p.patch(); }
 void set_tangents(const Primitive& primitive, Surface& s) {
     const primitives::Patch patch = primitive.patch();
-    s.dp_du = patch.edge_u, s.dp_dv = patch.edge_v;
+    s.dp_du = patch.edge_u;
+    s.dp_dv = patch.edge_v;
 }
 
-// Of a ball: sphere_uv, differentiated, where n.x = sin(pi v) cos(phi), n.y = -cos(pi v), n.z = -sin(pi v) sin(phi) and
-// phi = 2 pi u - pi.
+// Sets the tangents of a sphere to the derivatives of its position by u and v of sphere_uv. The normal of the sphere is
+// (sin(pi v) cos(phi), -cos(pi v), -sin(pi v) sin(phi)), where phi = 2 pi u - pi. At the poles, dp_dv is set to 0.
 template <class Primitive>
 requires requires(const Primitive& p) { p.ball(); }
 void set_tangents(const Primitive& primitive, Surface& s) {
@@ -44,7 +47,8 @@ void set_tangents(const Primitive& primitive, Surface& s) {
     s.dp_dv = sine > 0 ? (kPi * radius) * Vec3{-n.y * n.x / sine, sine, -n.y * n.z / sine} : Vec3{};
 }
 
-// From the edges of a triangle, and how uv changes along them; where that is not one to one, along the edges.
+// Replaces the tangents of a mesh triangle, which are its edges, by the derivatives of the position by the texture
+// coordinates. Keeps the edges if the mesh has no texture coordinates, or if those of the triangle span no area.
 void set_mesh_tangents(const MeshView& mesh, std::size_t element, Surface& s) {
     if (mesh.uvs.empty()) return;
     const Index3 t = mesh.triangles[element];
@@ -57,7 +61,8 @@ void set_mesh_tangents(const MeshView& mesh, std::size_t element, Surface& s) {
     s.dp_dv = (u1 * along_c - u2 * along_b) / area;
 }
 
-// `found`: by the search, which works out u and v too.
+// Sets `out` to the surface at a hit of a primitive, in the space of the primitive's BLAS. `found` holds the t, u and v
+// that traversal has found.
 void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray& ray, const PlanarHit& found,
                   Parts parts, SurfaceHit& out) {
     const PrimitiveRange& range = scene.ranges[place.range];
@@ -75,7 +80,7 @@ void on_primitive(const flat::Scene& scene, const flat::Place& place, const Ray&
     if (parts.tangents) set_mesh_tangents(mesh.arrays, place.element, out.surface);
 }
 
-// From the space of an instanced BLAS to that around it.
+// Transforms a surface from the space of an instanced BLAS to the space around the instance.
 void leave_instance(const flat::Instance& instance, double time, Parts parts, Surface& hit) {
     Transform m_now, inv_now;
     if (instance.moving) {
@@ -90,13 +95,18 @@ void leave_instance(const flat::Instance& instance, double time, Parts parts, Su
     const bool flat_shaded = hit.shading_normal == hit.normal;
     hit.normal = outward(hit.normal);
     hit.shading_normal = flat_shaded ? hit.normal : outward(hit.shading_normal);
-    if (parts.tangents) hit.dp_du = transform_vector(m, hit.dp_du), hit.dp_dv = transform_vector(m, hit.dp_dv);
+    if (parts.tangents) {
+        hit.dp_du = transform_vector(m, hit.dp_du);
+        hit.dp_dv = transform_vector(m, hit.dp_dv);
+    }
 }
 
-// What user-defined shapes need to know of a ray, and what is enough for others.
+// Returns the ray that a primitive is given. The ray of a user-defined shape points to its frame, which holds the
+// rounding errors; all other primitives need only the ray.
 Ray ray_of(const RayFrame& frame) { return frame.with_frame(); }
 const Ray& ray_of(const Ray& ray) { return ray; }
 
+// Calls visit() with the ray, or its frame, transformed into the space of the instance's BLAS.
 template <class Visit>
 void step_inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
     trace::inside(instance, outside, visit);
@@ -108,7 +118,8 @@ void step_inside(const flat::Instance& instance, const Ray& outside, const Visit
     visit(ray_inside(outside, m, inverse(m)));
 }
 
-// Within `level` and more of the instances around it.
+// Sets `out` to the surface at a hit, in the space inside the `level` outermost of the instances around the primitive.
+// `outside` is the ray in that space. Recurses through the remaining instances.
 template <class RayOrFrame>
 void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_t level, const RayOrFrame& outside,
                 const PlanarHit& found, Parts parts, SurfaceHit& out) {
@@ -121,7 +132,7 @@ void hit_within(const flat::Scene& scene, const flat::Place& place, std::uint32_
         return;
     }
     on_primitive(scene, place, ray, found, parts, out);
-    // Whether the ray meets the outward side is decided here, where the normal is not transformed.
+    // Decide the side here, before transformations add rounding errors to the normal.
     out.surface.front_face = dot(out.surface.normal, ray.direction) < 0;
 }
 
@@ -147,7 +158,7 @@ void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& raw,
     }
     out.index_matched = out.index_matched || place.index_matched;
     s.normal = Normal3((s.front_face ? 1.0 : -1.0) * Vec3(s.normal));
-    // A mesh may hold normals that disagree with its winding: they go to the same side.
+    // Flip a shading normal that is on the other side: the normals of a mesh may disagree with its winding.
     s.shading_normal = Normal3((dot(s.shading_normal, s.normal) < 0 ? -1.0 : 1.0) * Vec3(s.shading_normal));
 }
 

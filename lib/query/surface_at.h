@@ -7,21 +7,23 @@
 
 namespace limn::query {
 
-// The second step of a hit, made once for the hit that is kept: its point in the primitive's own space, taken outward
-// through the instances.
+// The surface at a hit. Traversal reports only t, u, v and the primitive. The rest is computed once, for the hit that
+// is kept: in the primitive's own space, then transformed outward through the instances.
 struct SurfaceHit {
     Surface surface;
-    bool index_matched = false;  // the boundary of a medium, or a user-defined shape that says so
+    bool index_matched = false;  // true for the boundary of a medium and for a user-defined shape that says so
 };
 
-// What may be left out: texture coordinates of a sphere, which cost more than the rest of it, and dp_du and dp_dv.
+// Parts of a surface that a caller may leave out: the texture coordinates of a sphere, which cost more than everything
+// else about it, and the tangents dp_du and dp_dv.
 struct Parts {
     bool uv = true, tangents = true;
 };
 
-// \pre `hit` was found for `ray` in `scene`
+// Returns the surface at a hit. \pre `hit` was found for `ray` in `scene`
 SurfaceHit surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, Parts parts = {});
-// The same for an object that is used again, so that what is not asked for is not set either.
+// Writes the surface at a hit into `out`, which may hold an earlier one. Members that `parts` leaves out may keep their
+// old values.
 void surface_at(const flat::Scene& scene, const Ray& ray, const trace::Hit& hit, Parts parts, SurfaceHit& out);
 
 }  // namespace limn::query

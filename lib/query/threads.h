@@ -1,4 +1,4 @@
-// Batches on several threads.
+// Runs the batches of queries on several threads.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,15 @@ namespace limn::query {
 
 using accel::with_threads;
 
-inline constexpr int kMostThreads = 1024;  // more are taken for a mistake
+inline constexpr int kMostThreads = 1024;  // a larger number is taken for a mistake
 
-// As many as are worth a task.
+// The number of queries that are worth a task of their own.
 inline constexpr std::size_t kPart = 1024;
 
-// work(first, count) for all parts of `size`, on so many threads; 0: on those of the caller's arena. No part is empty.
+// Calls work(first, count) for consecutive parts of a batch of `size` queries, on `threads` threads; 0 stands for those
+// of the caller's TBB arena. No part is empty. With one thread, the whole batch is one part; otherwise a part has at
+// most kPart queries.
+// \throws ArgumentError if `threads` is not 0 to kMostThreads; the message begins with `who`
 template <class Work>
 void for_all_parts(std::size_t size, int threads, const char* who, const Work& work) {
     if (threads < 0 || threads > kMostThreads)
@@ -30,6 +33,7 @@ void for_all_parts(std::size_t size, int threads, const char* who, const Work& w
     });
 }
 
+// Throws an ArgumentError with `message` if the two lengths differ.
 inline void check_length(std::size_t queries, std::size_t results, const char* message) {
     if (queries != results) throw ArgumentError(message);
 }

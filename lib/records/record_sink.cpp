@@ -9,17 +9,18 @@ namespace limn {
 
 namespace {
 
+// Returns the id of the next row of a table. Throws ArgumentError if the table is full.
 std::uint32_t next_row(std::size_t size) {
     if (size >= std::numeric_limits<std::uint32_t>::max() - 1) throw ArgumentError("scene: too many objects");
     return static_cast<std::uint32_t>(size);
 }
 
-// The row of `object` in a table that keeps one row for each address; `describe` makes a new one.
+// Returns the row of `object` in a table with one row for each address. Calls `describe` to make a new row.
 template <class Id, class Row, class Describe>
 Id row_of(std::unordered_map<const void*, Id>& known, std::vector<Row>& table, const void* object,
           const Describe& describe) {
     if (const auto row = known.find(object); row != known.end()) return row->second;
-    table.push_back(describe());  // which may add others before
+    table.push_back(describe());  // describe() may add rows of other objects before this one
     const Id id{next_row(table.size() - 1)};
     known.emplace(object, id);
     return id;

@@ -9,12 +9,14 @@ namespace limn::transport {
 
 namespace {
 
-// The camera's numbers: those of the first group.
+// Draws the first `dimensions` numbers of group 0, which is the camera's, for each path. \pre at most kShaded paths
 void draw_first(std::span<const Path> paths, std::size_t dimensions, sampling::Row* numbers) {
     std::uint64_t base[sampling::kShaded] = {};
     std::uint32_t index[sampling::kShaded] = {}, group[sampling::kShaded] = {};
-    for (std::size_t i = 0; i < paths.size(); ++i)
-        base[i] = paths[i].sampler.base(), index[i] = paths[i].sampler.index();
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        base[i] = paths[i].sampler.base();
+        index[i] = paths[i].sampler.index();
+    }
     const auto sampler_at = [&](std::size_t i) -> const Sampler& { return paths[i].sampler; };
     draw_numbers({paths.size(), base, index, group}, dimensions, sampler_at, numbers);
 }
@@ -29,20 +31,21 @@ CameraSamples::CameraSamples(const flat::Scene& scene, const FilmInfo& info)
                           (scene.kinds & flat::bit(PrimitiveKind::moving_sphere)) != 0 ||
                           scene.features.moving_instances || scene.features.user_defined_shapes) {}
 
-// A pixel's numbers go by its place in the whole picture.
 Path CameraSamples::path(int x, int y, std::uint32_t sample) const {
+    // The sampler gets the pixel's number in the whole picture, so that a crop window does not change the samples.
     const auto column = static_cast<std::uint64_t>(window_.left + x), row = static_cast<std::uint64_t>(window_.top + y);
     const std::uint64_t pixel = row * static_cast<std::uint64_t>(info_.width) + column;
     return {Sampler(info_.seed, pixel, sample, info_.sampler)};
 }
 
 void CameraSamples::make_rays(std::span<const Path> paths, const Pixels& pixels, shade::Segments& rays) const {
-    // In the pixel, on the lens, in time.
+    // Dimensions 0 and 1 are the position in the pixel, 2 and 3 the position on the lens, 4 is the time.
     const std::size_t dimensions = has_lens_or_motion_ ? 5 : 2;
     sampling::Row numbers[5] = {};
     for (std::size_t first = 0; first < paths.size(); first += sampling::kShaded) {
         const std::span some = paths.subspan(first, std::min(sampling::kShaded, paths.size() - first));
         draw_first(some, dimensions, numbers);
+        // Turn the first two numbers into coordinates in the whole picture, in pixels.
         for (std::size_t i = 0; i < some.size(); ++i) {
             const auto [x, y] = pixels[first + i];
             numbers[0][i] = window_.left + x + (info_.antialias ? numbers[0][i] : 0.5);

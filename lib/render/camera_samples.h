@@ -1,4 +1,4 @@
-// Camera rays: the ones of a pixel's samples, and the one through its middle.
+// The camera rays of a render: one for each sample of a pixel, and one through the middle of each pixel.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,18 @@ namespace limn::transport {
 
 using Pixels = std::vector<std::pair<int, int>>;  // column and row in the film
 
+// Makes camera rays. Pixels are given by column x and row y in the film, not in the whole picture. Thread-safe.
 class CameraSamples {
 public:
-    // `info` has the settings, and outlives this.
+    // `info` contains the render settings. It must outlive this object.
     CameraSamples(const flat::Scene& scene, const FilmInfo& info);
 
-    // The path of a sample, still without its ray.
+    // Returns the path of sample number `sample` of a pixel, with its sampler. Its camera ray is made by make_rays.
     Path path(int x, int y, std::uint32_t sample) const;
-    // The rays of paths, which belong to these pixels, become the first rows. \pre there are kBatch at most
+    // Writes the camera ray of paths[i] through pixel pixels[i] to row i of `rays`.
+    // \pre paths.size() <= kBatch, pixels.size() >= paths.size(), all samplers are of one kind
     void make_rays(std::span<const Path> paths, const Pixels& pixels, shade::Segments& rays) const;
-    // Through the middle of a pixel, of the lens and of the shutter.
+    // Returns the ray through the middle of the pixel and of the lens, at the middle of the shutter interval.
     Ray middle_ray(int x, int y) const;
 
 private:

@@ -32,7 +32,7 @@ private:
     std::mutex mutex_;
     std::condition_variable end_wanted_;
     bool ended_ = false;
-    std::thread thread_;  // last: it uses the others
+    std::thread thread_;  // declared last, because the thread uses the members above from its start on
 };
 
 Repeated::Repeated(double seconds, std::function<void()> function) {
@@ -48,7 +48,7 @@ Checkpoints::Checkpoints(const RenderJob& job, const std::string& path, double s
               job.save(path);
           } catch (const Error& e) {
               failed(e);
-          } catch (const std::exception& e) {  // no memory for it, say
+          } catch (const std::exception& e) {  // for example std::bad_alloc
               failed(Error(e.what()));
           }
       }) {}

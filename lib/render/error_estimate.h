@@ -1,4 +1,4 @@
-// What a film knows of its own error, and when that is little enough.
+// The estimate of a film's own error, and the sample counts at which a render to a target error checks it.
 #pragma once
 
 #include "limn/render/film.h"
@@ -6,28 +6,32 @@
 
 namespace limn::transport {
 
-// The estimate of the picture's relMSE, its interval and max_sample_share; on the threads of the caller's arena, the
-// same on any number of them. `maps`, if given, gets each pixel's part.
+// Returns the estimate of the picture's relMSE with its 95 % interval and max_sample_share. If `maps` is given, its
+// `samples` are set, and its `error` is set if there is an estimate and emptied if not. Runs on the threads of the
+// caller's TBB arena; the result does not depend on their number.
 ErrorEstimate estimate_error(const Film& film, PixelMaps* maps = nullptr);
 
-// The same without max_sample_share: less work.
+// Returns the same estimate, but leaves max_sample_share at 0, which saves work.
 ErrorEstimate check_error(const Film& film);
 
-// The standard deviation of the logarithm of true over estimated error, where the estimate is worth so many pixels of
-// equal error, at least 1.
+// Returns the standard deviation of log(true error / estimated error) if the estimate is the mean over `pixels` pixels
+// of equal error. \pre pixels >= 1
 double ratio_deviation(double pixels);
 
-// When a render to an error asks its film: at milestones, which are the same for every target, a quarter apart, and
-// between two of them only where the error may reach the target before the second, in steps of 3 %. So a render that
-// goes on to a smaller target asks where it would have asked if it had begun with that. In multiples of 2.
+// A render to a target error checks its error at certain numbers of samples per pixel, all of them multiples of 2:
+// - at milestones, which are the same for every target. Each is a quarter larger than the one before.
+// - between two milestones in steps of 3 %, but only if the error may reach the target before the second milestone.
+// A render that is continued to a smaller target therefore makes the checks that it would have made if it had begun
+// with that target.
 //
-// The first check after so many samples a pixel; `upper` is the upper end of the interval at the last milestone, NaN
-// where that is unknown.
+// Returns the number of samples per pixel at the first check after `samples`. `upper` is the upper end of the 95 %
+// interval at the last milestone: NaN if it is unknown, infinite if there was no estimate.
 int next_check(int samples, double upper, double target);
+// True if `samples` is a milestone.
 bool is_milestone(int samples);
 
-// After how many samples films of several machines are to be merged and asked again; `upper` is the upper end of their
-// interval after `samples`, which is over `target`, or NaN where that is unknown.
+// Returns the number of samples per pixel after which the films of several machines are merged and checked again.
+// `upper` is the upper end of the 95 % interval after `samples`. It is above `target`, or NaN if it is unknown.
 int next_round(int samples, double upper, double target);
 
 }  // namespace limn::transport

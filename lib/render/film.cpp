@@ -13,6 +13,7 @@ namespace limn {
 
 namespace {
 
+// Returns the number of tiles that cover a side of that many pixels.
 std::uint32_t tiles_along(int pixels) { return static_cast<std::uint32_t>((pixels + Film::kTile - 1) / Film::kTile); }
 
 Error too_large(const FilmInfo& info) {
@@ -20,23 +21,28 @@ Error too_large(const FilmInfo& info) {
                  std::to_string(info.height));
 }
 
-// Of the lattices {(x, y): x + g y = 0 modulo n} the one whose points are farthest from each other (Dammertz and
-// Keller, Image synthesis by rank-1 lattices, 2008); of the first so many g, which is enough for any n.
+// Returns the g for which the nearest points of the lattice {(x, y): x + g y = 0 modulo n} are farthest apart (Dammertz
+// and Keller, Image synthesis by rank-1 lattices, 2008). Only g < kMostTried are tried, which is enough for any n.
 std::int64_t lattice_generator(std::int64_t n) {
     constexpr std::int64_t kMostTried = 1024;
     std::int64_t best = 1, farthest = 0;
     for (std::int64_t g = 1; g < std::min(n, kMostTried); ++g) {
+        // Find the squared distance of the lattice point nearest to the origin.
         std::int64_t nearest = n * n;
         for (std::int64_t y = 1; y * y < nearest && y <= n; ++y) {
             const std::int64_t x = n - g * y % n, across = std::min(x, n - x);
             nearest = std::min(nearest, across * across + y * y);
         }
-        if (std::gcd(g, n) == 1 && nearest > farthest) best = g, farthest = nearest;
+        if (std::gcd(g, n) == 1 && nearest > farthest) {
+            best = g;
+            farthest = nearest;
+        }
     }
     return best;
 }
 
-// Tiles lie in the order of a lattice's cosets: a run of them, as long as one, is spread evenly over the picture.
+// Returns the tiles of the shard, ascending. All tiles are sorted by the cosets of a lattice. A shard is a run of this
+// order. It is about as long as a coset, so its tiles are spread evenly over the picture.
 std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
     const Shard& shard = info.shard;
     const std::uint32_t across = tiles_along(info.window().width()), all = Film::tile_count(info);
@@ -59,7 +65,8 @@ std::vector<std::uint32_t> tiles_of(const FilmInfo& info) {
 
 FilmInfo of_size(int width, int height) {
     FilmInfo info;
-    info.width = width, info.height = height;
+    info.width = width;
+    info.height = height;
     return info;
 }
 
@@ -148,7 +155,7 @@ Color Film::independent_variance(int x, int y) const {
     const Pixel& p = at(x, y);
     const double n = p.samples;
     const Color m = mean(x, y), about_mean = p.squares / n - m * m;
-    const auto positive = [](double v) { return std::max(0.0, v); };  // rounding may leave it under 0
+    const auto positive = [](double v) { return std::max(0.0, v); };  // rounding may make the difference negative
     return Color{positive(about_mean.r), positive(about_mean.g), positive(about_mean.b)} / (n - 1);
 }
 

@@ -1,4 +1,4 @@
-// The fields of a FilmInfo, listed once: for writing, reading and comparing.
+// The list of the fields of a FilmInfo. Writing, reading and comparing films use it.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace limn::transport {
 
-// function(name, field of a, the same field of b) for each. Those without a name may differ between films of one
-// render.
+// Calls function(name, field of a, the same field of b) for each field. Films of one render may differ in fields whose
+// name is empty.
 template <class A, class B, class Function>
 void each_field(A& a, B& b, const Function& function) {
     function("", a.scene, b.scene);
@@ -45,22 +45,29 @@ constexpr bool kIsOptional = false;
 template <class T>
 constexpr bool kIsOptional<std::optional<T>> = true;
 
-// function(part) for each part of a field that is no number.
+// Calls function(part) for each part of a field that is not a number. A part is a number or a bool or has parts itself.
 template <class T, class Function>
 void each_part(T& value, const Function& function) {
     using Plain = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Plain, Hash128>) {
-        function(value[0]), function(value[1]);
+        function(value[0]);
+        function(value[1]);
     } else if constexpr (kIsOptional<Plain>) {
-        // As a flag and a value.
+        // An optional has two parts: a flag and a value. The value is default-constructed if there is none.
         bool given = value.has_value();
         auto content = value.value_or(typename Plain::value_type{});
-        function(given), function(content);
+        function(given);
+        function(content);
         if constexpr (!std::is_const_v<T>) value = given ? std::optional(content) : std::nullopt;
     } else if constexpr (std::is_same_v<Plain, PixelBounds>) {
-        function(value.left), function(value.top), function(value.right), function(value.bottom);
+        function(value.left);
+        function(value.top);
+        function(value.right);
+        function(value.bottom);
     } else {
-        function(value.x), function(value.y), function(value.z);
+        function(value.x);
+        function(value.y);
+        function(value.z);
     }
 }
 

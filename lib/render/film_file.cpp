@@ -23,7 +23,7 @@ constexpr ChunkFormat kFilms{"film", "limnfilm", "filmlimn"};
 constexpr std::uint32_t kFormat = 3;
 constexpr std::array kVersions = {kFormat, kSampleVersion};
 
-// The last value of an enumeration, and of a flag.
+// The largest stored value of an enumeration or bool.
 template <class T>
 constexpr std::uint8_t kLast = 1;
 template <>
@@ -32,6 +32,8 @@ constexpr std::uint8_t kLast<Projection> = static_cast<std::uint8_t>(Projection:
 template <class T>
 constexpr bool kIsPlain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
+// Values as the bytes of a chunk: numbers as they are in memory, a bool or an enumeration as one byte, a string as its
+// length (uint64) and its characters, everything else part by part (each_part).
 class Bytes {
 public:
     template <class T>
@@ -57,7 +59,7 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// Reads what Bytes wrote. `damaged` is called where that cannot be, and throws.
+// Reads values that Bytes wrote. If a value is impossible or the bytes end early, it calls damaged(), which must throw.
 template <class Damaged>
 class Parser {
 public:
@@ -97,7 +99,7 @@ private:
     const Damaged& damaged_;
 };
 
-// The bytes of the plan's chunk.
+// The size of the plan's chunk: samples, scale, upper_error, the seconds and a flag that says if rates follow.
 constexpr std::uint64_t kPlanBytes = 4 + 8 + 8 + 8 + 1;
 
 }  // namespace
@@ -143,6 +145,7 @@ FilmReader::FilmReader(const std::string& path, FilmContent content) : file_(pat
 }
 
 void FilmReader::read_header(FilmContent content) {
+    // Read the content, the FilmInfo and the numbers of the tiles.
     const std::vector<std::byte> bytes = file_.chunk("its header", 1);
     const auto damaged = [this] { file_.fail_damaged("its header"); };
     Parser header(bytes, damaged);
@@ -153,19 +156,22 @@ void FilmReader::read_header(FilmContent content) {
     if (rest.empty() || rest.size() % sizeof(std::uint32_t) != 0) damaged();
     tiles_.resize(rest.size() / sizeof(std::uint32_t));
     std::memcpy(tiles_.data(), rest.data(), rest.size());
+
+    // Check that the picture, the window, the shard and the tiles are possible.
     const auto in_range = [](int side) { return side > 0 && side <= kMaxSide; };
     const Shard& shard = info_.shard;
     if (!in_range(info_.width) || !in_range(info_.height) || !is_window(info_)) damaged();
     std::uint32_t tiles = 0;
     try {
         tiles = Film::tile_count(info_);
-    } catch (const Error&) {  // more than a film can have
+    } catch (const Error&) {  // a film cannot have that many tiles
         damaged();
     }
     if (shard.index < 1 || shard.index > shard.count || static_cast<std::uint32_t>(shard.count) > tiles ||
         std::ranges::adjacent_find(tiles_, std::ranges::greater_equal{}) != tiles_.end() || tiles_.back() >= tiles)
         damaged();
-    // Before memory is taken for them.
+
+    // Check that the file is long enough for its tiles before memory for them is allocated.
     if (content == FilmContent::film && tiles_.size() > file_.left() / Film::tile_size(info_)) fail("is cut short");
 }
 
@@ -178,14 +184,20 @@ void FilmReader::read_tiles(Film& film) {
 }
 
 SamplePlan FilmReader::finish() {
+    // Read the plan.
     const std::vector<std::byte> bytes = file_.chunk("its plan", kPlanBytes, kPlanBytes);
     const auto damaged = [this] { file_.fail_damaged("its plan"); };
     Parser scalars(bytes, damaged);
     SamplePlan plan;
     bool has_rates = false;
     plan.samples = scalars.get<std::int32_t>();
-    scalars.get(plan.scale), scalars.get(plan.upper_error), scalars.get(seconds_), scalars.get(has_rates);
+    scalars.get(plan.scale);
+    scalars.get(plan.upper_error);
+    scalars.get(seconds_);
+    scalars.get(has_rates);
     if (plan.samples < 0 || !(plan.scale >= 0 && std::isfinite(plan.scale))) damaged();
+
+    // Read the rates.
     if (has_rates) {
         const std::uint64_t size = tiles_.size() * Film::kTilePixels * sizeof(float);
         const std::vector<std::byte> rates = file_.chunk("its rates", size, size);

@@ -1,4 +1,4 @@
-// What a film is worth: its picture, the error of that, what it cost.
+// The result of a film: its picture, the estimated error and the report.
 #include "limn/core/error.h"
 #include "limn/render/render.h"
 #include "render/error_estimate.h"
@@ -9,11 +9,13 @@ namespace limn {
 RenderResult render_result(const Film& film, std::optional<double> error) {
     if (error && !transport::is_target(*error))
         throw ArgumentError("render_result: the error asked for must be over 0 and finite");
+    // Estimate the error.
     RenderResult r{film.image(), {}, {}, {}};
     r.error = transport::estimate_error(film, &r.maps);
     r.maps.alpha = film.alpha();
     r.error.target = error;
     r.error.reached = error && r.error.ci95_high <= *error;
+    // Fill in the fields of the report that the film knows.
     const FilmInfo& info = film.info();
     const Film::Counts counts = film.counts();
     r.report.scene = info.scene;

@@ -22,12 +22,14 @@ namespace {
 
 using transport::CameraSamples;
 
+// A hit of a camera ray and its surface.
 struct SurfaceHit {
-    RayHit hit;  // t is of the ray that met it, which began behind the boundaries before
+    RayHit hit;  // hit.t is measured from the last index-matched surface that the ray passed, if there is one
     Surface surface;
 };
 
-// The first surface that bends light, or by which half of it is stopped.
+// Returns the first surface at which the ray ends. The ray passes index-matched surfaces. It passes surfaces with holes
+// as long as they stop less than half of the light together.
 std::optional<SurfaceHit> first_surface(const CompiledScene& scene, Ray ray) {
     transport::Holes holes;
     double half = 0.5;
@@ -41,12 +43,13 @@ std::optional<SurfaceHit> first_surface(const CompiledScene& scene, Ray ray) {
     return std::nullopt;
 }
 
-// Of one row of the picture.
+// Finds the first hits of the pixels, row by row. Several threads may work on different rows.
 class Rows {
 public:
     Rows(const CompiledScene& scene, const FilmInfo& info, FirstHits& hits)
         : scene_(scene), samples_(scene.flat(), info), hits_(hits) {}
 
+    // Sets all pixels of row y in the FirstHits.
     void find(int y) const {
         transport::Pixels pixels(FirstHits::kRays);
         std::vector<transport::Path> paths;
@@ -62,6 +65,7 @@ public:
     }
 
 private:
+    // Sets what the ray through the middle of a pixel finds: position, depth, object and primitive.
     void find_middle(int x, int y) const {
         const Ray ray = samples_.middle_ray(x, y);
         const std::optional<SurfaceHit> found = first_surface(scene_, ray);
@@ -75,6 +79,7 @@ private:
         hits_.primitive[i] = static_cast<std::int64_t>(found->hit.element);
     }
 
+    // Sets what is a mean over the first kRays rays of a pixel: albedo and normal. Rays that hit nothing count as 0.
     void find_means(int x, int y, const shade::Segments& rays) const {
         Color albedo;
         Vec3 normal;
@@ -94,6 +99,7 @@ private:
     FirstHits& hits_;
 };
 
+// Returns the three channels of an image as layers. Their names are `name`, a dot and one letter of `parts`.
 std::vector<ImageLayer> layers_of(const Image& image, std::string_view name, std::string_view parts) {
     std::vector<ImageLayer> layers;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -103,6 +109,7 @@ std::vector<ImageLayer> layers_of(const Image& image, std::string_view name, std
     return layers;
 }
 
+// Returns one layer with a value for each pixel.
 template <class T>
 std::vector<ImageLayer> layers_of(const std::vector<T>& values, std::string_view name) {
     std::vector<float> floats(values.size());
@@ -118,7 +125,8 @@ FirstHits first_hits(const CompiledScene& scene, const Camera& camera, const Ren
     FirstHits hits{Image(width, height), Image(width, height), Image(width, height), {}, {}, {}};
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     hits.depth.assign(pixels, std::numeric_limits<float>::infinity());
-    hits.object.assign(pixels, -1), hits.primitive.assign(pixels, -1);
+    hits.object.assign(pixels, -1);
+    hits.primitive.assign(pixels, -1);
     const Rows rows(scene, info, hits);
     transport::with_threads(settings.threads, [&] { transport::for_each_row(height, [&](int y) { rows.find(y); }); });
     return hits;

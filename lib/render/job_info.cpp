@@ -34,7 +34,7 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
         throw Error("render: " + std::to_string(scene.flat().unassigned) + " shapes of the scene have no material");
 }
 
-// Of the running program's file: two programs with different user-defined classes differ in it.
+// Returns the digest of the running program's file. Programs with different user-defined classes have different ones.
 Hash128 program_digest() {
     static const Hash128 digest = [] {
         std::ifstream program("/proc/self/exe", std::ios::binary);

@@ -8,11 +8,10 @@
 
 namespace limn::transport {
 
-// Whether an error or a time can be asked for.
+// True if a value can be the target error or the time limit of a render.
 inline bool is_target(double value) { return value > 0 && std::isfinite(value); }
 
-// What a render's film is of. \throws ArgumentError for impossible settings or an impossible camera, Error if a
-// primitive has no material
+// Returns the FilmInfo of a render. \throws ArgumentError for impossible settings, Error if a primitive has no material
 FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings);
 
 }  // namespace limn::transport

@@ -1,4 +1,4 @@
-// Films out of files, alone and brought together.
+// Loading, merging and saving films.
 #include <algorithm>
 #include <optional>
 #include <type_traits>
@@ -14,7 +14,7 @@ using transport::FilmReader;
 
 namespace {
 
-// In a message; empty for what is too long to read.
+// Returns a value as it is written in a message: a bool or a number. The text of any other type is empty.
 template <class T>
 std::string text(const T& value) {
     if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";
@@ -24,17 +24,22 @@ std::string text(const T& value) {
 
 std::string samples_of(const SamplePlan& plan) { return std::to_string(plan.samples) + " samples a pixel"; }
 
-// The plan of all files is that of the first, but that every one brings the rates of its own tiles.
+// Adds the plan of a file to the film that is merged. The plans of all files must have the same samples and scale. Each
+// file contributes the rates of its own tiles. `first` is the path of the first file.
 void add_plan(const FilmReader& reader, const SamplePlan& plan, bool is_first, const std::string& first, Film& film) {
     SamplePlan& all = film.plan();
     if (!is_first &&
         (plan.samples != all.samples || plan.scale != all.scale || plan.rates.empty() != all.rates.empty()))
         reader.fail("has " + samples_of(plan) + ", " + first + " " + samples_of(all) + ", or other rates");
-    if (is_first) all.samples = plan.samples, all.scale = plan.scale, all.upper_error = plan.upper_error;
+    if (is_first) {
+        all.samples = plan.samples;
+        all.scale = plan.scale;
+        all.upper_error = plan.upper_error;
+    }
     if (!plan.rates.empty()) film.set_rates(reader.tiles(), plan.rates);
 }
 
-// Of those that the first one counts; the first ten.
+// Returns a list of the missing shards, which names ten of them at most. Their number is that of the first shard.
 std::string missing_shards(const std::vector<Shard>& shards) {
     const int count = shards.front().count;
     std::vector<bool> is_there(static_cast<std::size_t>(count) + 1);
@@ -49,12 +54,14 @@ std::string missing_shards(const std::vector<Shard>& shards) {
     return names + (missing > 10 ? " and " + std::to_string(missing - 10) + " more" : "");
 }
 
-// Whether the files belong together, as far as their headers tell; what all are of.
+// Checks by their headers that the files can be merged, and returns the FilmInfo of the whole picture.
+// \throws FileError if they are of different renders, or have a tile twice or not at all
 FilmInfo check_headers(std::span<const std::string> paths) {
     std::optional<FilmInfo> info;
-    std::vector<std::uint32_t> owner;  // of each tile, an index of paths
+    std::vector<std::uint32_t> owner;  // for each tile the index of the path that has it, or kNobody
     std::vector<Shard> shards;
     constexpr std::uint32_t kNobody = 0xffffffff;
+    // Read each header and note the owner of each tile.
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
         const FilmReader reader(paths[i]);
         if (!info) {
@@ -69,6 +76,7 @@ FilmInfo check_headers(std::span<const std::string> paths) {
         }
         shards.push_back(reader.info().shard);
     }
+    // Throw if a tile is missing.
     if (std::ranges::find(owner, kNobody) != owner.end()) {
         const std::string shards_missing = missing_shards(shards);
         throw FileError(

@@ -13,24 +13,26 @@ namespace limn::transport {
 
 namespace {
 
-constexpr int kEvennessReach = 3;  // pixels to each side that tell how much better the film's points are
-constexpr double kSingle = 0.5;    // a sample that has more than this share of a pixel has found its light alone
+constexpr int kEvennessReach = 3;  // pixels to each side in the window of evenness()
+constexpr double kSingle = 0.5;    // a sample with a larger share of a pixel than this has found its light alone
 
 using Channels = std::array<double, 3>;
 Channels channels(const Color& c) { return {c.r, c.g, c.b}; }
 double square(double x) { return x * x; }
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
-// A pixel's variances, summed over the channels.
+// Variances of the mean of a pixel, Film::variance and Film::independent_variance, summed over the channels.
 struct Variances {
     double by_replicates = 0, if_independent = 0;
     Variances& operator+=(const Variances& o) {
-        by_replicates += o.by_replicates, if_independent += o.if_independent;
+        by_replicates += o.by_replicates;
+        if_independent += o.if_independent;
         return *this;
     }
 };
 
-// For each pixel the variance over that of independent samples, in the 7x7 around it.
+// Returns, for each pixel, the ratio of the variance to that of independent samples in the 7x7 pixels around it, at
+// most 1.
 std::vector<float> evenness(const Film& film) {
     const int width = film.width(), height = film.height();
     const auto sum = [](const Color& c) { return c.r + c.g + c.b; };
@@ -51,11 +53,15 @@ std::vector<float> evenness(const Film& film) {
     return ratios;
 }
 
-// Of one channel of a pixel, or sums over pixels.
+// One channel of a pixel, or the sums of several pixels.
 struct Moments {
-    double value = 0, squared = 0, noise = 0;
+    double value = 0;    // the mean of the samples
+    double squared = 0;  // the square of `value`
+    double noise = 0;    // the estimated variance of `value`
     Moments& operator+=(const Moments& o) {
-        value += o.value, squared += o.squared, noise += o.noise;
+        value += o.value;
+        squared += o.squared;
+        noise += o.noise;
         return *this;
     }
 };
@@ -67,13 +73,16 @@ struct PixelMoments {
     }
 };
 
-// What a pixel's true value is judged to be, and its square; and to which part that is its own mean.
+// The estimate of a pixel's true value r in one channel.
 struct TrueValue {
-    double squared, value, own;
+    double squared;  // the estimate of r^2
+    double value;    // the estimate of r
+    double own;      // the weight of the pixel's own mean in it
 };
 
-// By the `count` pixels around it, itself among them. Where a single sample decides, the square counts the variance,
-// too, as that of the posterior does.
+// Estimates r of a pixel. `around` is the sum over the window of `count` pixels, which contains the pixel. `share` is
+// the largest share that one sample has of the pixel. In proportion to it, r^2 includes the variance of r, as the
+// second moment of a posterior does.
 TrueValue true_value(const Moments& here, const Moments& around, int count, double share) {
     if (count == 1) return {square(here.value), here.value, 1};
     const double others = (around.value - here.value) / (count - 1);
@@ -84,19 +93,25 @@ TrueValue true_value(const Moments& here, const Moments& around, int count, doub
     return {square(value) + share * own * here.noise, value, own};
 }
 
+// The numbers of PixelErrors, not yet divided by the error.
 struct Sums {
     double error = 0, by_noise = 0, by_surround = 0, not_found = 0;
     Sums& operator+=(const Sums& o) {
-        error += o.error, by_noise += o.by_noise, by_surround += o.by_surround, not_found += o.not_found;
+        error += o.error;
+        by_noise += o.by_noise;
+        by_surround += o.by_surround;
+        not_found += o.not_found;
         return *this;
     }
 };
 
+// Estimates the errors row by row. Several threads may work on different rows.
 class Rows {
 public:
     Rows(const Film& film, const std::vector<float>& evenness, PixelErrors& errors)
         : film_(film), evenness_(evenness), errors_(errors) {}
 
+    // Sets PixelErrors::error and own of row y, and returns the sums over the row.
     Sums row(int y) const {
         Sums sums;
         for_each_window(
@@ -121,6 +136,7 @@ private:
         const double share = film_.largest_share(x, y);
         Sums sums;
         double own = 0, mean = 0;
+        // Add a third of the error of each channel.
         for (std::size_t c = 0; c < 3; ++c) {
             const TrueValue r = true_value(here.channels[c], around.channels[c], count, share);
             const double error = variance[c] / (r.squared + kDarkness) / 3, noise = r.own * independent[c];
@@ -130,6 +146,7 @@ private:
             own += r.own / 3;
             mean += here.channels[c].value / 3;
         }
+        // Add light that is not found. It ranges over log(mean / 0.1) e-folds.
         if (share > kSingle && square(mean) > kDarkness)
             sums.not_found = sums.error * own * logarithm(square(mean) / kDarkness) / 2;
         errors_.error[film_.index(x, y)] = static_cast<float>(sums.error);
@@ -152,7 +169,8 @@ PixelErrors pixel_errors(const Film& film) {
     std::vector<Sums> rows(size(film.height()));
     const Rows worker(film, even, errors);
     for_each_row(film.height(), [&](int y) { rows[size(y)] = worker.row(y); });
-    Sums all;  // row by row, so that threads do not change the rounding
+    // Add the rows in order, so that the rounding does not depend on the threads.
+    Sums all;
     for (const Sums& row : rows) all += row;
     errors.sum = all.error;
     if (all.error > 0) {

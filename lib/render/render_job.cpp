@@ -19,14 +19,14 @@ namespace limn {
 
 namespace {
 
-constexpr int kLargestPass = 64;  // samples a pixel between two chances to stop with an even picture
+constexpr int kLargestPass = 64;  // the largest number of samples per pixel in a pass
 using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-// Passes over all tiles, each of at most as many samples as there are already, and of at most kLargestPass, so that a
-// render that is stopped leaves a whole picture. What a pass leads to depends on the film alone, not on how often it
-// was interrupted.
+// Renders in passes over all tiles. A pass adds at most as many samples as there are already, and at most kLargestPass,
+// so that all pixels of a stopped render have similar numbers of samples. The result of a pass depends on the film
+// alone, not on how often the render was interrupted.
 class RenderJob::Impl {
 public:
     Impl(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings)
@@ -47,9 +47,11 @@ public:
     }
 
     void load_plan(const std::string& path) {
+        // Replace the film's plan.
         transport::FilmReader reader = checked_reader(path, transport::FilmContent::plan);
         const SamplePlan before = film_.plan();
         take_plan(reader, film_);
+        // Restore the old plan if the new one does not continue it.
         const SamplePlan& plan = film_.plan();
         const bool is_older = plan.samples < before.samples;
         if (is_older || (!before.rates.empty() && before.rates != plan.rates)) {
@@ -75,6 +77,7 @@ public:
     }
 
     void save(const std::string& path) const {
+        // Write the tiles. Each is locked only while it is copied.
         transport::FilmWriter writer(path, film_);
         for (const std::uint32_t tile : film_.tiles()) {
             std::unique_lock lock(tile_mutex(tile));
@@ -82,14 +85,16 @@ public:
             lock.unlock();
             writer.tile(bytes);
         }
+        // Copy the plan, but refer to its rates: they do not change once they are set.
         SamplePlan plan;
         std::span<const float> rates;
         double seconds = 0;
         {
-            // The rates are made once; what else the plan has changes.
             const std::scoped_lock lock(plan_mutex_);
             const SamplePlan& now = film_.plan();
-            plan.samples = now.samples, plan.scale = now.scale, plan.upper_error = now.upper_error;
+            plan.samples = now.samples;
+            plan.scale = now.scale;
+            plan.upper_error = now.upper_error;
             rates = now.rates;
             seconds = film_.seconds() + (is_running_ ? seconds_of_run() : 0);
         }
@@ -129,6 +134,7 @@ public:
     }
 
 private:
+    // Opens a file. \throws FileError if it is of another render or lacks tiles of this one
     transport::FilmReader checked_reader(const std::string& path, transport::FilmContent content) const {
         transport::FilmReader reader(path, content);
         if (const std::string other = difference(reader.info(), film_.info()); !other.empty())
@@ -137,6 +143,7 @@ private:
         return reader;
     }
 
+    // Reads the plan of a file and makes it the film's, with the rates of the film's own tiles.
     static void take_plan(transport::FilmReader& reader, Film& film) {
         SamplePlan plan = reader.finish();
         const std::vector<float> rates = std::move(plan.rates);
@@ -147,6 +154,7 @@ private:
 
     std::mutex& tile_mutex(std::uint32_t tile) const { return tile_mutexes_[tile % tile_mutexes_.size()]; }
 
+    // Renders until the mean number of samples per pixel is `most`, the error is reached or the render is stopped.
     StoppedBy run_to(int most, std::optional<double> error) {
         begin_run(most, error);
         struct End {
@@ -187,6 +195,7 @@ private:
         for (;;) {
             const int samples = film_.plan().samples;
             if (samples > 0) {
+                // Take the samples that the plan wants, and check the error if this number of samples is a check.
                 render_pass();
                 if (ended()) return;
                 if (error_ && transport::next_check(samples - 1, film_.plan().upper_error, *error_) == samples)
@@ -197,7 +206,7 @@ private:
         }
     }
 
-    // Where the next pass leads to.
+    // Returns the number of samples per pixel at the end of the next pass.
     int next_samples(int samples) const {
         if (samples < SamplePlan::kFirstPass) return std::min(SamplePlan::kFirstPass, most_samples_);
         const int pass = std::min({samples, kLargestPass, most_samples_ - samples});
@@ -205,33 +214,38 @@ private:
         return std::min(samples + pass, check);
     }
 
+    // Makes the plan of a pass that ends at so many samples per pixel. Runs while no pass does.
     void begin_pass(int samples) {
         const SamplePlan& plan = film_.plan();
         if (!film_.is_whole() && !plan.rates.empty())
             throw ArgumentError("render: a shard whose pixels have rates goes on by a plan alone");
+        // Compute the rates after the first pass, if the render is adaptive.
         std::vector<float> rates;
         const bool adapts = (settings_.error || settings_.time_limit) && !settings_.uniform;
         if (adapts && plan.rates.empty() && samples > SamplePlan::kFirstPass) rates = transport::sample_rates(film_);
         const std::span<const float> all = plan.rates.empty() ? rates : plan.rates;
         const double scale = all.empty() ? 0 : transport::scale_for(film_, all, samples, samples == most_samples_);
+        // Set the plan. Only this needs the lock.
         const std::scoped_lock lock(plan_mutex_);
         if (!rates.empty()) film_.plan().rates = std::move(rates);
         film_.plan().samples = samples;
         film_.plan().scale = scale;
     }
 
+    // Takes the samples that pixels lack to the plan.
     void render_pass() {
         const bool may_end = film_.plan().samples > SamplePlan::kFirstPass;
         transport::for_each_index(film_.tiles().size(), *context_, [&](std::size_t i) {
             if (interrupted_) return;
-            // The first pass is for all pixels, whatever it takes, so that there is a picture and an estimate.
+            // The first pass is completed even after the time limit, so that there is a picture and an estimate.
             if (settings_.time_limit && may_end && seconds_of_run() >= *settings_.time_limit) timed_out_ = true;
             if (timed_out_) return;
             const std::uint32_t tile = film_.tiles()[i];
             renderer_.render(film_, tile, tile_mutex(tile), samples_done_);
             report(false);
         });
-        if (context_->is_group_execution_cancelled()) interrupted_ = true;  // by us, or by the caller's own task group
+        if (context_->is_group_execution_cancelled())
+            interrupted_ = true;  // by report(), or by the caller's own task group
     }
 
     void check_error() {
@@ -239,7 +253,7 @@ private:
         const double upper = e.reason.empty() ? e.ci95_high : std::numeric_limits<double>::infinity();
         reached_ = upper <= *error_;
         const int samples = film_.plan().samples;
-        // Where independent samples would reach it: where this stands in between tells how far the render has come.
+        // Guess the number of samples at which the target is reached, assuming that the error falls as 1 / samples.
         samples_needed_ = samples * std::max(1.0, upper / *error_);
         if (!transport::is_milestone(samples)) return;
         const std::scoped_lock lock(plan_mutex_);
@@ -256,7 +270,8 @@ private:
 
     double seconds_of_run() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    // Tells the caller how far things are; at most every 50 ms, unless `always`.
+    // Calls the progress callback, at most every 50 ms unless `always` is true. Interrupts the render if it says so.
+    // Does nothing if another thread is calling it.
     void report(bool always) {
         if (!settings_.progress) return;
         if (interrupted_ || reporting_.test_and_set(std::memory_order_acquire)) return;
@@ -274,7 +289,7 @@ private:
         }
     }
 
-    // Of what will end the render first, as far as that can be known.
+    // Returns the fraction of the render that is done, by the limit that is expected to end the render first.
     double fraction(double now) const {
         const double samples = static_cast<double>(samples_done_) / static_cast<double>(film_.own_pixels());
         double fraction = samples / most_samples_;
@@ -287,22 +302,25 @@ private:
     const RenderSettings settings_;
     Film film_;
     const transport::TileRenderer renderer_;
-    bool is_planned_ = false;  // by a plan from outside
+    bool is_planned_ = false;  // the plan was loaded by load_plan
 
-    // Who adds to a tile or saves it has its mutex; who saves the plan or changes it while the job runs, the plan's.
+    // A thread that adds to a tile or saves it holds the tile's mutex: see tile_mutex.
     mutable std::array<std::mutex, 64> tile_mutexes_;
+    // A thread that saves the plan, or changes it while the job runs, holds this mutex.
     mutable std::mutex plan_mutex_;
 
-    // Of the run.
-    int most_samples_ = 0;  // a pixel, in the mean
-    std::optional<double> error_;
+    // The state of the current or last run.
+    int most_samples_ = 0;         // mean samples per pixel at which the run ends
+    std::optional<double> error_;  // the target error
     Clock::time_point start_;
     bool is_running_ = false, reached_ = false, finished_ = false;
     std::atomic<bool> interrupted_ = false, timed_out_ = false;
     std::optional<tbb::task_group_context> context_;
-    double samples_needed_ = 128 * SamplePlan::kFirstPass;  // a guess before the first check
+    double samples_needed_ = 128 * SamplePlan::kFirstPass;  // mean samples per pixel at the target error, guessed
     std::atomic<std::uint64_t> samples_done_ = 0;
-    std::atomic_flag reporting_;  // not a mutex: a callback that uses TBB may come back here on the same thread
+    // Set while a thread is in report(). It is not a mutex, because a callback that uses TBB may enter report() again
+    // on the same thread.
+    std::atomic_flag reporting_;
     double last_report_ = 0, last_fraction_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// A render to an error by several machines: each round they render, then their films are merged and asked.
+// Renders to a target error by several machines. In each round they render their shards; then the films are merged and
+// the error is checked.
 #include "core/require.h"
 #include "limn/render/render_job.h"
 #include "render/error_estimate.h"

@@ -11,24 +11,27 @@ namespace limn::transport {
 
 namespace {
 
-constexpr int kReach = 2;  // pixels to each side that tell how noisy the one between is
-// Of what may be unseen. Independent samples would need all of it; even ones cover edges so much better that more than
-// this takes samples from where they are needed (docs/measuring.md).
+constexpr int kReach = 2;  // pixels to each side in the window whose variance is averaged
+// The weight of relative_unseen. It would be 1 for independent samples. Evenly spread samples cover edges so much
+// better that a larger weight takes samples from where they are needed.
 constexpr double kUnseen = 0.08;
 
-// By the variance that independent samples would have. That of the film's points is mostly smaller and what counts, but
-// two replicates tell it so badly that rates from it gave more noise.
+// Returns the relative variance of a pixel's mean, if its samples were independent. The variance of the film's Sobol
+// points is usually smaller and would be the right one. But its estimate from two replicates is so noisy that rates
+// computed from it gave noisier pictures.
 double relative_variance(const Film& film, int x, int y) {
     const Color mean = film.mean(x, y), variance = film.independent_variance(x, y);
     const auto relative = [](double v, double m) { return v / (m * m + kDarkness); };
     return relative(variance.r, mean.r) + relative(variance.g, mean.g) + relative(variance.b, mean.b);
 }
 
-// The relative variance that the samples of pixel (x, y) may have missed: one more might have been like any of the
-// pixels around it (the rule of succession: Laplace, Memoire sur la probabilite des causes par les evenements, 1774). A
-// pixel that a lamp covers by a hundredth looks dark and free of noise, and so may those around it, which it covers
-// wholly or not at all.
+// Returns the relative variance that the samples of pixel (x, y) may have missed. It assumes that one more sample could
+// have had the value of any of the pixels around (the rule of succession: Laplace, Memoire sur la probabilite des
+// causes par les evenements, 1774). For example, a lamp that covers a hundredth of a pixel is usually missed by all its
+// samples. The pixel seems dark and free of noise. The pixels around it, which the lamp covers wholly or not at all,
+// are free of noise too, but their contrast is large.
 double relative_unseen(const Film& film, int x, int y) {
+    // Sum the means of the eight pixels around, their squares, and the inverses of the squares.
     double count = 0;
     Color sum, squares, inverses;
     for (int j = std::max(0, y - 1); j <= std::min(film.height() - 1, y + 1); ++j)
@@ -36,10 +39,14 @@ double relative_unseen(const Film& film, int x, int y) {
             if (i == x && j == y) continue;
             const Color mean = film.mean(i, j), square = mean * mean;
             const auto inverse = [](double v) { return 1 / (v + kDarkness); };
-            count += 1, sum += mean, squares += square;
+            count += 1;
+            sum += mean;
+            squares += square;
             inverses += Color{inverse(square.r), inverse(square.g), inverse(square.b)};
         }
     if (count < 2) return 0;
+    // Compute the missed variance. A sample has one of these values with probability 1 / (n + 1), and the mean of n
+    // samples has 1 / n of a sample's variance. Divide it by the squared mean of each of these pixels, and average.
     constexpr int n = SamplePlan::kFirstPass;
     const Color variance = (squares - sum * sum / count) / ((count - 1) * (n + 1) * n);
     const auto relative = [count](double v, double inverse) { return std::max(0.0, v) * inverse / count; };
@@ -50,12 +57,15 @@ double relative_unseen(const Film& film, int x, int y) {
 
 std::vector<float> sample_rates(const Film& film) {
     const int width = film.width(), height = film.height();
+    // Compute the relative variance of each pixel.
     std::vector<float> variances(film.pixels()), rates(film.places());
     for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) variances[film.index(x, y)] = static_cast<float>(relative_variance(film, x, y));
     });
 
-    std::vector<double> sums(static_cast<std::size_t>(height));  // by row: threads do not change the rounding
+    // Compute the relative standard deviation of each pixel from the pixels around it, and the sum of each row. Sums by
+    // row make the rounding independent of the threads.
+    std::vector<double> sums(static_cast<std::size_t>(height));
     for_each_row(height, [&](int y) {
         const int top = std::max(0, y - kReach), bottom = std::min(height - 1, y + kReach);
         for (int x = 0; x < width; ++x) {
@@ -71,17 +81,19 @@ std::vector<float> sample_rates(const Film& film) {
         }
     });
 
+    // Divide by the mean and clamp. All rates are 1 if there is no noise or a value is beyond float.
     double mean = 0;
     for (const double sum : sums) mean += sum;
     mean /= static_cast<double>(film.pixels());
-    const bool usable = mean > 0 && std::isfinite(mean);  // no noise, or values beyond float: all alike
+    const bool usable = mean > 0 && std::isfinite(mean);
     for (float& rate : rates)
         rate = usable ? std::min(kSmallestRate + (1 - kSmallestRate) * static_cast<float>(rate / mean), kLargestRate)
                       : 1.0f;
     return rates;
 }
 
-// By regula falsi with a share of bisection: the sum of samples grows with the scale, nearly in proportion.
+// Uses regula falsi, because the sum of samples grows almost in proportion to the scale. Each step removes at least 1 %
+// of the interval.
 double scale_for(const Film& film, std::span<const float> rates, int samples, bool exact) {
     std::vector<std::uint64_t> sums(static_cast<std::size_t>(film.height()));
     const auto sum_at = [&](double scale) {
@@ -94,15 +106,24 @@ double scale_for(const Film& film, std::span<const float> rates, int samples, bo
     };
     const double pixels = static_cast<double>(film.pixels()), target = pixels * samples;
     const double near_enough = exact ? 1 : std::max(1.0, pixels / 65536);
+    // Double the scale until its sum exceeds the target.
     double low = 0, sum_low = pixels * SamplePlan::kFirstPass, high = samples, sum_high = sum_at(high);
-    for (; sum_high <= target && high < 0x1p40; sum_high = sum_at(high)) low = high, sum_low = sum_high, high *= 2;
+    for (; sum_high <= target && high < 0x1p40; sum_high = sum_at(high)) {
+        low = high;
+        sum_low = sum_high;
+        high *= 2;
+    }
+    // Narrow the interval. The sum at its lower end never exceeds the target.
     for (int i = 0; i < 64 && target - sum_low > near_enough; ++i) {
         const double by_line = (target - sum_low) / std::max(1.0, sum_high - sum_low);
         const double scale = low + (high - low) * std::clamp(by_line, 0.01, 0.99), sum = sum_at(scale);
-        if (sum <= target)
-            low = scale, sum_low = sum;
-        else
-            high = scale, sum_high = sum;
+        if (sum <= target) {
+            low = scale;
+            sum_low = sum;
+        } else {
+            high = scale;
+            sum_high = sum;
+        }
     }
     return low;
 }

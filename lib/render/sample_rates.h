@@ -1,4 +1,4 @@
-// Adaptive sampling: which pixels get more samples than others.
+// Adaptive sampling: how the samples of a render are distributed over its pixels.
 #pragma once
 
 #include <span>
@@ -8,25 +8,29 @@
 
 namespace limn::transport {
 
-// Of the mean. What the first pass has not seen is still found, at worst with four times the variance.
+// The limits of a rate, in multiples of the mean rate. With the smallest rate, light that the first pass has missed is
+// still found, at worst with four times the variance.
 inline constexpr float kSmallestRate = 0.25f, kLargestRate = 64;
 
-// Samples of each pixel, by Film::place, in multiples of their mean over the picture.
+// Returns the rates of a SamplePlan: the number of samples of each pixel in multiples of the mean, by Film::place.
 //
-// The picture's error is the mean of e_i / n_i, where e_i is the relative variance of one sample of pixel i and n_i how
-// many it gets. For a given sum of n_i it is least where n_i is proportional to sqrt(e_i) (Neyman, On the two different
-// aspects of the representative method, 1934). e_i is taken from the pixels around i and never from i itself: how many
-// samples a pixel gets is independent of them, but for the one factor that all share, so that its mean stays unbiased,
-// and so does what its replicates say of its variance. Contrast around i counts, too: what no sample has seen yet lies
-// at edges. (Weighing by the rays that a sample takes gained nothing.)
+// The picture's error is the mean of e_i / n_i, where e_i is the relative variance of one sample of pixel i and n_i its
+// number of samples. For a given sum of n_i, the error is smallest if n_i is proportional to sqrt(e_i) (Neyman, On the
+// two different aspects of the representative method, 1934).
 //
-// \pre the film has SamplePlan::kFirstPass samples in each pixel. Runs on the threads of the caller's arena, the same
-// on any number.
+// e_i is estimated from the pixels around i, never from i itself. The number of samples of a pixel is then independent
+// of their values, except for one factor that all pixels share. So the pixel's mean stays unbiased, and so does the
+// variance that its replicates give. The contrast around i is added to e_i, because features that no sample has hit yet
+// are usually at edges. Weighting by the number of rays per sample as well gained nothing.
+//
+// Runs on the threads of the caller's TBB arena; the result does not depend on their number.
+// \pre the film has SamplePlan::kFirstPass samples in each pixel
 std::vector<float> sample_rates(const Film& film);
 
-// SamplePlan::scale for rates of all pixels: the mean over the pixels is then so many samples, or less by a
-// 65536th of one. `exact`: by less than two samples in one pixel, after twice the work. It depends on the rates and
-// that number alone, so that a render may stop anywhere on its way.
+// Returns the SamplePlan::scale at which the pixels get `samples` samples on average, or up to 1/65536 of a sample
+// less. If `exact`, the sum over all pixels is less than two samples short, which takes twice the work. The result
+// depends on the rates and `samples` alone, so a render may be interrupted at any point.
+// \pre `rates` has all pixels of the picture
 double scale_for(const Film& film, std::span<const float> rates, int samples, bool exact);
 
 }  // namespace limn::transport

@@ -7,9 +7,9 @@
 
 namespace limn::transport {
 
-// Calls use(x, sum, count) for each pixel of row y, from left to right: the sum of value_at(i, j) over the square of
-// 2 reach + 1 pixels a side around it, itself among them, and how many of these lie in the picture. Values are added
-// column by column: in an order that depends on nothing else.
+// Calls use(x, sum, count) for each pixel (x, y) of row y, from left to right. The window of a pixel is the square of
+// 2 reach + 1 pixels a side around it, clipped to the picture. `sum` is the sum of value_at(i, j) over the window, and
+// `count` is its number of pixels. The order of the additions is fixed: column by column.
 template <class ValueAt, class Use>
 void for_each_window(int width, int height, int y, int reach, const ValueAt& value_at, const Use& use) {
     using Value = decltype(value_at(0, 0));

@@ -1,5 +1,5 @@
-// Equirectangular maps of all directions, seen from inside: up is the upper edge, -z the middle, +x to the right of it.
-// Per-target include guard, as Highway has it.
+// Equirectangular maps of all directions, as seen from inside. The direction +y is the upper edge of the map, -z is its
+// middle, and +x is to the right of the middle. The include guard is per target, as Highway requires.
 #if defined(LIMN_SAMPLING_EQUIRECTANGULAR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_EQUIRECTANGULAR_INL_H
 #undef LIMN_SAMPLING_EQUIRECTANGULAR_INL_H
@@ -14,28 +14,31 @@ namespace limn::sampling::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// A point of the map: the share of its width from the left, and of its height from the top.
+// A point of the map.
 template <class N>
 struct MapPoint {
-    N right, down;
+    N right;  // distance from the left edge, divided by the map's width
+    N down;   // distance from the upper edge, divided by the map's height
 };
 
-// From the angle to +y; within [0, 1].
+// Returns MapPoint::down, in [0, 1], for a direction whose angle to +y has this cosine and sine.
 template <class N>
 HWY_INLINE N map_down(N cosine, N sine) {
     return min(angle_of(SineCosine<N>{sine, cosine}) * (1 / kPi), 1.0);
 }
 
-// Of a direction of any length in the map's own axes. At the poles, which are a row, it is the middle.
+// Returns the point of the map that shows a direction. The direction is given in the map's own axes and may have any
+// length but 0. A pole is a whole row of the map; the result is the middle of that row.
 template <class N>
 HWY_INLINE MapPoint<N> map_point(const Vector<N>& direction) {
     const Vector<N> d = normalize(direction);
     const N across = d.x * d.x + d.z * d.z;
-    const N right = 0.5 + angle_of(SineCosine<N>{d.x, -d.z}) * (0.5 / kPi);  // from 0.5 to 1.5
+    const N right = 0.5 + angle_of(SineCosine<N>{d.x, -d.z}) * (0.5 / kPi);  // in [0.5, 1.5]
     return {select(across > 0.0, select(right < 1.0, right, right - 1.0), 0.5), map_down(d.y, sqrt(across))};
 }
 
-// The unit direction, where the cosine of its angle to +y says how far down it is.
+// Returns the unit direction that the map shows at `right` in the row of directions whose angle to +y has this cosine
+// and sine.
 template <class N>
 HWY_INLINE Vector<N> map_direction(N right, N cosine, N sine) {
     const SineCosine<N> turn = sine_cosine_of_turns<N>(right - 0.5);

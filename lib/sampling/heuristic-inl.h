@@ -1,4 +1,5 @@
-// Weights of two ways to draw the same direction. Per-target include guard, as Highway has it.
+// The weights of multiple importance sampling for two techniques that can draw the same direction. The include guard is
+// per target, as Highway requires.
 #if defined(LIMN_SAMPLING_HEURISTIC_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_HEURISTIC_INL_H
 #undef LIMN_SAMPLING_HEURISTIC_INL_H
@@ -14,8 +15,9 @@ namespace limn::sampling::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// Veach's power heuristic with exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section
-// 9.2.4), for the technique with density a against the one with density b.
+// Returns the weight of the technique with pdf a, combined with a technique with pdf b, by Veach's power heuristic with
+// exponent 2 (Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.4). The weight is 1 if a is
+// infinite.
 template <class N>
 HWY_INLINE N power_heuristic(N a, N b) {
     const N ratio = b / a;

@@ -1,4 +1,4 @@
-// Rows in lanes. Per-target include guard, as Highway has it.
+// Loads and stores between rows and vectors. The include guard is per target, as Highway requires.
 #if defined(LIMN_SAMPLING_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_ROWS_INL_H
 #undef LIMN_SAMPLING_ROWS_INL_H
@@ -12,17 +12,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
-// Those of as many paths as there are lanes, from the i-th on.
+// Returns the elements i to i + kLanes<N> - 1 of the rows.
 template <class N, std::size_t n>
 HWY_INLINE Vector<N> load3(const sampling::Rows3Of<n>& rows, std::size_t i) {
     return {load<N>(rows.x + i), load<N>(rows.y + i), load<N>(rows.z + i)};
 }
+// Stores all lanes of v from element i on.
 template <class N, std::size_t n>
 HWY_INLINE void store3(const Vector<N>& v, sampling::Rows3Of<n>& rows, std::size_t i) {
-    store(v.x, rows.x + i), store(v.y, rows.y + i), store(v.z, rows.z + i);
+    store(v.x, rows.x + i);
+    store(v.y, rows.y + i);
+    store(v.z, rows.z + i);
 }
 
-// The lanes that are kept, and kSlack more that do not count.
+// Stores the lanes that `kept` selects from element i on. Up to kSlack elements behind them are overwritten with
+// unspecified numbers.
 template <std::size_t n>
 HWY_INLINE void compress3(const Vector<Doubles>& v, const Compress<Doubles>& kept, sampling::Rows3Of<n>& rows,
                           std::size_t i) {

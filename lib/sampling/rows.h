@@ -1,4 +1,4 @@
-// Numbers of many paths, one after the other: rows that stages read and write.
+// Rows: arrays with one number for each of many paths. The stages of path tracing read and write them.
 #pragma once
 
 #include <cstddef>
@@ -8,23 +8,34 @@
 
 namespace limn::sampling {
 
-// As many paths as are shaded together: a multiple of every vector's lanes, few enough for the first cache; and as many
-// as are traced together, so that their state fits the second one.
-inline constexpr std::size_t kShaded = 32, kBatch = 512;
-// Beyond a batch, where vectors are stored of which only the first lanes count.
+// The number of paths that are shaded together. It is a multiple of the number of lanes of every vector, and small
+// enough for the first-level cache.
+inline constexpr std::size_t kShaded = 32;
+// The number of paths that are traced together. Their state fits the second-level cache.
+inline constexpr std::size_t kBatch = 512;
+// The number of spare elements behind a batch. Stages store whole vectors of which only the first lanes are valid; the
+// other lanes are stored there.
 inline constexpr std::size_t kSlack = 16;
 
+// Three rows of n numbers: the coordinates of n points, directions or normals, or n colours.
 template <std::size_t n>
 struct Rows3Of {
     alignas(64) double x[n] = {};
     double y[n] = {}, z[n] = {};
 
-    // Of a point, direction or normal.
+    // Sets element i to a point, direction or normal.
     template <class Three>
     void set(std::size_t i, const Three& v) {
-        x[i] = v.x, y[i] = v.y, z[i] = v.z;
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
     }
-    void set(std::size_t i, const Color& c) { x[i] = c.r, y[i] = c.g, z[i] = c.b; }
+    void set(std::size_t i, const Color& c) {
+        x[i] = c.r;
+        y[i] = c.g;
+        z[i] = c.b;
+    }
+    // Returns element i as a point, direction, normal or colour.
     template <class Three>
     Three get(std::size_t i) const {
         return {x[i], y[i], z[i]};
@@ -34,23 +45,26 @@ struct Rows3Of {
 using Row = double[kShaded];
 using Rows3 = Rows3Of<kShaded>;
 
-// Who a path is, and what it carries.
+// The state of n paths: their numbers, their position in the Sobol sequence, time and throughput.
 template <std::size_t n>
 struct PathRows {
-    std::uint32_t path[n] = {};    // in the batch
-    std::uint32_t vertex[n] = {};  // the next one, from 1 on
-    std::uint64_t base[n] = {};    // of its Sobol sequence: see Sampler in render/sampler.h
-    std::uint32_t index[n] = {};   // of its point
+    std::uint32_t path[n] = {};    // number of the path in the batch
+    std::uint32_t vertex[n] = {};  // number of the path's next vertex; the first is 1
+    std::uint64_t base[n] = {};    // Sampler::base() (render/sampler.h): identifies the Sobol sequence
+    std::uint32_t index[n] = {};   // Sampler::index(): identifies the point of the sequence
     double time[n] = {};           // in shutter units
     Rows3Of<n> throughput;
 
-    // Row i becomes row `at` of other rows, but for the throughput; and, for `follow`, one vertex on.
+    // Copies row `at` of `from` to row i, except for the throughput.
     template <std::size_t m>
     void copy(std::size_t i, const PathRows<m>& from, std::size_t at) {
-        path[i] = from.path[at], vertex[i] = from.vertex[at];
-        base[i] = from.base[at], index[i] = from.index[at];
+        path[i] = from.path[at];
+        vertex[i] = from.vertex[at];
+        base[i] = from.base[at];
+        index[i] = from.index[at];
         time[i] = from.time[at];
     }
+    // Copies a row as copy() does and advances its path to the next vertex.
     template <std::size_t m>
     void follow(std::size_t i, const PathRows<m>& from, std::size_t at) {
         copy(i, from, at);

@@ -1,5 +1,5 @@
-// The arithmetic of Sobol points, over one word of 32 bits or a vector of them. Per-target include guard, as Highway
-// has it.
+// The arithmetic of Sobol points, for one word of 32 bits or for a vector of words. The include guard is per target, as
+// Highway requires.
 #if defined(LIMN_SAMPLING_SOBOL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_SOBOL_INL_H
 #undef LIMN_SAMPLING_SOBOL_INL_H
@@ -14,16 +14,19 @@
 #define LIMN_SAMPLING_SOBOL_COLUMNS
 namespace limn::sobol {
 
-// Columns of the generator matrices of dimensions 1 to 4 (0 is the identity): primitive polynomials and initial numbers
-// of Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, 2008. Column k is the
-// coordinate of point 2^k, its most significant bit first.
+// Returns the columns of the generator matrix of a dimension. Column k is the coordinate of point 2^k, its most
+// significant bit first. The primitive polynomials and the initial numbers of dimensions 1 to 4 are those of Joe and
+// Kuo, Constructing Sobol sequences with better two-dimensional projections, 2008. The matrix of dimension 0 is the
+// identity.
 constexpr std::array<std::uint32_t, 32> columns(std::size_t dimension) {
     struct Row {
-        unsigned degree, polynomial;  // with its highest and lowest coefficient
+        unsigned degree;
+        unsigned polynomial;  // one bit for each coefficient, including the highest and the lowest
         std::array<std::uint32_t, 4> initial;
     };
     constexpr Row kRows[kDimensions] = {
         {0, 1, {}}, {1, 0b11, {1}}, {2, 0b111, {1, 3}}, {3, 0b1011, {1, 3, 1}}, {3, 0b1101, {1, 1, 1}}};
+    // Compute the direction numbers m by Sobol's recurrence.
     const Row& row = kRows[dimension];
     std::array<std::uint32_t, 32> m{};
     for (unsigned k = 0; k < 32; ++k) {
@@ -37,17 +40,20 @@ constexpr std::array<std::uint32_t, 32> columns(std::size_t dimension) {
                 if ((row.polynomial >> (row.degree - i)) & 1) m[k] ^= m[k - i] << i;
         }
     }
+    // Shift their leading bits into place: number k has k + 1 bits.
     for (unsigned k = 0; k < 32; ++k) m[k] <<= 31 - k;
     return m;
 }
 
+// Returns the bits of x in reverse order.
 constexpr std::uint32_t backwards(std::uint32_t x) {
     std::uint32_t y = 0;
     for (unsigned bit = 0; bit < 32; ++bit) y |= (x >> bit & 1) << (31 - bit);
     return y;
 }
 
-// A bit of the index, highest first, stands for each.
+// The columns of all dimensions with their bits in reverse order. Column k belongs to bit k of a point's number; that
+// is the k-th bit of the reversed index, counted from the highest.
 struct ReversedColumns {
     std::uint32_t of[kDimensions][kIndexBits] = {};
 
@@ -100,16 +106,16 @@ HWY_INLINE Words<D> right(Words<D> x) {
 }
 HWY_INLINE LongWord widened(Word x) { return hn::PromoteTo(hn::Rebind<std::uint64_t, Doubles::Tag>(), x.v); }
 HWY_INLINE Word narrowed(LongWord x) { return hn::TruncateTo(hn::Rebind<std::uint32_t, Doubles::Tag>(), x.v); }
-HWY_INLINE Doubles to_number(LongWord x) {  // below 2^63
+HWY_INLINE Doubles to_number(LongWord x) {  // \pre x < 2^63
     return hn::ConvertTo(Doubles::Tag(), hn::BitCast(hn::Rebind<std::int64_t, Doubles::Tag>(), x.v));
 }
-// All bits where the highest one is set, else none.
+// Returns a word with all bits set if the highest bit of x is set, else 0.
 HWY_INLINE Word of_sign(Word x) {
     const hn::Rebind<std::uint32_t, Doubles::Tag> d;
     return hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<decltype(d)>(), x.v)));
 }
 
-// The same verbs for one word.
+// The same functions for one word.
 template <int n, class W>
 HWY_INLINE W left(W x) {
     return x << n;
@@ -123,12 +129,13 @@ HWY_INLINE std::uint32_t narrowed(std::uint64_t x) { return static_cast<std::uin
 HWY_INLINE double to_number(std::uint64_t x) { return static_cast<double>(static_cast<std::int64_t>(x)); }
 HWY_INLINE std::uint32_t of_sign(std::uint32_t x) { return 0 - (x >> 31); }
 
+// Swaps adjacent groups of n bits. `mask` has the bits of the lower group of each pair.
 template <int n, class W>
 HWY_INLINE W swapped(W x, std::uint32_t mask) {
     return left<n>(x & W(mask)) | (right<n>(x) & W(mask));
 }
 
-// Bits in the opposite order.
+// Returns the bits of x in reverse order.
 template <class W>
 HWY_INLINE W reversed(W x) {
     x = left<16>(x) | right<16>(x);
@@ -138,9 +145,10 @@ HWY_INLINE W reversed(W x) {
     return swapped<1>(x, 0x55555555U);
 }
 
-// Flips each bit depending on the seed and the bits below it: a nested uniform scrambling of the number read backwards
-// (Laine and Karras, Stratified sampling for stochastic transparency, 2011). Multiplication carries upward only. The
-// steps and constants are Vegdahl's (Building a better LK hash, 2021), whose flips are nearly unbiased.
+// Flips each bit depending on the seed and on the bits below it. On a number with reversed bits this is nested uniform
+// scrambling (Laine and Karras, Stratified sampling for stochastic transparency, 2011). It works because multiplication
+// carries towards higher bits only. The steps and constants are those of Vegdahl (Building a better LK hash, 2021);
+// their flips are nearly unbiased.
 template <class W>
 HWY_INLINE W scrambled_upward(W x, W seed) {
     x = x ^ x * W(0x3d20adeaU);
@@ -150,8 +158,8 @@ HWY_INLINE W scrambled_upward(W x, W seed) {
     return x ^ x * W(0x53a22864U);
 }
 
-// Bijection of 64 bits in which every bit depends on every other (splitmix64: Steele, Lea and Flood, Fast splittable
-// pseudorandom number generators, 2014).
+// Hashes 64 bits by a bijection: every bit of the result depends on every bit of z (splitmix64: Steele, Lea and Flood,
+// Fast splittable pseudorandom number generators, 2014).
 template <class L>
 HWY_INLINE L mixed(L z) {
     z = (z ^ right<30>(z)) * L(0xbf58476d1ce4e5b9U);
@@ -159,14 +167,17 @@ HWY_INLINE L mixed(L z) {
     return z ^ right<31>(z);
 }
 
-// The group of dimensions that has this number, of the samples that have this base, is scrambled by these 64 bits.
-inline constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio: far from any small ratio
+// 2^64 divided by the golden ratio: its multiples modulo 2^64 are far from repeating.
+inline constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
+
+// Returns the 64 bits that scramble one group of dimensions of the sequence `base`.
 template <class L>
 HWY_INLINE L seeds_of(L base, L group) {
     return mixed(base + group * L(kStep));
 }
 
-// A dimension's part of them. The high half of a product with an odd number depends on all bits of the other factor.
+// Returns the seed of one dimension of a group from the group's 64 bits. The upper half of a product with an odd number
+// depends on all bits of the other factor.
 inline constexpr std::uint64_t kSeedFactors[kDimensions] = {0xd1342543de82ef95, 0xaf251af3b0f025b5, 0x2545f4914f6cdd1d,
                                                             0x9fb21c651e98df25, 0xda942042e4dd58b5};
 template <class L>
@@ -174,13 +185,15 @@ HWY_INLINE auto seed_of(L seeds, std::size_t dimension) {
     return narrowed(right<32>(seeds * L(kSeedFactors[dimension])));
 }
 
+// Adds the bits in `mask` to the bits n places above them, modulo 2.
 template <int n, class W>
 HWY_INLINE W summed(W x, std::uint32_t mask) {
     return x ^ left<n>(x & W(mask));
 }
 
-// The first n coordinates, reversed, of the point whose index, reversed, is `index`. Its lowest byte does not count.
-// Dimension 0 has the identity as its matrix, and 1 Pascal's triangle modulo 2, a product of five sparse ones.
+// Computes the first n coordinates of a point, with reversed bits. `index` is the point's number with reversed bits;
+// its lowest byte is ignored. The matrix of dimension 0 is the identity. The matrix of dimension 1 is Pascal's triangle
+// modulo 2, the product of five sparse matrices.
 template <std::size_t n, class W>
 HWY_INLINE void find_coordinates(W index, W* coordinates) {
     const W whole = index & W(0xffffff00U);
@@ -197,8 +210,8 @@ HWY_INLINE void find_coordinates(W index, W* coordinates) {
     }
 }
 
-// A scrambled coordinate in [0, 1), of 53 bits, so that a free path can be long: 32 of the point, the others merely
-// random.
+// Scrambles a coordinate and returns it as a number in [0, 1) with 53 bits: 32 bits of the point and 21 bits of a hash.
+// The longest free path is ln 2^53 = 36.7 mean free paths; with 32 bits alone it would be 22.
 template <class W>
 HWY_INLINE auto number_of(W reversed_coordinate, W seed) {
     const W digits = scrambled_upward(reversed_coordinate, seed);
@@ -206,7 +219,7 @@ HWY_INLINE auto number_of(W reversed_coordinate, W seed) {
     return 0x1p-53 * to_number(left<21>(widened(reversed(digits))) | widened(rest));
 }
 
-// visit(dimension, number) for the first n numbers of a group.
+// Calls visit(dimension, number) for the first n numbers of a group. The arguments are those of numbers_of().
 template <std::size_t n, class L, class W, class Visit>
 HWY_INLINE void draw_numbers(L base, W index, W group, const Visit& visit) {
     const L seeds = seeds_of(base, widened(group));

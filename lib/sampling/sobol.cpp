@@ -9,6 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::sobol::HWY_NAMESPACE {
 
+// Does the work of draw() for n dimensions.
 template <std::size_t n>
 HWY_INLINE void draw_first(const Points& points, sampling::Row* numbers) {
     const hn::Rebind<std::uint32_t, Doubles::Tag> words;

@@ -20,7 +20,8 @@ Vec3 vec3(const HWY_NAMESPACE::Vector<double>& v) { return {v.x, v.y, v.z}; }
 
 Frame::Frame(const Vec3& n) : z(n) {
     const inl::Basis<double> basis({n.x, n.y, n.z});
-    x = vec3(basis.x), y = vec3(basis.y);
+    x = vec3(basis.x);
+    y = vec3(basis.y);
 }
 
 Vec3 sample_cosine_hemisphere(double u, double v) { return vec3(inl::cosine_hemisphere(u, v)); }

@@ -1,5 +1,5 @@
-// Maps from the unit square or cube to directions and points, each beside its density: those of limn/core/warp.h and
-// Frame. Per-target include guard, as Highway has it.
+// Maps from the unit square or cube to directions and points, and their pdfs. limn/core/warp.h and Frame are the same
+// functions for one sample. The include guard is per target, as Highway requires.
 #if defined(LIMN_SAMPLING_WARPS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_SAMPLING_WARPS_INL_H
 #undef LIMN_SAMPLING_WARPS_INL_H
@@ -14,31 +14,34 @@ namespace limn::sampling::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// Squares around the centre become circles; each quarter of the square is one quarter of the disc.
+// Returns a uniform point of the unit disc in the plane z = 0. This is the concentric map: squares around the centre
+// become circles, and each of the four triangles between the diagonals of the square becomes a quarter of the disc.
 template <class N>
 HWY_INLINE Vector<N> uniform_disc(N u, N v) {
     const N a = 2.0 * u - 1.0, b = 2.0 * v - 1.0;
     const Mask<N> wide = abs(a) > abs(b);
     const N radius = select(wide, a, b), other = select(wide, b, a);
     const N ratio = select(radius == 0.0, 0.0, other / radius);
-    // phi, or a quarter turn less phi.
+    // Sine and cosine of phi if `wide`, else of pi / 2 - phi.
     const SineCosine<N> s = sine_cosine_near_zero<N>(kPi / 4 * ratio);
     return {radius * select(wide, s.cosine, s.sine), radius * select(wide, s.sine, s.cosine), 0.0};
 }
 
+// Returns a unit direction around +z whose pdf is proportional to the cosine of its angle to +z.
 template <class N>
 HWY_INLINE Vector<N> cosine_hemisphere(N u, N v) {
     const Vector<N> disc = uniform_disc(u, v);
     return {disc.x, disc.y, sqrt(max(0.0, 1.0 - (disc.x * disc.x + disc.y * disc.y)))};
 }
 
-// Of a cosine that is not negative.
+// Returns the pdf per solid angle of cosine_hemisphere(). \pre cosine >= 0
 template <class N>
 HWY_INLINE N cosine_hemisphere_pdf(N cosine) {
     return cosine / kPi;
 }
 
-// With 2 the whole sphere, on which the height is uniform (Archimedes).
+// Returns a unit direction that is uniform per solid angle in a cone around +z. With one_minus_cos_max = 2 this is the
+// whole sphere. The height z is uniform (Archimedes).
 template <class N>
 HWY_INLINE Vector<N> uniform_cone(N u, N v, N one_minus_cos_max) {
     const N one_minus_cos = u * one_minus_cos_max;
@@ -47,6 +50,7 @@ HWY_INLINE Vector<N> uniform_cone(N u, N v, N one_minus_cos_max) {
     return {sine * phi.cosine, sine * phi.sine, 1.0 - one_minus_cos};
 }
 
+// Returns the pdf per solid angle of uniform_cone().
 template <class N>
 HWY_INLINE N uniform_cone_pdf(N one_minus_cos_max) {
     return 1.0 / (2 * kPi * one_minus_cos_max);
@@ -62,13 +66,14 @@ HWY_INLINE N uniform_sphere_pdf() {
     return 1 / (4 * kPi);
 }
 
+// Returns a uniform point of the unit ball.
 template <class N>
 HWY_INLINE Vector<N> uniform_ball(N u, N v, N w) {
     return cube_root(w) * uniform_sphere(u, v);
 }
 
-// A right-handed orthonormal basis; z is the unit normal (Duff et al., Building an Orthonormal Basis, Revisited, JCGT
-// 6(1), 2017).
+// A right-handed orthonormal basis whose z is a given unit normal (Duff et al., Building an Orthonormal Basis,
+// Revisited, JCGT 6(1), 2017).
 template <class N>
 struct Basis {
     Vector<N> x, y, z;

@@ -19,12 +19,14 @@ namespace limn::camera::HWY_NAMESPACE {
 
 using namespace sampling::HWY_NAMESPACE;
 
+// A ray for each lane of N.
 template <class N>
 struct RayOf {
     Vector<N> origin, direction;
     N time;
 };
 
+// Returns the direction of a panorama's ray. `across` and `upward` are in [-1, 1].
 template <class N>
 HWY_INLINE Vector<N> panorama_direction(const CameraRays::View& view, N across, N upward) {
     const SineCosine<N> longitude = sine_cosine_of_turns(across / 2.0);
@@ -33,9 +35,10 @@ HWY_INLINE Vector<N> panorama_direction(const CameraRays::View& view, N across, 
     return latitude.cosine * level + latitude.sine * broadcast<N>(view.up);
 }
 
+// Returns the ray through a point of the picture: see CameraRays::ray().
 template <class N>
 HWY_INLINE RayOf<N> ray(const CameraRays::View& view, N x, N y, N lens_u, N lens_v, N time_u) {
-    // (2x - w) / w rather than 2x/w - 1: exact in the numerator, so that mirrored pixels get mirrored rays.
+    // Compute (2x - w) / w rather than 2x/w - 1. Its numerator is exact, so mirrored pixels get mirrored rays.
     const N across = (2.0 * x - view.width) / view.width, upward = (view.height - 2.0 * y) / view.height;
     const N time = view.shutter_open + time_u * (view.shutter_close - view.shutter_open);
     const Vector<N> eye = broadcast<N>(view.eye), forward = broadcast<N>(view.forward);
@@ -48,7 +51,7 @@ HWY_INLINE RayOf<N> ray(const CameraRays::View& view, N x, N y, N lens_u, N lens
     if (view.lens_radius == 0) return {origin, pinhole, time};
     const Vector<N> on_disc = uniform_disc(lens_u, lens_v);
     const Vector<N> shift = view.lens_radius * (on_disc.x * along_x + on_disc.y * along_y);
-    // Towards the point that the pinhole ray reaches in the plane of focus.
+    // Direct the ray to the point where the pinhole's ray intersects the plane of focus.
     return {origin + shift, pinhole - shift / view.focus_distance, time};
 }
 
@@ -56,9 +59,12 @@ void make_rays(const CameraRays::View& view, const Rows& rows) {
     for (std::size_t i = 0; i < rows.count; i += kLanes<Doubles>) {
         const auto number = [&](std::size_t d) HWY_ATTR { return load<Doubles>(rows.numbers[d] + i); };
         const RayOf<Doubles> r = ray(view, number(0), number(1), number(2), number(3), number(4));
-        store(r.origin.x, rows.origin[0] + i), store(r.direction.x, rows.direction[0] + i);
-        store(r.origin.y, rows.origin[1] + i), store(r.direction.y, rows.direction[1] + i);
-        store(r.origin.z, rows.origin[2] + i), store(r.direction.z, rows.direction[2] + i);
+        store(r.origin.x, rows.origin[0] + i);
+        store(r.direction.x, rows.direction[0] + i);
+        store(r.origin.y, rows.origin[1] + i);
+        store(r.direction.y, rows.direction[1] + i);
+        store(r.origin.z, rows.origin[2] + i);
+        store(r.direction.z, rows.direction[2] + i);
         store(r.time, rows.time + i);
     }
 }
@@ -75,14 +81,15 @@ void require(bool holds, const char* what) {
     if (!holds) throw ArgumentError(std::string("camera: ") + what);
 }
 
-// tan(degrees / 2), right to a few roundings. Near 180 degrees the tangent magnifies that of the angle: what is missing
-// there is exact.
+// Returns tan(degrees / 2), accurate to a few roundings. Near 180 degrees the tangent magnifies the rounding error of
+// its argument. 180 - degrees is exact there, so the cotangent of half of it is used.
 double tan_of_half(double degrees) {
     return degrees <= 90 ? tangent(radians(degrees) / 2) : 1 / tangent(radians(180 - degrees) / 2);
 }
 
 bool is_height(double height) { return height > 0 && std::isfinite(height); }
 
+// Returns half the height of the frame: at distance 1, or in world units if the camera is orthographic.
 double half_height_of(const Camera& camera) {
     const double half_angle = tan_of_half(camera.vertical_fov);
     if (camera.projection != Projection::orthographic) return half_angle;
@@ -92,11 +99,16 @@ double half_height_of(const Camera& camera) {
     return half;
 }
 
+// Checks a camera and returns the numbers that its rays are computed from.
 CameraRays::View view_of(const Camera& camera, int width, int height) {
     CameraRays::View v{};
-    v.eye = camera.look_from, v.projection = camera.projection;
-    v.width = width, v.height = height;
-    v.shutter_open = camera.shutter_open, v.shutter_close = camera.shutter_close;
+    v.eye = camera.look_from;
+    v.projection = camera.projection;
+    v.width = width;
+    v.height = height;
+    v.shutter_open = camera.shutter_open;
+    v.shutter_close = camera.shutter_close;
+    // Check what doesn't depend on the axes.
     require(width > 0 && height > 0, "width and height must be positive");
     require(is_finite(camera.look_from), "look-from must be finite");
     require(is_finite(camera.look_at), "look-at must be finite");
@@ -106,15 +118,17 @@ CameraRays::View view_of(const Camera& camera, int width, int height) {
     require(camera.aperture_angle >= 0 && camera.aperture_angle < 180, "the aperture angle must lie in [0, 180)");
     require(v.shutter_open >= 0 && v.shutter_open <= v.shutter_close && v.shutter_close <= 1,
             "the shutter must satisfy 0 <= open <= close <= 1");
+    // Compute the axes.
     const Vec3 view = camera.look_at - camera.look_from;
     require(is_finite(view) && !(view == Vec3{}), "look-from and look-at must differ");
     v.forward = normalize(view);
     const Vec3 right = cross(v.forward, normalize(camera.up));
-    // Closer than this to the view direction, "up" would be decided by rounding alone.
+    // If `up` is closer than this to the view direction, the axes would depend on rounding alone.
     require(length(right) > 16 * kRoundoff, "up must not be parallel to the view direction");
     v.right = normalize(right);
     v.up = cross(v.right, v.forward);
 
+    // Compute the frame and the lens.
     const double aspect = camera.aspect_ratio.value_or(v.width / v.height);
     require(aspect > 0 && std::isfinite(aspect), "the aspect ratio must be positive and finite");
     v.half_height = half_height_of(camera);
@@ -124,7 +138,7 @@ CameraRays::View view_of(const Camera& camera, int width, int height) {
     v.lens_radius = v.focus_distance * tan_of_half(camera.aperture_angle);
     require(v.lens_radius == 0 || v.projection != Projection::panorama,
             "a panorama has no lens: its aperture must be 0");
-    // No ray may begin or lead beyond the largest double.
+    // Check that no origin or direction overflows.
     const double frame = v.half_width + v.half_height, reach = frame + v.lens_radius / v.focus_distance;
     require(std::isfinite(2 * reach) && std::isfinite(max_abs(v.eye) + 2 * frame + 2 * v.lens_radius),
             "the frame or the lens is too large");
@@ -149,20 +163,22 @@ void make_rays(const CameraRays& camera, const Rows& rows) { HWY_DYNAMIC_DISPATC
 }  // namespace camera
 
 Camera frame_box(const Box& box, double aspect_ratio) {
+    // Check the arguments.
     if (box.is_empty() || !is_finite(box.lower) || !is_finite(box.upper))
         throw ArgumentError("frame_box: the box must be finite and not empty");
     if (!(aspect_ratio > 0) || !std::isfinite(aspect_ratio))
         throw ArgumentError("frame_box: the aspect ratio must be positive and finite");
+    // Find the bounding sphere. That of a single point gets the radius that its coordinates can resolve.
     const Point3 center = box.center();
     const Vec3 half = box.diagonal() / 2;
     double radius = length(half);
-    // A box of one point has no size to frame: stand off by what its coordinates can resolve.
     if (radius == 0) radius = std::max(0x1p-40 * length(center - Point3{}), 0x1p-100);
-    const Vec3 back = normalize(Vec3{0.5, 0.35, 1});  // from the front right, a little above: three sides show
+    // Look from the front right and a little above, so that three sides are visible.
+    const Vec3 back = normalize(Vec3{0.5, 0.35, 1});
     Camera camera;
     camera.vertical_fov = 30;
     const double half_height = tan_of_half(camera.vertical_fov);
-    // The bounding sphere fits the narrower of the two angles; 2 % stay free around it.
+    // Fit the sphere into the narrower of the two angles, with 2 % of free space around it.
     const double narrow = arc_tangent(half_height * std::min(1.0, aspect_ratio));
     const double distance = 1.02 * radius / sine(narrow);
     camera.look_at = center;

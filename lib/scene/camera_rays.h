@@ -1,4 +1,4 @@
-// The rays of a camera, many at once.
+// Generates many rays of a camera at once.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,15 @@
 
 namespace limn::camera {
 
-// One number for each ray, and room for those of a vector more.
+// Rows with one number for each ray. Each row has space for one more vector, because whole vectors are read and
+// written.
 struct Rows {
     std::size_t count;
-    const double* numbers[5];  // the arguments of CameraRays::ray
-    double *origin[3], *direction[3], *time;
+    const double* numbers[5];                 // input: the arguments of CameraRays::ray
+    double *origin[3], *direction[3], *time;  // output
 };
 
-// The same rays as those of CameraRays::ray.
+// Writes the same rays as CameraRays::ray() returns.
 void make_rays(const CameraRays& camera, const Rows& rows);
 
 }  // namespace limn::camera

@@ -12,9 +12,10 @@ namespace limn {
 
 namespace {
 
-// Products of rotations are off by their rounding.
+// The largest error of the squared lengths and products of a rotation's columns, for products of several rotations.
 constexpr double kRounding = 1e-9;
 
+// Returns true if the matrix is a rotation, with or without a reflection.
 bool turns_only(const Transform& m) {
     const pattern::MapAxes a = pattern::axes_of(m);
     const double off = std::max({std::abs(length_squared(a.x) - 1), std::abs(length_squared(a.y) - 1),
@@ -23,6 +24,7 @@ bool turns_only(const Transform& m) {
     return off <= kRounding && m.translation() == Vec3{};
 }
 
+// Throws ArgumentError if a value is negative or not finite.
 void check_pixels(const Image& image) {
     const std::span<const float> values = image.values();
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -10,6 +10,7 @@ namespace limn {
 
 namespace {
 
+// Checks a light and returns its record.
 struct Describe {
     LightRecord operator()(const PointLight& light) const {
         LightRecord record = of(LightSourceKind::point, light.intensity, "PointLight: intensity");
@@ -24,7 +25,8 @@ struct Describe {
         require(
             inner >= 0 && inner <= outer && outer > 0 && outer <= 90,
             "SpotLight: the cone angles must be 0 <= inner_cone_angle <= outer_cone_angle, and that within (0, 90]");
-        record.cos_inner = cosine(radians(inner)), record.cos_outer = cosine(radians(outer));
+        record.cos_inner = cosine(radians(inner));
+        record.cos_outer = cosine(radians(outer));
         return record;
     }
     LightRecord operator()(const DirectionalLight& light) const {
@@ -43,10 +45,12 @@ struct Describe {
     }
 
 private:
+    // Returns a record with this colour, which `name` names in errors.
     static LightRecord of(LightSourceKind kind, const Color& color, const char* name) {
         require(is_radiance(color), std::string(name) + " must be finite and not negative");
         LightRecord record;
-        record.kind = kind, record.color = color;
+        record.kind = kind;
+        record.color = color;
         return record;
     }
     static Point3 checked(const Point3& p, const char* name) {

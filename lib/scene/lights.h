@@ -1,4 +1,4 @@
-// Lights that are no shapes, as records.
+// Converts light sources to records.
 #pragma once
 
 #include "limn/records.h"
@@ -6,7 +6,7 @@
 
 namespace limn {
 
-/// \throws ArgumentError that names the field
+/// Returns the record of a light source. \throws ArgumentError that names the field if a value is out of range
 LightRecord record_of(const LightSource& light);
 
 }  // namespace limn

@@ -16,26 +16,28 @@ namespace limn {
 
 namespace {
 
-// In this file x is right, y is up and z is towards the viewer.
+// Vectors in this file are in view axes, unless they are said to be in world space: x points right, y up and z towards
+// the viewer.
 const Vec3 kTowardsEye{0.5, 0.42, 1};
 constexpr double kFieldOfView = 30;
-constexpr double kFilled = 0.88;  // of the frame, by the model where it is as wide or as high
+constexpr double kFilled = 0.88;  // the share of the frame's width or height that the model fills
 
-// The key light is 60 degrees from the eye, enough for shadows that show the shape, and far enough to stay out of the
-// picture. In radii of the bounding sphere: clear of any model, wide enough for soft shadows (0.24 sr).
+// The key light is 60 degrees from the eye. Its shadows show the shape, and the light itself isn't in the picture. Its
+// distance and side are in radii of the bounding sphere. It's outside of any model, and wide enough for soft shadows
+// (0.24 sr).
 const Vec3 kTowardsKey{-0.7, 1.1, 0.8};
 constexpr double kKeyDistance = 4, kKeySide = 2;
 
-// The key light adds 0.7 to white in the middle of the model where it falls straight on, and more nearer to it, the sky
-// about 0.3: what is nearly white stays below the white of a display. The ground is darker than most models, which
-// stand out so.
+// At the centre of the model a white surface that faces the key light gets a radiance of 0.7 from it, and more if it's
+// closer. The sky adds about 0.3. Nearly white surfaces then stay below the white of a display. The ground is darker
+// than most models, so that they stand out.
 constexpr Color kKeyRadiance{9.6, 9.2, 8.6};
 constexpr Background kSky = Background::gradient({0.16, 0.15, 0.14}, {0.36, 0.42, 0.52});
 constexpr Color kGround{0.4, 0.4, 0.4};
-constexpr double kGroundRadius = 1000;  // in those of the model: to the horizon
-constexpr double kGroundGap = 1e-4;     // so that what is flat and lies on it is seen
+constexpr double kGroundRadius = 1000;  // in radii of the model; reaches to the horizon
+constexpr double kGroundGap = 1e-4;     // in radii, below the model, so that a flat model isn't hidden by the ground
 
-// The directions right, up and towards the viewer.
+// The view axes in world space, of unit length.
 struct Axes {
     explicit Axes(const Vec3& upward) : up(normalize(upward)) {
         const Vec3 across = cross(up, Vec3{0, 0, 1});
@@ -48,7 +50,7 @@ struct Axes {
     Vec3 right, up, front;
 };
 
-// Where the corners of triangles are, in axes.
+// Returns the vertices of all triangles, in view axes.
 std::vector<Vec3> corners_of(const Model& model, const Axes& axes) {
     std::vector<Vec3> corners;
     for (const ModelInstance& instance : model.instances) {
@@ -64,18 +66,23 @@ std::vector<Vec3> corners_of(const Model& model, const Axes& axes) {
     return corners;
 }
 
-// The nearest that a plane of the frame, which leans outward by `slope` for each unit towards the scene, may be.
+// Finds the eye of the tightest frame in one dimension. An eye at coordinate e across the frame and at depth d has a
+// point in the frame if |across - e| <= slope * (depth - d), where `slope` is the frame's half width at depth 1. `low`
+// and `high` are the smallest values of slope * depth + across and slope * depth - across over all points.
 struct Reach {
-    double low = kInfinity, high = kInfinity;  // towards the lower and the higher side
+    double low = kInfinity, high = kInfinity;
 
     void add(double across, double depth, double slope) {
-        low = std::min(low, across + depth * slope), high = std::min(high, depth * slope - across);
+        low = std::min(low, across + depth * slope);
+        high = std::min(high, depth * slope - across);
     }
-    double depth(double slope) const { return (low + high) / (2 * slope); }  // of the eye
+    // Returns the largest depth of the eye, and its place across the frame.
+    double depth(double slope) const { return (low + high) / (2 * slope); }
     double middle() const { return (low - high) / 2; }
 };
 
-// The tightest frame. Its four planes touch corners, or two of them do and the eye is in the middle between the others.
+// Returns the camera of the tightest frame. Its upper and lower planes, or its left and right planes, touch corners.
+// The eye is in the middle between the other two.
 Camera frame_perspective(const std::vector<Vec3>& corners, const Vec3& forward, const Vec3& right, const Vec3& up,
                          double aspect) {
     const double upward = kFilled * tangent(radians(kFieldOfView) / 2), across = upward * aspect;
@@ -88,9 +95,10 @@ Camera frame_perspective(const std::vector<Vec3>& corners, const Vec3& forward, 
     return {.look_from = Point3{} + eye, .vertical_fov = kFieldOfView};
 }
 
+// Returns the camera of the tightest frame.
 Camera frame_orthographic(const std::vector<Vec3>& corners, const Vec3& forward, const Vec3& right, const Vec3& up,
                           double aspect, double radius) {
-    Box box;  // across, upward and into the picture
+    Box box;  // its axes are right, up and forward
     for (const Vec3& c : corners) box.extend(Point3{dot(c, right), dot(c, up), dot(c, forward)});
     const Vec3 size = box.diagonal();
     const Point3 middle = box.center();
@@ -101,7 +109,7 @@ Camera frame_orthographic(const std::vector<Vec3>& corners, const Vec3& forward,
     return camera;
 }
 
-// In axes.
+// Returns the camera for the corners of the model, in view axes.
 Camera frame(const std::vector<Vec3>& corners, const Point3& center, double radius, const ViewOptions& options) {
     const Vec3 forward = normalize(-kTowardsEye), right = normalize(cross(forward, Vec3{0, 1, 0})),
                up = cross(right, forward);
@@ -113,6 +121,7 @@ Camera frame(const std::vector<Vec3>& corners, const Point3& center, double radi
     return camera;
 }
 
+// Returns the key light for a model with this bounding sphere, in world space.
 std::shared_ptr<const Hittable> key_light(const Point3& center, double radius, const Axes& axes) {
     const Vec3 towards = normalize(axes.to_world(kTowardsKey));
     const Frame frame(towards);
@@ -129,9 +138,11 @@ void require(bool holds, const char* what) {
 }  // namespace
 
 ModelView view_model(const Model& model, const ViewOptions& options) {
+    // Check the options.
     require(options.aspect_ratio > 0 && std::isfinite(options.aspect_ratio), "the ratio must be positive and finite");
     require(is_finite(options.up) && !(options.up == Vec3{}), "up must be finite and not zero");
     require(!options.environment || !options.background, "a background and an environment exclude each other");
+    // Find the bounding sphere of the model.
     const Axes axes(options.up);
     const std::vector<Vec3> corners = corners_of(model, axes);
     require(!corners.empty(), "the model has no triangles");
@@ -141,6 +152,7 @@ ModelView view_model(const Model& model, const ViewOptions& options) {
     const double radius = length(box.diagonal() / 2);
     const auto to_world = [&](const Point3& p) { return Point3{} + axes.to_world(p - Point3{}); };
 
+    // Add the model, the light and the ground.
     ModelView view;
     view.scene.background = options.background ? Background::constant(*options.background) : kSky;
     view.scene.environment = options.environment;
@@ -151,8 +163,10 @@ ModelView view_model(const Model& model, const ViewOptions& options) {
         view.scene.add(
             std::make_shared<Disk>(below, axes.up, kGroundRadius * radius, std::make_shared<Lambertian>(kGround)));
     }
+    // Frame it.
     view.camera = frame(corners, middle, radius, options);
-    view.camera.look_from = to_world(view.camera.look_from), view.camera.look_at = to_world(view.camera.look_at);
+    view.camera.look_from = to_world(view.camera.look_from);
+    view.camera.look_at = to_world(view.camera.look_at);
     view.camera.up = axes.up;
     return view;
 }

@@ -8,10 +8,11 @@ namespace limn {
 
 namespace {
 
-// Lumens of a watt, as Khronos' and Blender's exporters reckon, which write the radiance of emissive materials as it
-// is: so lamps and emissive surfaces of their files keep their proportion.
+// Lumens per watt in the exporters of Khronos and Blender. They write the radiance of emissive materials unchanged, so
+// lamps and emissive surfaces keep their proportion with this factor.
 constexpr double kLumensPerWatt = 683;
 
+// Returns a light of a model in radiometric units.
 LightSource source_of(const ModelLight& light) {
     const Color color = light.intensity / kLumensPerWatt;
     switch (light.kind) {
@@ -48,7 +49,7 @@ std::size_t Scene::add(const Model& model) {
 }
 
 void Scene::add(const LightSource& light) {
-    record_of(light);  // throws what is wrong where it is added
+    record_of(light);  // throws if the light is invalid
     lights_.push_back(light);
 }
 

@@ -14,11 +14,11 @@ namespace limn {
 
 namespace {
 
-// As photometric units become radiometric ones everywhere in limn.
+// The factor by which limn converts photometric units to radiometric ones.
 constexpr double kLumensPerWatt = 683;
-constexpr double kSunIlluminance = 128e3;  // above the air, in lx
+constexpr double kSunIlluminance = 128e3;  // outside the atmosphere, in lx
 
-// Perez' function of the angles from the zenith and from the Sun, with coefficients that are linear in the turbidity.
+// Perez's function of the angles to the zenith and to the Sun. Its coefficients are linear in the turbidity.
 struct Perez {
     std::array<double, 5> slope, offset;
 
@@ -33,21 +33,23 @@ constexpr Perez kLuminance{{0.1787, -0.3554, -0.0227, 0.1206, -0.0670}, {-1.4630
 constexpr Perez kX{{-0.0193, -0.0665, -0.0004, -0.0641, -0.0033}, {-0.2592, 0.0008, 0.2125, -0.8989, 0.0452}};
 constexpr Perez kY{{-0.0167, -0.0950, -0.0079, -0.0441, -0.0109}, {-0.2608, 0.0092, 0.2102, -1.6537, 0.0529}};
 
-// Chromaticity of the zenith: rows for T^2, T, 1; columns for the cube, the square, ... of the Sun's angle to it.
+// The chromaticity of the zenith as a polynomial. Rows are for turbidity^2, turbidity and 1. Columns are for the powers
+// 3, 2, 1 and 0 of the Sun's angle to the zenith.
 using Matrix = std::array<std::array<double, 4>, 3>;
 constexpr Matrix kZenithX{
     {{0.00166, -0.00375, 0.00209, 0}, {-0.02903, 0.06377, -0.03202, 0.00394}, {0.11693, -0.21196, 0.06052, 0.25886}}};
 constexpr Matrix kZenithY{
     {{0.00275, -0.00610, 0.00317, 0}, {-0.04214, 0.08970, -0.04153, 0.00516}, {0.15346, -0.26756, 0.06670, 0.26688}}};
 
+// Returns the value of the polynomial.
 double at_zenith(const Matrix& m, double turbidity, double sun) {
     double sum = 0;
     for (const auto& row : m) sum = sum * turbidity + ((row[0] * sun + row[1]) * sun + row[2]) * sun + row[3];
     return sum;
 }
 
-// Linear BT.709 of chromaticity and luminance (ITU-R BT.709-6, section 1). What lies outside of its colours is black in
-// a component.
+// Returns the linear BT.709 colour of a chromaticity and luminance (ITU-R BT.709-6, section 1). Components of colours
+// outside its gamut are clamped to 0.
 Color from_chromaticity(double x, double y, double luminance) {
     const double X = x / y * luminance, Z = (1 - x - y) / y * luminance;
     const Color c{3.2404542 * X - 1.5371385 * luminance - 0.4985314 * Z,
@@ -56,6 +58,7 @@ Color from_chromaticity(double x, double y, double luminance) {
     return {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)};
 }
 
+// The light of the sky and of the Sun at a turbidity and a direction of the Sun.
 class Skylight {
 public:
     Skylight(double turbidity, const Vec3& to_sun)
@@ -67,14 +70,15 @@ public:
         y_ = at_zenith(kZenithY, turbidity, sun_) / kY(turbidity, 1, sun_);
     }
 
-    // In cd / m^2. \pre direction.y > 0
+    // Returns the luminance of the sky as a colour, in cd / m^2. \pre direction.y > 0
     Color operator()(const Vec3& direction) const {
         const double from_sun = arc_cosine(std::clamp(dot(direction, to_sun_), -1.0, 1.0));
         const auto of = [&](const Perez& perez) { return perez(turbidity_, direction.y, from_sun); };
         return from_chromaticity(x_ * of(kX), y_ * of(kY), std::max(0.0, luminance_ * of(kLuminance)));
     }
 
-    // Of a plane across the light of the Sun, in lx. The air mass is Kasten's.
+    // Returns the Sun's illuminance of a plane perpendicular to its direction, as a colour in lx. The air mass is that
+    // of Kasten.
     Color sun() const {
         const double mass = 1 / (cosine(sun_) + 0.15 * power(93.885 - sun_ * 180 / kPi, -1.253));
         const double haze = 0.04608 * turbidity_ - 0.04586;
@@ -87,10 +91,11 @@ public:
 private:
     double turbidity_;
     Vec3 to_sun_;
-    double sun_;  // its angle from the zenith
-    double luminance_, x_, y_;
+    double sun_;                // angle of the Sun to the zenith
+    double luminance_, x_, y_;  // luminance and chromaticity of the zenith, divided by Perez's functions there
 };
 
+// Throws ArgumentError if a setting is out of range.
 void check(const SkySettings& s, const Vec3& to_sun) {
     require(is_finite(to_sun) && to_sun.y > 0, "SkySettings: to_sun must point above the horizon");
     require(s.turbidity >= 2 && s.turbidity <= 10, "SkySettings: turbidity must lie within [2, 10]");
@@ -102,14 +107,16 @@ void check(const SkySettings& s, const Vec3& to_sun) {
 }  // namespace
 
 Sky make_sky(const SkySettings& settings) {
+    // Prepare the model.
     const Vec3 to_sun = normalize(settings.to_sun);
     check(settings, to_sun);
     const Skylight skylight(settings.turbidity, to_sun);
     const double unit = settings.scale / kLumensPerWatt;
     const int height = settings.height, width = 2 * height, horizon = height / 2;
+    // Fill the upper half of the map, and integrate the irradiance of the ground.
     Image image(width, height);
     SunLight sun{.direction = -to_sun, .irradiance = unit * skylight.sun()};
-    Color irradiance = to_sun.y * sun.irradiance;  // of the ground
+    Color irradiance = to_sun.y * sun.irradiance;
     for (int y = 0; y < horizon; ++y) {
         const auto [sine, cosine] = sine_cosine(kPi * (y + 0.5) / height);
         const double share = kPi / height * (2 * kPi / width) * sine * cosine;
@@ -120,6 +127,7 @@ Sky make_sky(const SkySettings& settings) {
             irradiance += share * radiance;
         }
     }
+    // Fill the lower half with the ground.
     const Color ground = settings.ground * irradiance / kPi;
     for (int y = horizon; y < height; ++y)
         for (int x = 0; x < width; ++x) image.set(x, y, ground);

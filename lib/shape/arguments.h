@@ -1,4 +1,4 @@
-// Checks that several shapes share.
+// Checks of arguments that several shapes share. Each throws ArgumentError if its argument is invalid.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,15 @@ void require_not_null(const T& pointer, const char* shape, const char* argument)
     if (!pointer) throw ArgumentError(std::string(shape) + ": " + argument + " must not be null");
 }
 
-// An array of MeshData may be empty; otherwise it has an entry for each vertex, or each triangle.
+// Checks the length of an array of MeshData. It may be empty; otherwise it must have an entry for each vertex, or for
+// each triangle.
 inline void require_length(std::size_t length, std::size_t expected, std::string_view who, const char* array) {
     if (length != 0 && length != expected)
         throw ArgumentError(std::string(who) + ": " + array + " has " + std::to_string(length) +
                             " entries instead of " + std::to_string(expected));
 }
 
-// Where an Instance may stand.
+// Checks the matrices of an Instance. They must be finite, and invertible at every time of the shutter.
 void require_placement(const Transform& at_time0, const Transform& at_time1, std::string_view who);
 
 }  // namespace limn

@@ -11,7 +11,7 @@ namespace limn {
 
 namespace {
 
-// A node has eight boxes to test, an object is intersected by a virtual call: worth about half as much.
+// A node has eight boxes to test. An object takes a virtual call, which costs about half as much.
 constexpr accel::BuildSettings kSettings{.leaf_width = 1, .node_cost = 2};
 
 }  // namespace
@@ -19,7 +19,7 @@ constexpr accel::BuildSettings kSettings{.leaf_width = 1, .node_cost = 2};
 struct Bvh::Tree {
     Box bounds;
     double extent = 0;  // the largest finite coordinate
-    double scale = 1;   // of the tree's coordinates
+    double scale = 1;   // multiplies the coordinates of the boxes in `bvh`
     accel::WideBvh bvh;
 };
 

@@ -16,9 +16,9 @@ namespace {
 
 using Cubic = std::array<double, 4>;
 
-// The determinant of (1-t) A + t B is a cubic in t. It is linear in each row, so that its Bernstein coefficients are
-// means of determinants with some rows from A and some from B. Each is scaled first, which moves a root in [0, 1] but
-// leaves it there, so that the products neither overflow nor vanish.
+// Returns the Bernstein coefficients of the determinant of (1-t) A + t B, a cubic in t. A determinant is linear in each
+// row, so the coefficients are means of determinants with some rows from A and some from B. A and B are scaled first,
+// so that products neither overflow nor underflow. The scale moves a root within [0, 1], but not out of it.
 Cubic determinant_over_time(const Transform& at_time0, const Transform& at_time1) {
     const Transform a = ScaledMatrix(at_time0).matrix, b = ScaledMatrix(at_time1).matrix;
     const auto mixed = [&](bool row0, bool row1, bool row2) {
@@ -29,9 +29,12 @@ Cubic determinant_over_time(const Transform& at_time0, const Transform& at_time1
             (mixed(0, 1, 1) + mixed(1, 0, 1) + mixed(1, 1, 0)) / 3, mixed(1, 1, 1)};
 }
 
-// A polynomial lies in the hull of its Bernstein coefficients: all above `rounding` or all below minus it, they exclude
-// a root. Else halve by de Casteljau's rule, whose results are rounded; what is still undecided after 20 halvings
-// touches zero or comes within 1e-12 of it.
+// Returns true if the cubic with these Bernstein coefficients has a root in [0, 1], or comes so close to 0 that this
+// can't be decided. `rounding` bounds the error of the coefficients.
+//
+// A polynomial is within the convex hull of its coefficients. It has no root if all of them are above `rounding`, or
+// all below -rounding. It has one if its values at the ends differ in sign. Otherwise the interval is halved by de
+// Casteljau's algorithm. A cubic that is undecided after 20 halvings touches 0 or comes within 1e-12 of it.
 bool has_root(const Cubic& c, double rounding = 0, int halvings = 20) {
     const auto [least, most] = std::minmax_element(c.begin(), c.end());
     if (*least > rounding || *most < -rounding) return false;
@@ -51,7 +54,7 @@ void require_placement(const Transform& at_time0, const Transform& at_time1, std
     const FloatEnvironment environment;
     const auto require_inverse = [&](const Transform& m) {
         if (is_singular(m)) throw ArgumentError(std::string(who) + ": the matrix is singular");
-        inverse(m);  // throws if double cannot hold it
+        inverse(m);  // throws if the inverse overflows
     };
     require_inverse(at_time0);
     if (at_time0 == at_time1) return;

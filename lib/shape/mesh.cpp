@@ -13,11 +13,14 @@ namespace limn {
 
 namespace {
 
+// Throws ArgumentError if the data isn't valid for a mesh with this number of materials.
 void check(const MeshData& data, std::size_t materials) {
+    // Check the lengths of arrays.
     require_length(data.normals.size(), data.vertices.size(), "Mesh", "normals");
     require_length(data.uvs.size(), data.vertices.size(), "Mesh", "uvs");
     require_length(data.material_slots.size(), data.triangles.size(), "Mesh", "material_slots");
     require_length(data.faces.size(), data.triangles.size(), "Mesh", "faces");
+    // Check the values at vertices.
     for (std::size_t i = 0; i < data.vertices.size(); ++i)
         require_finite(to_vec(data.vertices[i]), "Mesh", ("vertex " + std::to_string(i)).c_str());
     for (std::size_t i = 0; i < data.normals.size(); ++i) {
@@ -28,6 +31,7 @@ void check(const MeshData& data, std::size_t materials) {
     for (std::size_t i = 0; i < data.uvs.size(); ++i)
         if (!std::isfinite(data.uvs[i].u) || !std::isfinite(data.uvs[i].v))
             throw ArgumentError("Mesh: texture coordinate " + std::to_string(i) + " must be finite");
+    // Check the indices of vertices and materials.
     for (std::size_t i = 0; i < data.triangles.size(); ++i) {
         const Index3 t = data.triangles[i];
         const std::uint32_t last = std::max({t.a, t.b, t.c});

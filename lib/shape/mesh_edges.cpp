@@ -12,7 +12,7 @@ namespace limn {
 
 namespace {
 
-// An edge as one number, the same in both directions.
+// Returns an edge as one number. Both directions give the same number.
 std::uint64_t edge(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 }  // namespace
@@ -33,6 +33,7 @@ std::vector<std::uint32_t> position_numbers(const std::vector<Float3>& vertices)
 }
 
 EdgeCounts count_edges(const Mesh& mesh) {
+    // List the three sides of each triangle that has an area.
     const MeshData& data = mesh.data();
     const MeshView view{data.vertices, data.triangles, {}, {}, {}};
     const std::vector<std::uint32_t> numbers = position_numbers(data.vertices);
@@ -46,6 +47,7 @@ EdgeCounts count_edges(const Mesh& mesh) {
     }
     std::sort(sides.begin(), sides.end());
 
+    // Count the equal sides.
     EdgeCounts counts;
     for (auto first = sides.begin(); first != sides.end();) {
         const auto last = std::find_if(first, sides.end(), [first](std::uint64_t side) { return side != *first; });

@@ -1,3 +1,4 @@
+// Identifies the vertices of a mesh that are at the same position.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace limn {
 
-// For each vertex a number that it has in common with those at the same position, and with no others.
+// Returns a number for each vertex. Two vertices have the same number if and only if they are at the same position.
 std::vector<std::uint32_t> position_numbers(const std::vector<Float3>& vertices);
 
 }  // namespace limn

@@ -37,14 +37,16 @@ void Quad::lower(RecordSink& sink) const { sink.quad({corner_, edge_u_, edge_v_,
 
 std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& opposite,
                                        const std::shared_ptr<const Material>& material) {
+    // Compute the edges.
     Box box;
     box.extend(corner);
     box.extend(opposite);
     const Point3 lo = box.lower, hi = box.upper;
-    Vec3 d;  // at least the exact difference, so that sides meet or overlap: no ray passes between them
+    Vec3 d;  // rounded up, so that sides touch or overlap and no ray passes between them
     for (std::size_t a = 0; a < 3; ++a) d[a] = difference_up(hi[a], lo[a]);
     if (!is_finite(d) || !(d.x > 0 && d.y > 0 && d.z > 0)) throw ArgumentError("make_box: the box must not be flat");
     const Vec3 dx{d.x, 0, 0}, dy{0, d.y, 0}, dz{0, 0, d.z};
+    // Make the sides, with outward normals: front, right, back, left, top, bottom.
     auto sides = std::make_shared<HittableList>();
     const auto add = [&](const Point3& q, const Vec3& u, const Vec3& v) {
         sides->add(std::make_shared<Quad>(q, u, v, material));

@@ -18,7 +18,9 @@ namespace limn {
 
 namespace {
 
-// Corner 3 t + k is vertex k of triangle t.
+// Computes smooth normals. A corner is a vertex of one triangle: corner 3 t + k is vertex k of triangle t. Corners at
+// the same position are joined if their triangles share an edge that isn't a crease. Joined corners get the same
+// normal.
 class Smoother {
 public:
     Smoother(const MeshData& data, double crease_degrees)
@@ -28,14 +30,16 @@ public:
         join_across_edges();
     }
 
+    // Returns the mesh with smooth normals.
     MeshData smooth() {
+        // Add up the normals of joined corners, each weighted by its angle.
         std::vector<Vec3> sums(joined_.size());
         for (std::size_t c = 0; c < joined_.size(); ++c) sums[root(c)] = sums[root(c)] + angle_at(c) * normals_[c / 3];
+        // Make a vertex for each pair of an old vertex and a group of joined corners.
         MeshData result;
         result.material_slots = data_.material_slots;
         result.faces = data_.faces;
-        // Vertices by what they came from and what they are joined to.
-        std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+        std::unordered_map<std::uint64_t, std::uint32_t> numbers;  // the new vertex of each pair
         for (std::size_t c = 0; c < joined_.size(); ++c) {
             const std::uint64_t key = std::uint64_t{vertex_of(c)} * joined_.size() + root(c);
             const auto [place, is_new] = numbers.try_emplace(key, static_cast<std::uint32_t>(result.vertices.size()));
@@ -48,9 +52,10 @@ public:
     }
 
 private:
+    // A side of a triangle.
     struct Side {
-        std::uint32_t low, high;      // the ends, by their positions
-        std::size_t at_low, at_high;  // corners
+        std::uint32_t low, high;      // position numbers of its ends, low <= high
+        std::size_t at_low, at_high;  // the corners at its ends
     };
 
     std::uint32_t vertex_of(std::size_t corner) const {
@@ -58,6 +63,7 @@ private:
         return corner % 3 == 0 ? t.a : corner % 3 == 1 ? t.b : t.c;
     }
 
+    // Computes the normals of triangles, and checks their indices.
     void measure() {
         for (std::size_t i = 0; i < data_.triangles.size(); ++i) {
             const Index3& t = data_.triangles[i];
@@ -73,7 +79,9 @@ private:
         return triangle_vertices({data_.vertices, data_.triangles, {}, {}, {}}, i);
     }
 
+    // Joins the corners of each two triangles that share an edge.
     void join_across_edges() {
+        // List the sides of triangles, equal ones next to each other.
         const std::vector<std::uint32_t> positions = position_numbers(data_.vertices);
         std::vector<Side> sides;
         for (std::size_t c = 0; c < joined_.size(); ++c) {
@@ -84,6 +92,7 @@ private:
         }
         const auto ends = [](const Side& s) { return std::pair(s.low, s.high); };
         std::ranges::sort(sides, {}, [&](const Side& s) { return std::tuple(s.low, s.high, s.at_low); });
+        // Join across edges with two triangles whose angle is below the crease angle.
         for (auto first = sides.begin(); first != sides.end();) {
             const auto last = std::find_if(first, sides.end(), [&](const Side& s) { return ends(s) != ends(*first); });
             const Side& one = *first;
@@ -98,12 +107,13 @@ private:
 
     void join(std::size_t a, std::size_t b) { joined_[root(a)] = root(b); }
 
-    // Of those that a corner is joined to, halving the way for the next time.
+    // Returns the root of the tree of joined corners that has this corner, and halves the path to it (union-find).
     std::size_t root(std::size_t corner) {
         while (joined_[corner] != corner) corner = joined_[corner] = joined_[joined_[corner]];
         return corner;
     }
 
+    // Returns the angle of the triangle at a corner.
     double angle_at(std::size_t corner) const {
         const TriangleVertices v = corners_of(corner / 3);
         const Point3 p[3] = {v.a, v.b, v.c};
@@ -112,7 +122,8 @@ private:
         return arc_tangent(length(cross(one, other)), dot(one, other));
     }
 
-    // Where the triangles cancel, that of one of them; without an area, any.
+    // Adds the vertex of a corner. Its normal is the direction of `sum`. If the normals of triangles cancel in the sum,
+    // it's the normal of the corner's triangle, or +z if that has no area.
     void add_vertex(MeshData& result, std::size_t corner, const Vec3& sum) const {
         Vec3 normal = normalize(sum);
         if (!is_finite(normal)) normal = normals_[corner / 3];
@@ -124,9 +135,10 @@ private:
     }
 
     const MeshData& data_;
-    double cosine_;
-    std::vector<std::size_t> joined_;  // a corner's way to the one that stands for all that it is joined to
-    std::vector<Vec3> normals_;        // of triangles, unit; zero without an area
+    double cosine_;  // cosine of the crease angle
+    std::vector<std::size_t>
+        joined_;                 // the parent of each corner in its tree of joined corners; a root is its own parent
+    std::vector<Vec3> normals_;  // unit normal of each triangle; zero if it has no area
 };
 
 }  // namespace

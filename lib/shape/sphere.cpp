@@ -21,7 +21,7 @@ Sphere::Sphere(const Point3& center0, const Point3& center1, double radius, std:
 }
 
 Point3 Sphere::center(double time) const {
-    return center0_ == center1_ ? center0_ : interpolate(center0_, center1_, time);  // a still one does not tremble
+    return center0_ == center1_ ? center0_ : interpolate(center0_, center1_, time);  // a still centre isn't rounded
 }
 
 Box Sphere::bounds() const { return sphere_bounds(center0_, center1_, radius_); }

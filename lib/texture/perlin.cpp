@@ -14,6 +14,7 @@ std::shared_ptr<const PerlinLattice> lattice_of(std::uint64_t seed) {
     return std::make_shared<const PerlinLattice>(PerlinLattice::from_seed(seed));
 }
 
+// Throws ArgumentError if an argument of a noise texture is invalid.
 void check(const std::string& texture, double scale, const std::shared_ptr<const PerlinLattice>& lattice,
            const Color& color) {
     require(std::isfinite(scale), texture + ": scale must be finite");

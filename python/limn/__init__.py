@@ -4,8 +4,9 @@
     scene.add_triangles(vertices, faces)         # (n, 3) float32, (m, 3) uint32
     hits = scene.compile().cast_rays(rays)       # (..., 6) float64: origin and direction
 
-`limn.open3d` and `limn.trimesh` have the interfaces of Open3D's RaycastingScene and of trimesh's RayMeshIntersector.
-Arrays must be C-contiguous and are not copied. Errors are a TypeError or a ValueError that names the argument.
+`limn.open3d` has the interface of Open3D's RaycastingScene. `limn.trimesh` has the interface of trimesh's
+RayMeshIntersector. Arrays must be C-contiguous. Arrays of rays and points are read in place; a mesh copies its arrays.
+A wrong argument raises a TypeError or a ValueError that names the argument.
 """
 
 from . import _limn

@@ -1,11 +1,12 @@
 """The interface of Open3D's `RaycastingScene`, with exact answers.
 
     import limn.open3d as o3d                      # in place of `import open3d as o3d`
-    from limn.open3d import RaycastingScene        # or by itself; Open3D need not be there
+    from limn.open3d import RaycastingScene        # works without Open3D
 
-Only `t.geometry.RaycastingScene` is limn's; everything else that `limn.open3d` is asked for is Open3D's, if that is
-installed. Tensors of Open3D are answered with tensors of Open3D. Arrays of numpy, lists, and arrays that speak DLPack are
-answered with `Tensor`, an array of numpy that has `.numpy()`. Numbers are float32, ids uint32, as there.
+Only `t.geometry.RaycastingScene` is limn's. All other names of `limn.open3d` are Open3D's, if Open3D is installed. A
+query with a tensor of Open3D returns tensors of Open3D. A query with a list, a numpy array or another array that
+supports DLPack returns `Tensor`, a numpy array that has `.numpy()`. As in Open3D, numbers are float32 and ids are
+uint32.
 """
 
 from __future__ import annotations
@@ -25,10 +26,10 @@ __all__ = ["RaycastingScene", "Tensor", "t"]
 
 
 class Tensor(np.ndarray):
-    """An array of numpy with what programs ask of Open3D's tensors."""
+    """A numpy array with the methods of Open3D's tensors that programs use most."""
 
     def numpy(self) -> np.ndarray:
-        """The same memory as a plain array."""
+        """Returns a plain numpy array that shares the memory."""
         return self.view(np.ndarray)
 
     def cpu(self) -> Tensor:
@@ -52,7 +53,10 @@ def _is_open3d(value: Any) -> bool:
 
 
 def _array(value: Any, name: str, types: tuple[type, ...], otherwise: type) -> np.ndarray:
-    """A contiguous array of one of the types; lists become `otherwise`."""
+    """Returns the value as a contiguous array.
+
+    An array must have one of the `types`. A list becomes an array of the type `otherwise`.
+    """
     if _is_open3d(value):
         array = value.cpu().numpy()
     elif isinstance(value, np.ndarray):
@@ -76,7 +80,7 @@ def _array(value: Any, name: str, types: tuple[type, ...], otherwise: type) -> n
 
 
 def _numbers(value: Any, name: str, width: int) -> np.ndarray:
-    """Rows of `width` numbers along the last axis."""
+    """Returns the value as an array whose last axis has `width` numbers."""
     array = _array(value, name, (np.float32, np.float64), np.float32)
     if array.ndim < 2 or array.shape[-1] != width:
         raise ValueError(f"{name}: must have shape (..., {width}) with at least two axes, not {array.shape}")
@@ -84,13 +88,13 @@ def _numbers(value: Any, name: str, width: int) -> np.ndarray:
 
 
 def _like(value: Any, array: np.ndarray) -> Any:
-    """The answer to `value`."""
+    """Returns the array as a tensor of Open3D if `value` is one, or else as a Tensor."""
     return type(value).from_numpy(np.ascontiguousarray(array)) if _is_open3d(value) else array.view(Tensor)
 
 
 @contextlib.contextmanager
 def _renamed(*names: tuple[str, str]) -> Iterator[None]:
-    """Errors with limn's names of arguments get Open3D's."""
+    """Replaces limn's names of arguments with Open3D's in the messages of errors."""
     try:
         yield
     except (TypeError, ValueError) as error:
@@ -101,13 +105,16 @@ def _renamed(*names: tuple[str, str]) -> Iterator[None]:
 
 
 def _odd(nsamples: int) -> None:
-    """One ray is enough, whatever it meets; the argument is only checked."""
+    """Raises a ValueError unless nsamples is odd. limn does not use the number."""
     if nsamples < 1 or nsamples % 2 == 0:
         raise ValueError(f"nsamples: must be an odd number, not {nsamples}")
 
 
 def _mesh_arrays(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Of Open3D's tensor mesh, or of its older one, whose float64 vertices are rounded to float32."""
+    """Returns vertices and triangles of Open3D's tensor mesh, or of its legacy mesh.
+
+    The vertices of a legacy mesh are rounded from float64 to float32.
+    """
     if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):
         return mesh.vertex["positions"], mesh.triangle["indices"]
     if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):
@@ -116,21 +123,30 @@ def _mesh_arrays(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 class RaycastingScene:
-    """Open3D's class; see there. Differences:
+    """A scene of triangle meshes with the methods of Open3D's RaycastingScene.
 
-    - t_hit counts hits with 0 < t: a ray that starts exactly on a triangle does not hit it.
-    - count_intersections counts passages through surfaces, one also at an edge or a vertex; so it is even outside of closed
-      meshes. list_intersections lists each triangle that a ray meets there, by t.
-    - compute_occupancy and the sign of compute_signed_distance are those of winding numbers, exactly, for meshes that
-      overlap too; points exactly on a surface are inside. nsamples is checked and not needed.
-    - Rays and points may be float64 too. A ray with a NaN misses.
-    - Errors are a TypeError or a ValueError that names the argument.
+    Open3D's documentation describes the methods. There is no compile step: the first query after a change builds the
+    scene. The differences from Open3D are:
+
+    - A hit counts if 0 < t. A ray that starts exactly on a triangle does not hit it.
+    - count_intersections counts how often a ray passes through a surface. A passage through an edge or a vertex counts
+      once. The count is even if the ray starts outside of all closed meshes. list_intersections, however, lists each of
+      the triangles at the edge or vertex, ordered by t.
+    - compute_occupancy and the sign of compute_signed_distance use winding numbers, which are exact for overlapping
+      meshes too. A point exactly on a surface is inside. nsamples is checked but not used.
+    - Rays and points may be float32 or float64. A ray with a NaN misses.
+    - A wrong argument raises a TypeError or a ValueError that names the argument.
     """
 
     INVALID_ID = INVALID_ID
 
     def __init__(self, nthreads: int = 0, device: Any = None) -> None:
-        """nthreads: for building, which uses all in any case. device: the CPU."""
+        """Makes an empty scene.
+
+        Args:
+            nthreads: not used. Building a scene uses all threads.
+            device: the CPU, or None. Another device raises a ValueError.
+        """
         if device is not None and not str(device).upper().startswith("CPU"):
             raise ValueError(f"device: must be the CPU, not {device}")
         self._scene = Scene()
@@ -138,7 +154,11 @@ class RaycastingScene:
 
     def add_triangles(self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None,
                       vertices: Any = None, triangles: Any = None) -> int:
-        """add_triangles(vertex_positions, triangle_indices) or add_triangles(mesh). Returns the geometry's id."""
+        """Adds a mesh and returns its geometry id.
+
+        Call it as add_triangles(vertex_positions, triangle_indices), shapes (n, 3) float32 and (m, 3) integers, or as
+        add_triangles(mesh) with a mesh of Open3D. The arrays are copied.
+        """
         positions = vertex_positions if vertex_positions is not None else vertices
         indices = triangle_indices if triangle_indices is not None else triangles
         if indices is None:
@@ -152,7 +172,11 @@ class RaycastingScene:
         return number
 
     def cast_rays(self, rays: Any, nthreads: int = 0) -> dict[str, Any]:
-        """The nearest hit of each ray: t_hit, geometry_ids, primitive_ids, primitive_uvs, primitive_normals."""
+        """Returns the nearest hit of each ray.
+
+        The dict has t_hit (inf if the ray misses), geometry_ids and primitive_ids (INVALID_ID if the ray misses),
+        primitive_uvs and primitive_normals.
+        """
         array = _numbers(rays, "rays", 6)
         shape = array.shape[:-1]
         if not array.size:
@@ -162,7 +186,7 @@ class RaycastingScene:
         return self._answers(rays, self._ready().cast_rays(array, nthreads, dtype="float32"))
 
     def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = math.inf, nthreads: int = 0) -> Any:
-        """Whether each ray hits anything with tnear < t <= tfar: bool."""
+        """Returns True for each ray that hits anything with tnear < t <= tfar."""
         array = _numbers(rays, "rays", 6)
         if not array.size:
             return _like(rays, np.zeros(array.shape[:-1], bool))
@@ -170,14 +194,17 @@ class RaycastingScene:
             return _like(rays, self._ready().test_occlusions(array, nthreads, t_min=tnear, t_max=tfar))
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> Any:
-        """How many surfaces each ray passes through: int32."""
+        """Returns how many surfaces each ray passes through: int32."""
         array = _numbers(rays, "rays", 6)
         if not array.size:
             return _like(rays, np.zeros(array.shape[:-1], np.int32))
         return _like(rays, self._ready().count_intersections(array, nthreads).astype(np.int32))
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> dict[str, Any]:
-        """All hits: ray_splits, ray_ids, t_hit, geometry_ids, primitive_ids, primitive_uvs."""
+        """Returns all hits of all rays: ray_splits, ray_ids, t_hit, geometry_ids, primitive_ids, primitive_uvs.
+
+        The hits of ray i are those from ray_splits[i] to ray_splits[i + 1], the last one not included.
+        """
         array = _numbers(rays, "rays", 6)
         if not array.size:
             empty = {name: np.zeros(0, np.uint32) for name in ("ray_ids", "geometry_ids", "primitive_ids")}
@@ -190,7 +217,10 @@ class RaycastingScene:
         return self._answers(rays, answer)
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> dict[str, Any]:
-        """The nearest point to each: points, geometry_ids, primitive_ids, primitive_uvs, primitive_normals."""
+        """Returns the point of the surfaces that is nearest to each query point.
+
+        The dict has points, geometry_ids, primitive_ids, primitive_uvs and primitive_normals.
+        """
         array = _numbers(query_points, "query_points", 3)
         shape = array.shape[:-1]
         if not array.size:
@@ -200,14 +230,14 @@ class RaycastingScene:
         return self._answers(query_points, self._ready().compute_closest_points(array, nthreads, dtype="float32"))
 
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> Any:
-        """How far each point is from the nearest surface: float32."""
+        """Returns the distance of each point from the nearest surface: float32."""
         array = _numbers(query_points, "query_points", 3)
         if not array.size:
             return _like(query_points, np.zeros(array.shape[:-1], np.float32))
         return _like(query_points, self._ready().compute_distance(array, nthreads, dtype="float32"))
 
     def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Any:
-        """compute_distance, negative inside: float32."""
+        """Returns the distance of each point from the nearest surface, negative if the point is inside: float32."""
         _odd(nsamples)
         array = _numbers(query_points, "query_points", 3)
         if not array.size:
@@ -215,7 +245,7 @@ class RaycastingScene:
         return _like(query_points, self._ready().compute_signed_distance(array, nthreads, dtype="float32"))
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Any:
-        """1 inside, 0 outside: float32."""
+        """Returns 1 for each point that is inside or exactly on a surface, and 0 for others: float32."""
         _odd(nsamples)
         array = _numbers(query_points, "query_points", 3)
         if not array.size:
@@ -224,11 +254,12 @@ class RaycastingScene:
 
     @staticmethod
     def create_rays_pinhole(*args: Any, **kwargs: Any) -> Any:
-        """create_rays_pinhole(intrinsic_matrix, extrinsic_matrix, width_px, height_px), or
-        create_rays_pinhole(fov_deg, center, eye, up, width_px, height_px), fov_deg being the horizontal angle.
-        With a view the picture is turned by half a turn, as Open3D's is.
+        """Returns the rays of a pinhole camera: shape (height_px, width_px, 6), float32.
 
-        Rays through the centres of the pixels, shape (height_px, width_px, 6), float32; directions of depth 1.
+        Call it as create_rays_pinhole(intrinsic_matrix, extrinsic_matrix, width_px, height_px), or as
+        create_rays_pinhole(fov_deg, center, eye, up, width_px, height_px), where fov_deg is the horizontal field of
+        view. The second form turns the picture by 180 degrees, as Open3D does. The rays go through the centres of the
+        pixels. A direction reaches from the eye to the plane at depth 1.
         """
         if len(args) + len(kwargs) == 4:
             return _rays_of_matrices(*args, **kwargs)
@@ -281,12 +312,12 @@ def _rays_of_view(fov_deg: float, center: Any, eye: Any, up: Any, width_px: int,
     forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
     focal = 0.5 * width_px / math.tan(0.5 * math.radians(fov_deg))
     intrinsic = np.array([[focal, 0, 0.5 * width_px], [0, focal, 0.5 * height_px], [0, 0, 1]])
-    rotation = np.stack([-right, np.cross(right, forward), forward])  # upside down, as Open3D's
+    rotation = np.stack([-right, np.cross(right, forward), forward])  # turned by 180 degrees, as in Open3D
     return _like(center, _pinhole(intrinsic, rotation, start, width_px, height_px))
 
 
 class _Namespace:
-    """A module of Open3D, some names of which are limn's."""
+    """A module of Open3D in which some names are replaced by limn's."""
 
     def __init__(self, module: str, **own: Any) -> None:
         self.__dict__ |= {"_module": module} | own

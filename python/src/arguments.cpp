@@ -109,7 +109,8 @@ Transform matrix(MatrixArgument argument, const char* name) {
 ArrayView::ArrayView(nb::handle object, const char* name, const char* expected) {
     if (object.is_none() || !nb::try_cast(object, array_, false)) wrong_type(name, expected, object);
     if (array_.device_type() != nb::device::cpu::value) wrong_value(name, "must lie in the CPU's memory");
-    if (array_.dtype().bits < 8) wrong_type(name, expected, object);  // DLPack has types of parts of bytes
+    if (array_.dtype().bits < 8) wrong_type(name, expected, object);  // DLPack has types smaller than a byte
+    // Check that the strides are those of a C-contiguous array.
     std::int64_t stride = 1;
     for (std::size_t axis = rank(); array_.size() > 0 && axis-- > 0;) {
         if (length(axis) > 1 && array_.stride(axis) != stride)
@@ -156,7 +157,10 @@ nb::object new_array(const std::vector<std::size_t>& shape, const char* type, vo
     const nb::object dtype = numpy.attr("dtype")(type);
     auto bytes = nb::cast<std::size_t>(dtype.attr("itemsize"));
     nb::list lengths;
-    for (const std::size_t length : shape) lengths.append(length), bytes *= length;
+    for (const std::size_t length : shape) {
+        lengths.append(length);
+        bytes *= length;
+    }
     if (bytes < kLeastKept) {
         nb::object array = numpy.attr("empty")(nb::tuple(lengths), dtype);
         values = nb::cast<nb::ndarray<>>(array).data();

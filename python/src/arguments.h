@@ -1,4 +1,5 @@
-// What functions are given. Arguments are taken as any object and checked by hand, so that an error names the argument.
+// Conversion of Python arguments to C++ values. nanobind accepts any object as an argument. The functions here check
+// it, so that the message of an error begins with the name of the argument.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -17,7 +18,7 @@ namespace limn::python {
 
 namespace nb = nanobind;
 
-// An argument of any type; the tag says what stands in signatures.
+// An argument of any type. Tag::kName is the type that the Python signature shows. The handle is not owned.
 template <class Tag>
 struct Argument {
     nb::handle object;
@@ -50,31 +51,37 @@ LIMN_ARGUMENT(ShapeArgument, "Hittable");
 LIMN_ARGUMENT(CallbackArgument, "collections.abc.Callable[[Progress], bool | None] | None");
 #undef LIMN_ARGUMENT
 
-// The name of an argument in a signature. None too is taken, so that refusing it names the argument.
+// Returns the annotation of an argument that accepts None. The function's own check then rejects None with an error
+// that names the argument.
 inline auto given(const char* name) { return nb::arg(name).none(); }
 
-[[noreturn]] void wrong_type(const char* name, const std::string& expected, nb::handle got);  // a TypeError
-[[noreturn]] void wrong_value(const char* name, const std::string& problem);                  // a ValueError
+// Throws a TypeError: "NAME: must be EXPECTED, not THE TYPE OF got".
+[[noreturn]] void wrong_type(const char* name, const std::string& expected, nb::handle got);
+// Throws a ValueError: "NAME: PROBLEM".
+[[noreturn]] void wrong_value(const char* name, const std::string& problem);
 
+// The functions below return the value of an argument. They throw a TypeError if its type is wrong and a ValueError if
+// its value is out of range.
 double number(NumberArgument argument, const char* name);
-// In lowest to highest, both included.
+// Returns an integer from lowest to highest, both included.
 long long whole(CountArgument argument, const char* name, long long lowest, long long highest);
 bool flag(FlagArgument argument, const char* name);
-int thread_count(CountArgument argument);  // 0 to 1024
-// Which of the words it is.
+// Returns a number of threads, 0 to 1024, of the argument `threads`.
+int thread_count(CountArgument argument);
+// Returns the index of the argument in `words`.
 std::size_t choice(NameArgument argument, const char* name, const std::vector<std::string>& words);
 
-// So many objects in a sequence or an array.
+// Returns the `count` elements of a sequence or an array.
 std::vector<nb::object> items(nb::handle object, std::size_t count, const char* name, const char* expected);
-// Three numbers.
+// Returns the three numbers of a sequence or an array.
 Vec3 triple(nb::handle object, const char* name);
 inline Vec3 vector(TripleArgument argument, const char* name) { return triple(argument.object, name); }
 inline Point3 point(TripleArgument argument, const char* name) { return Point3{} + triple(argument.object, name); }
 Color color(nb::handle object, const char* name);
-// Rows of a matrix: 3 by 4, or 4 by 4 with the last one 0 0 0 1.
+// Returns the transform of a 3x4 matrix, or of a 4x4 matrix whose last row is 0 0 0 1.
 Transform matrix(MatrixArgument argument, const char* name);
 
-// The object of a bound class.
+// Returns the C++ object of a bound class.
 template <class T>
 std::shared_ptr<const T> shared(nb::handle object, const char* name, const char* expected) {
     std::shared_ptr<T> value;
@@ -82,8 +89,8 @@ std::shared_ptr<const T> shared(nb::handle object, const char* name, const char*
     return value;
 }
 
-// A C-contiguous array in the CPU's memory: numpy's, or one that speaks DLPack or the buffer protocol. Not copied; it
-// keeps the memory alive.
+// A C-contiguous array in the CPU's memory, of numpy or of another library with DLPack or the buffer protocol. The view
+// doesn't copy the array. It keeps the memory alive.
 class ArrayView {
 public:
     ArrayView(nb::handle object, const char* name, const char* expected);
@@ -99,24 +106,24 @@ public:
     const T* data() const {
         return static_cast<const T*>(array_.data());
     }
-    bool is_whole_number() const;  // whether it holds integers
+    bool is_whole_number() const;  // true if the elements are integers
     std::vector<std::size_t> shape() const;
 
 private:
     nb::ndarray<nb::ro> array_;
 };
 
-// "(5, 2)", for messages.
+// Returns a shape as Python prints it, such as "(5, 2)".
 std::string shape_text(const std::vector<std::size_t>& shape);
 
-// Rows of `width` numbers along the last axis of an array of float64 or float32, at least one of them.
+// An array of float64 or float32, not empty, whose last axis has `width` numbers. Each run of these numbers is a row.
 class Rows {
 public:
     Rows(ArrayArgument argument, const char* name, std::size_t width, const char* expected);
 
     std::size_t count() const { return count_; }
     const std::vector<std::size_t>& shape() const { return shape_; }  // without the last axis
-    // visit(pointer to the first number), of double or of float.
+    // Calls visit with a pointer to the first number, a const double* or a const float*.
     template <class Visit>
     void visit(const Visit& visit) const {
         if (array_.holds<double>()) return visit(array_.data<double>());
@@ -129,13 +136,15 @@ private:
     std::size_t count_ = 1;
 };
 
-// A new array of numpy, `values` points into it. \pre the interpreter's lock is held
+// A new numpy array. `values` points to its first element.
 template <class T>
 struct NewArray {
     nb::object array;
     T* values = nullptr;
 };
 
+// Returns a new array that isn't initialised, and sets `values` to its first element. An array of kLeastKept bytes or
+// more is stored in KeptMemory. \pre the GIL is held
 nb::object new_array(const std::vector<std::size_t>& shape, const char* type, void*& values);
 template <class T>
 constexpr const char* type_name() {
@@ -146,6 +155,8 @@ constexpr const char* type_name() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return "uint8";
     if constexpr (std::is_same_v<T, bool>) return "bool";
 }
+// Returns a new array with elements of type T that isn't initialised. If `columns` isn't 0, an axis of that length is
+// added to the shape. \pre the GIL is held
 template <class T>
 NewArray<T> new_array(std::vector<std::size_t> shape, std::size_t columns = 0) {
     if (columns > 0) shape.push_back(columns);

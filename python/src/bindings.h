@@ -1,4 +1,5 @@
-// The parts of the module, one for each subject, in the order in which types need each other.
+// The functions that add classes and functions to the module limn._limn. They must be called in this order, because a
+// base class must be bound before the classes derived from it.
 #pragma once
 
 #include <nanobind/nanobind.h>

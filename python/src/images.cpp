@@ -11,7 +11,7 @@ namespace limn::python {
 
 namespace {
 
-constexpr std::size_t kMostPixels = 1 << 20;  // a side
+constexpr std::size_t kMostPixels = 1 << 20;  // largest width and height of an image
 
 nb::object to_srgb(ArrayArgument argument) {
     const ArrayView image(argument.object, "image", "an array of float32");
@@ -60,11 +60,15 @@ nb::object array_of(Image image) {
 }
 
 void bind_images(nb::module_& module) {
-    module.def(
-        "to_srgb", &to_srgb, given("image"),
-        nb::sig("def to_srgb(image: numpy.typing.NDArray) -> numpy.typing.NDArray"),
-        "Linear values, float32 of any shape, clamped to [0, 1] and encoded by sRGB: bytes of the same shape, as in "
-        "PNG files.");
+    module.def("to_srgb", &to_srgb, given("image"),
+               nb::sig("def to_srgb(image: numpy.typing.NDArray) -> numpy.typing.NDArray"),
+               R"(Encodes linear values by sRGB, as in PNG files.
+
+Args:
+    image: float32, any shape. Values are clamped to [0, 1]. NaN becomes 0.
+
+Returns:
+    An array of the same shape, uint8.)");
 }
 
 }  // namespace limn::python

@@ -1,4 +1,4 @@
-// Pictures as arrays, both ways.
+// Conversion of images to arrays and back.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,12 @@
 
 namespace limn::python {
 
-// Of an array of shape (height, width, 3): linear float64 or float32 as it is; bytes are sRGB, as those of pictures.
+// Returns a copy of the argument `image`, an array of shape (height, width, 3). float64 and float32 are linear. uint8
+// is decoded from sRGB. Throws a TypeError for another type, and a ValueError if a value is negative or not finite.
 Image image_of(ArrayArgument argument);
-// Shape (height, width, 3). The pixels are the array's: the image lives as long as it does.
+// Returns an array of shape (height, width, 3) that owns the image and shares its pixels.
 nb::object array_of(Image image);
-// A copy, of shape (height, width); None of an empty map.
+// Returns a copy of a map as an array of shape (height, width), or None if the map is empty.
 template <class T>
 nb::object map_of(const std::vector<T>& map, int width, int height) {
     if (map.empty()) return nb::none();

@@ -12,17 +12,21 @@ namespace nb = nanobind;
 
 namespace {
 
+// The longest time between two checks for signals.
 constexpr std::chrono::milliseconds kPatience{50};
 
-// What the render and the waiting thread tell each other.
+// The state that the rendering thread and the waiting thread share. `mutex` guards all members.
 struct Shared {
     std::mutex mutex;
-    std::condition_variable changed;
+    std::condition_variable changed;  // signals that `moved` or `done` was set
     Progress progress;
-    bool moved = false, done = false, stop = false;
+    bool moved = false;  // true if the waiting thread hasn't seen `progress` yet
+    bool done = false;   // true if the render has ended and `result` and `failure` are set
+    bool stop = false;   // true if the render shall end
     RenderResult result;
-    std::exception_ptr failure;
+    std::exception_ptr failure;  // the exception of the render, or null
 
+    // Is the progress callback of the render. Returns false to end the render.
     bool note(const Progress& now) {
         const std::lock_guard lock(mutex);
         progress = now;
@@ -30,12 +34,14 @@ struct Shared {
         changed.notify_one();
         return !stop;
     }
+    // Ends the render at its next progress callback.
     void end() {
         const std::lock_guard lock(mutex);
         stop = true;
     }
 };
 
+// Renders in the calling thread and stores the result or the exception in `shared`.
 void run(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings, Shared& shared) {
     RenderResult result;
     std::exception_ptr failure;
@@ -51,7 +57,8 @@ void run(const CompiledScene& scene, const Camera& camera, const RenderSettings&
     shared.changed.notify_one();
 }
 
-// Ends the render and waits for it, however the caller is left. The lock is let go: the render may need it to end.
+// The rendering thread. The destructor ends the render and waits for the thread, also if an exception is thrown. It
+// releases the GIL, which the render may need before it can end.
 class Worker {
 public:
     Worker(Shared& shared, std::thread thread) : shared_(shared), thread_(std::move(thread)) {}
@@ -80,6 +87,7 @@ RenderResult render_interruptibly(const CompiledScene& scene, const Camera& came
             Progress now;
             bool moved = false;
             {
+                // Wait for progress or the end, without the GIL.
                 const nb::gil_scoped_release release;
                 std::unique_lock lock(shared.mutex);
                 shared.changed.wait_for(lock, kPatience, [&] { return shared.done || shared.moved; });
@@ -87,6 +95,7 @@ RenderResult render_interruptibly(const CompiledScene& scene, const Camera& came
                 moved = std::exchange(shared.moved, false);
                 now = shared.progress;
             }
+            // Handle signals, then call the callback.
             if (PyErr_CheckSignals() != 0) throw nb::python_error();
             if (!moved || progress.is_none()) continue;
             if (progress(now).ptr() == Py_False) shared.end();

@@ -1,4 +1,4 @@
-// A render that shows its progress, and ends at Ctrl-C.
+// A render that reports its progress to Python and that Ctrl-C ends.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -7,9 +7,9 @@
 
 namespace limn::python {
 
-// Renders in a thread of its own. The calling thread waits, calls `progress` (or None) there, and looks for signals: so
-// a notebook shows what is printed, and a KeyboardInterrupt ends the render within a tile. \pre the interpreter's lock
-// is held
+// Renders in a new thread. The calling thread waits, calls `progress` unless it is None, and checks for signals. As
+// `progress` runs in the calling thread, a notebook shows what it prints. A KeyboardInterrupt ends the render within a
+// tile. Throws what the render, `progress` or a signal handler throws. \pre the GIL is held
 RenderResult render_interruptibly(const CompiledScene& scene, const Camera& camera, RenderSettings settings,
                                   nanobind::handle progress);
 

@@ -14,19 +14,22 @@ namespace limn::python {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-constexpr std::size_t kMostKept = std::size_t{1} << 27;  // two answers of cast_rays to a million rays are 112 MB
+// The largest number of bytes that are kept. Two results of cast_rays for a million rays take 112 MB.
+constexpr std::size_t kMostKept = std::size_t{1} << 27;
 
 struct Block {
     std::size_t bytes;
     void* data;
 };
 
-// Which wait, the oldest first. Never destroyed: arrays may live until the interpreter has ended.
+// Returns the blocks that are kept and not in use, the oldest first. They are never destroyed, because an array may
+// outlive the static objects of the module.
 std::deque<Block>& waiting() {
     static auto* const blocks = new std::deque<Block>;
     return *blocks;
 }
 
+// Returns new memory, aligned to a huge page. Throws std::bad_alloc.
 void* allocate(std::size_t bytes) {
     void* const data = std::aligned_alloc(kHugePage, bytes);
     if (data == nullptr) throw std::bad_alloc();

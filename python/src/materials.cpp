@@ -1,4 +1,4 @@
-// What surfaces are made of. Those of microfacets stand in microfacets.cpp.
+// Bindings of the materials. Those with microfacets are in microfacets.cpp.
 #include "limn/material/material.h"
 
 #include "limn/material/alpha_mask.h"
@@ -26,21 +26,25 @@ std::shared_ptr<const Material> material_of(SurfaceArgument argument) {
 }
 
 void bind_wrappers(nb::module_& module) {
-    nb::class_<NormalMap, Material>(module, "NormalMap", "Another material around normals that a texture bends.")
+    nb::class_<NormalMap, Material>(module, "NormalMap",
+                                    "Another material whose shading normals are changed by a texture.")
         .def(
             "__init__",
             [](NormalMap* self, SurfaceArgument material, TextureArgument normals) {
                 new (self) NormalMap(material_of(material), shared<Texture>(normals.object, "normals", "a Texture"));
             },
             given("material"), given("normals"),
-            R"(Needs a mesh with uvs, or another shape that has texture coordinates.
+            R"(Wraps a material.
+
+The shape must be a mesh with uvs, or another shape that has texture coordinates.
 
 Args:
-    material: any but a NormalMap.
-    normals: a texture whose red, green and blue, from 0 to 1, are the coordinates from -1 to 1 along u, along v and
-        along the normal, as in glTF. Its numbers are linear: an ImageTexture of bytes has to be made of
-        pixels / numpy.float32(255), as uint8 counts as sRGB.)");
-    nb::class_<AlphaMask, Material>(module, "AlphaMask", "Another material with holes: leaves, fences, worn cloth.")
+    material: the other material. It must not be a NormalMap.
+    normals: a texture. Its red, green and blue, from 0 to 1, encode the normal's coordinates from -1 to 1 along u, v
+        and the shading normal, as in glTF. The values are linear. uint8 counts as sRGB, so make the ImageTexture from
+        pixels / numpy.float32(255).)");
+    nb::class_<AlphaMask, Material>(module, "AlphaMask",
+                                    "Another material with holes, for leaves, fences or worn cloth.")
         .def(
             "__init__",
             [](AlphaMask* self, SurfaceArgument material, OpacityArgument opacity, NumberArgument cutoff) {
@@ -56,30 +60,41 @@ Args:
                 new (self) AlphaMask(of, share);
             },
             given("material"), given("opacity"), given("cutoff") = 0.0,
-            R"(Renders see the holes, for shadows too; queries do not.
+            R"(Wraps a material.
+
+In renders light passes through the holes, so that shadows have holes too. Queries ignore the holes.
 
 Args:
-    material: what there is between the holes.
-    opacity: in [0, 1], how much of the light the surface stops, or a texture whose red says so. Its numbers are
-        linear: see NormalMap.
-    cutoff: in [0, 1]; if over 0, the surface stops all light where the texture is at least that, and none elsewhere.)");
+    material: the other material. It must not be an AlphaMask.
+    opacity: the part of the light that the surface stops, in [0, 1]: a number, or a texture whose red is that part. The
+        values are linear. uint8 counts as sRGB, so make the ImageTexture from pixels / numpy.float32(255).
+    cutoff: in [0, 1]. If it is over 0, opacity must be a texture. The surface then stops all light where the texture's
+        red is at least cutoff, and none elsewhere.)");
 }
 
 }  // namespace
 
 void bind_materials(nb::module_& module) {
     nb::class_<Material>(module, "Material", "How a surface scatters and emits light.");
-    nb::class_<Lambertian, Material>(module, "Lambertian", "The ideal diffuse reflector, on both sides.")
+    nb::class_<Lambertian, Material>(module, "Lambertian", "The ideal diffuse reflector. It reflects on both sides.")
         .def(
             "__init__", [](Lambertian* self, ColorArgument albedo) { make<Lambertian>(self, albedo, "albedo"); },
-            given("albedo"), "albedo: linear red, green, blue in [0, 1], or a texture.");
-    nb::class_<OrenNayar, Material>(module, "OrenNayar", "A rough diffuse reflector: clay, plaster, the Moon.")
+            given("albedo"), R"(Makes a diffuse reflector.
+
+Args:
+    albedo: linear red, green, blue in [0, 1], or a texture.)");
+    nb::class_<OrenNayar, Material>(module, "OrenNayar",
+                                    "A rough diffuse reflector, such as clay, plaster or the Moon.")
         .def(
             "__init__",
             [](OrenNayar* self, ColorArgument albedo, NumberArgument roughness) {
                 make<OrenNayar>(self, albedo, "albedo", number(roughness, "roughness"));
             },
-            given("albedo"), given("roughness"), "roughness: 0 (Lambertian) to 1.");
+            given("albedo"), given("roughness"), R"(Makes a reflector by the model of Oren and Nayar.
+
+Args:
+    albedo: linear red, green, blue in [0, 1], or a texture. An albedo of 1 loses no light.
+    roughness: from 0, which is Lambertian, to 1.)");
     nb::class_<Metal, Material>(module, "Metal", "A mirror, or brushed metal.")
         .def(
             "__init__",
@@ -87,7 +102,12 @@ void bind_materials(nb::module_& module) {
                 make<Metal>(self, albedo, "albedo", number(fuzz, "fuzz"));
             },
             given("albedo"), given("fuzz") = 0.0,
-            "fuzz: 0 (a perfect mirror) to 1, the radius of the ball that displaces the reflected unit direction.");
+            R"(Makes a metal that reflects `albedo` at every angle, without a Fresnel term.
+
+Args:
+    albedo: linear red, green, blue in [0, 1], or a texture.
+    fuzz: from 0, a perfect mirror, to 1. A random point in the ball of this radius is added to the reflected unit
+        direction.)");
     nb::class_<Dielectric, Material>(module, "Dielectric", "A smooth interface to glass or water.")
         .def(
             "__init__",
@@ -96,8 +116,13 @@ void bind_materials(nb::module_& module) {
                 new (self) Dielectric(number(index, "index"), exact ? Fresnel::exact : Fresnel::schlick);
             },
             given("index"), given("fresnel") = "exact",
-            "index: of refraction, inside over outside. fresnel: 'exact' or 'schlick'.");
-    nb::class_<DiffuseLight, Material>(module, "DiffuseLight", "A lamp: the same radiance in every direction.")
+            R"(Makes an interface that reflects and refracts.
+
+Args:
+    index: index of refraction of the inside over that of the outside, over 0.
+    fresnel: the formula of the reflectance: "exact" (Fresnel's equations) or "schlick" (Schlick's approximation).)");
+    nb::class_<DiffuseLight, Material>(module, "DiffuseLight",
+                                       "A lamp that emits the same radiance in every direction.")
         .def(
             "__init__",
             [](DiffuseLight* self, ColorArgument radiance, NameArgument sides) {
@@ -106,12 +131,18 @@ void bind_materials(nb::module_& module) {
                                               Sides::back}[choice(sides, "sides", {"both", "front", "back"})]);
             },
             given("radiance"), given("sides") = "both",
-            "radiance: linear red, green, blue in W / (sr m^2), at least 0, or a texture.\n"
-            "sides: which shine, 'both', 'front' (that of the outward normal) or 'back'.");
-    nb::class_<Isotropic, Material>(module, "Isotropic", "Scatters into all directions alike.")
+            R"(Makes a lamp, which scatters no light.
+
+Args:
+    radiance: linear red, green, blue in W / (sr m^2), at least 0, or a texture.
+    sides: the sides that emit: "both", "front" (the side of the outward normal) or "back".)");
+    nb::class_<Isotropic, Material>(module, "Isotropic", "A phase function that is the same in all directions.")
         .def(
             "__init__", [](Isotropic* self, ColorArgument albedo) { make<Isotropic>(self, albedo, "albedo"); },
-            given("albedo"), "albedo: linear red, green, blue in [0, 1], or a texture.");
+            given("albedo"), R"(Makes a phase function.
+
+Args:
+    albedo: linear red, green, blue in [0, 1], or a texture.)");
     bind_microfacets(module);
     bind_wrappers(module);
 }

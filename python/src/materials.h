@@ -1,4 +1,4 @@
-// Materials of a colour or a texture.
+// Construction of objects from an argument that is a colour or a texture.
 #pragma once
 
 #include <nanobind/stl/shared_ptr.h>
@@ -11,6 +11,8 @@
 
 namespace limn::python {
 
+// Constructs a Made in `place` from the argument, a texture or a colour, and from `rest`. Throws an error that names
+// the argument if it is neither.
 template <class Made, class... Rest>
 void make(void* place, ColorArgument argument, const char* name, const Rest&... rest) {
     std::shared_ptr<Texture> texture;
@@ -20,6 +22,7 @@ void make(void* place, ColorArgument argument, const char* name, const Rest&... 
         new (place) Made(color(argument.object, name), rest...);
 }
 
+// Binds the materials with microfacets.
 void bind_microfacets(nb::module_& module);
 
 }  // namespace limn::python

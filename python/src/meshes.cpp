@@ -1,4 +1,4 @@
-// Triangle meshes from arrays.
+// Bindings of triangle meshes, which are made from arrays.
 #include "limn/shape/mesh.h"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -16,7 +16,8 @@ namespace limn::python {
 
 namespace {
 
-// Rows of float32, `width` of them in each, finite.
+// Returns the rows of a float32 array of shape (n, width). `make` makes a Row from a pointer to its numbers. Throws a
+// ValueError if a number isn't finite.
 template <class Row, class Make>
 std::vector<Row> float_rows(ArrayArgument argument, const char* name, std::size_t width, const Make& make) {
     const ArrayView array(argument.object, name, "an array of float32");
@@ -36,7 +37,8 @@ std::vector<Row> float_rows(ArrayArgument argument, const char* name, std::size_
 
 Float3 float3(const float* v) { return {v[0], v[1], v[2]}; }
 
-// Whole numbers of any size, each below `end`.
+// Returns the elements of an array of any integer type. Throws a ValueError if one is negative or not below `end`; its
+// message says that there are `end` of `what`.
 std::vector<std::uint32_t> whole_numbers(const ArrayView& array, const char* name, std::uint64_t end,
                                          const char* what) {
     if (!array.is_whole_number()) throw nb::type_error((std::string(name) + ": must be of whole numbers").c_str());
@@ -60,6 +62,7 @@ std::vector<std::uint32_t> whole_numbers(const ArrayView& array, const char* nam
     return numbers;
 }
 
+// Returns the materials of a list or tuple, or of a single Material or None.
 std::vector<std::shared_ptr<const Material>> materials_of(nb::handle argument) {
     std::vector<std::shared_ptr<const Material>> materials;
     if (nb::isinstance<nb::list>(argument) || nb::isinstance<nb::tuple>(argument)) {
@@ -74,26 +77,36 @@ std::vector<std::shared_ptr<const Material>> materials_of(nb::handle argument) {
 NewArray<float> vertices_of(const Mesh& mesh) {
     const NewArray<float> array = new_array<float>({mesh.data().vertices.size()}, 3);
     float* to = array.values;
-    for (const Float3& v : mesh.data().vertices) *to++ = v.x, *to++ = v.y, *to++ = v.z;
+    for (const Float3& v : mesh.data().vertices) {
+        *to++ = v.x;
+        *to++ = v.y;
+        *to++ = v.z;
+    }
     return array;
 }
 
 NewArray<std::uint32_t> faces_of(const Mesh& mesh) {
     const NewArray<std::uint32_t> array = new_array<std::uint32_t>({mesh.data().triangles.size()}, 3);
     std::uint32_t* to = array.values;
-    for (const Index3& t : mesh.data().triangles) *to++ = t.a, *to++ = t.b, *to++ = t.c;
+    for (const Index3& t : mesh.data().triangles) {
+        *to++ = t.a;
+        *to++ = t.b;
+        *to++ = t.c;
+    }
     return array;
 }
 
-// One for each of `count` vertices or triangles.
+// Throws a ValueError unless an array has a row for each of the `count` vertices or triangles.
 void check_length(const char* name, std::size_t length, std::size_t count, const char* what) {
     if (length != count)
         wrong_value(name, "must have a row for each of the " + std::to_string(count) + what + ", not " +
                               std::to_string(length));
 }
 
+// Constructs a Mesh from the arguments of Mesh.__init__.
 void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, MaterialsArgument material,
                ArrayArgument normals, ArrayArgument uvs, ArrayArgument slots) {
+    // Read the arrays of vertices and triangles.
     MeshData data = mesh_data(vertices, faces);
     if (!normals.object.is_none()) {
         data.normals = float_rows<Float3>(normals, "normals", 3, float3);
@@ -103,6 +116,7 @@ void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, Material
         data.uvs = float_rows<Float2>(uvs, "uvs", 2, [](const float* v) { return Float2{v[0], v[1]}; });
         check_length("uvs", data.uvs.size(), data.vertices.size(), " vertices");
     }
+    // Read the materials.
     std::vector<std::shared_ptr<const Material>> materials = materials_of(material.object);
     if (!slots.object.is_none()) {
         const ArrayView array(slots.object, "material_slots", "an array of whole numbers");
@@ -110,6 +124,7 @@ void construct(Mesh* self, ArrayArgument vertices, ArrayArgument faces, Material
         check_length("material_slots", array.length(0), data.triangles.size(), " triangles");
         data.material_slots = whole_numbers(array, "material_slots", materials.size(), " materials");
     }
+    // Make the mesh.
     const std::shared_ptr<const Mesh> made = make_mesh(std::move(data), std::move(materials));
     new (self) Mesh(*made);
 }
@@ -144,23 +159,27 @@ void bind_meshes(nb::module_& module) {
     nb::class_<Mesh, Hittable>(module, "Mesh", "A triangle mesh.")
         .def("__init__", &construct, given("vertices"), given("faces"), given("material") = nb::none(), nb::kw_only(),
              given("normals") = nb::none(), given("uvs") = nb::none(), given("material_slots") = nb::none(),
-             R"(A mesh of copied arrays.
+             R"(Makes a mesh. The arrays are copied.
 
 Args:
     vertices: shape (n, 3), float32, in world units, finite.
-    faces: shape (m, 3), uint32 or other whole numbers: rows of vertices, counter-clockwise seen from outside.
-    material: one for all, or a list of them for material_slots.
-    normals: shape (n, 3), float32, of the vertices; by default the mesh is flat shaded.
-    uvs: shape (n, 2), float32: texture coordinates of the vertices.
-    material_slots: shape (m,), whole numbers: which of the materials each triangle has.)")
+    faces: the vertices of each triangle, counter-clockwise seen from outside: shape (m, 3), uint32 or another integer
+        type.
+    material: a Material for all triangles, or a list of materials for material_slots. Queries need no material;
+        renders do.
+    normals: the normal of each vertex, of any length but 0: shape (n, 3), float32. None gives flat shading.
+    uvs: the texture coordinates of each vertex: shape (n, 2), float32. None gives the barycentric weights of the
+        triangle's second and third vertex.
+    material_slots: the index in the list of materials for each triangle: shape (m,), an integer type. None gives all
+        triangles the first material.)")
         .def_prop_ro(
             "vertices", [](const Mesh& mesh) { return vertices_of(mesh).array; },
-            nb::sig("def vertices(self) -> numpy.typing.NDArray"), "A copy: shape (n, 3), float32.")
+            nb::sig("def vertices(self) -> numpy.typing.NDArray"), "A copy of the vertices: shape (n, 3), float32.")
         .def_prop_ro(
             "faces", [](const Mesh& mesh) { return faces_of(mesh).array; },
-            nb::sig("def faces(self) -> numpy.typing.NDArray"), "A copy: shape (m, 3), uint32.")
+            nb::sig("def faces(self) -> numpy.typing.NDArray"), "A copy of the faces: shape (m, 3), uint32.")
         .def_prop_ro("degenerate_triangles", &Mesh::degenerate_triangles,
-                     "Triangles of exactly zero area, which no ray can hit.")
+                     "The number of triangles of exactly zero area. No ray can hit them.")
         .def(
             "smoothed",
             [](const Mesh& mesh, NumberArgument crease_degrees) {
@@ -168,8 +187,11 @@ Args:
                 return std::make_shared<Mesh>(smooth_normals(mesh.data(), angle), mesh.materials());
             },
             given("crease_degrees"),
-            "The same mesh with normals that are interpolated across edges that turn by less than the angle, 0 to "
-            "180.");
+            R"(Returns the mesh with smooth normals. They replace the mesh's own normals.
+
+Args:
+    crease_degrees: 0 to 180. Normals are interpolated across an edge if its two triangles turn by less than this angle.
+        Normals are not interpolated across the border of the mesh.)");
 }
 
 }  // namespace limn::python

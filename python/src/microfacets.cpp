@@ -1,4 +1,4 @@
-// Rough metal, rough glass, plastic, and their mixture.
+// Bindings of the materials with microfacets: rough metal, rough glass, plastic, and the mixture of metal and plastic.
 #include "limn/material/metallic_roughness.h"
 #include "limn/material/plastic.h"
 #include "limn/material/rough_conductor.h"
@@ -10,7 +10,7 @@ namespace limn::python {
 
 namespace {
 
-// A number, or two of them.
+// Returns a roughness from a number, or from two numbers along u and across it.
 Roughness roughness_of(RoughnessArgument argument) {
     const nb::handle object = argument.object;
     if (!PySequence_Check(object.ptr()) || nb::isinstance<nb::str>(object)) return number({object}, "roughness");
@@ -19,7 +19,7 @@ Roughness roughness_of(RoughnessArgument argument) {
 }
 
 void bind_conductor(nb::module_& module) {
-    nb::class_<RoughConductor, Material>(module, "RoughConductor", "Metal, smooth or rough, of microfacets.")
+    nb::class_<RoughConductor, Material>(module, "RoughConductor", "Smooth or rough metal.")
         .def(
             "__init__",
             [](RoughConductor* self, ColorArgument reflectance, RoughnessArgument roughness, TripleArgument tint) {
@@ -27,13 +27,17 @@ void bind_conductor(nb::module_& module) {
                                      color(tint.object, "edge_tint"));
             },
             given("reflectance"), given("roughness"), given("edge_tint") = nb::make_tuple(0.0, 0.0, 0.0),
-            R"(No light is lost: what facets scatter more than once is added.
+            R"(Makes a metal from its reflectance.
+
+The microfacets have the GGX distribution and reflect by Fresnel's equations. Light that they scatter more than once is
+included, so that a metal of reflectance 1 loses no light.
 
 Args:
-    reflectance: at normal incidence, linear red, green, blue in [0, 1], or a texture.
-    roughness: in [0, 1], 0 is smooth; its square is the alpha of the GGX distribution. Two numbers: along u and across
-        it, which is brushed metal.
-    edge_tint: red, green, blue in [0, 1]: how early it reflects more towards grazing incidence.)")
+    reflectance: reflectance at normal incidence, linear red, green, blue in [0, 1], or a texture.
+    roughness: in [0, 1]. 0 is smooth. Its square is the alpha of the GGX distribution. Two numbers are the roughness
+        along u and across u, for brushed metal.
+    edge_tint: red, green, blue in [0, 1]. The larger it is, the earlier the reflectance rises towards grazing
+        incidence.)")
         .def_static(
             "from_index",
             [](TripleArgument eta, TripleArgument k, RoughnessArgument roughness) {
@@ -41,12 +45,12 @@ Args:
                 return std::make_shared<RoughConductor>(index, roughness_of(roughness));
             },
             given("eta"), given("k"), given("roughness"),
-            R"(One of the complex index of refraction eta + i k, for red, green and blue, relative to what is outside.
+            R"(Returns a metal of the complex index of refraction eta + i k, relative to the medium outside.
 
 Args:
-    eta: three numbers over 0.
-    k: three numbers, at least 0.
-    roughness: as that of RoughConductor.)");
+    eta: red, green, blue, over 0.
+    k: red, green, blue, at least 0.
+    roughness: one or two numbers, as for RoughConductor.)");
 }
 
 void make_plastic(Plastic* self, ColorArgument albedo, RoughnessArgument roughness, NumberArgument index,
@@ -67,7 +71,7 @@ void make_plastic(Plastic* self, ColorArgument albedo, RoughnessArgument roughne
 
 void bind_metallic_roughness(nb::module_& module) {
     nb::class_<MetallicRoughness, Material>(module, "MetallicRoughness",
-                                            "The model of glTF: metal, varnish, or a mixture.")
+                                            "The metallic-roughness model of glTF: metal, plastic, or a mixture.")
         .def(
             "__init__",
             [](MetallicRoughness* self, ColorArgument base_color, NumberArgument metallic, NumberArgument roughness,
@@ -76,14 +80,14 @@ void bind_metallic_roughness(nb::module_& module) {
                                         number(roughness, "roughness"), number(index, "index"));
             },
             given("base_color"), given("metallic"), given("roughness"), given("index") = 1.5,
-            R"(A white one loses no light.
+            R"(Makes a mixture of metal and plastic. A white one loses no light.
 
 Args:
-    base_color: what metal reflects at normal incidence, and the albedo of the rest; linear red, green, blue in
-        [0, 1], or a texture.
-    metallic: 0 is Plastic, 1 metal.
-    roughness: in [0, 1]; its square is the alpha of GGX. Below 0.001 it counts as 0.001.
-    index: of refraction of the coat, at least 1.)")
+    base_color: the reflectance of the metal at normal incidence and the albedo of the plastic: linear red, green, blue
+        in [0, 1], or a texture.
+    metallic: the part of metal in the mixture, from 0 (plastic) to 1 (metal).
+    roughness: in [0, 1]. Its square is the alpha of the GGX distribution. A value below 0.001 counts as 0.001.
+    index: index of refraction of the plastic's coat, at least 1.)")
         .def_static(
             "from_textures",
             [](TextureArgument base_color, TextureArgument metallic_roughness, NumberArgument metallic,
@@ -95,12 +99,13 @@ Args:
             },
             given("base_color"), given("metallic_roughness"), given("metallic") = 1.0, given("roughness") = 1.0,
             given("index") = 1.5,
-            R"(One that varies over the surface.
+            R"(Returns a material that varies over the surface.
 
 Args:
-    base_color: a texture.
-    metallic_roughness: a texture whose green is multiplied by roughness and its blue by metallic.
-    metallic, roughness, index: as before.)");
+    base_color: a texture, used as by MetallicRoughness.
+    metallic_roughness: a texture. Its green is multiplied by roughness and its blue by metallic. The products are
+        clamped to [0, 1].
+    metallic, roughness, index: as for MetallicRoughness.)");
 }
 
 }  // namespace
@@ -108,29 +113,33 @@ Args:
 void bind_microfacets(nb::module_& module) {
     bind_conductor(module);
     bind_metallic_roughness(module);
-    nb::class_<RoughDielectric, Material>(module, "RoughDielectric", "Ground glass, frosted glass, ice.")
+    nb::class_<RoughDielectric, Material>(module, "RoughDielectric",
+                                          "A rough interface to a clear medium, such as ground glass or ice.")
         .def(
             "__init__",
             [](RoughDielectric* self, NumberArgument index, RoughnessArgument roughness) {
                 new (self) RoughDielectric(number(index, "index"), roughness_of(roughness));
             },
             given("index"), given("roughness"),
-            R"(Of roughness 0 it is a Dielectric. Light that facets scatter more than once is lost: at an index of 1.5 and
-normal incidence 0.1 % at a roughness of 0.3, 0.8 % at 0.5, 11 % at 1.
+            R"(Makes a rough interface. With roughness 0 it equals a Dielectric.
+
+Light that microfacets scatter more than once is lost. At an index of 1.5 and normal incidence that is 0.1 % of the
+light at a roughness of 0.3, 0.8 % at 0.5 and 11 % at 1.
 
 Args:
-    index: of refraction, inside over outside, over 0.
-    roughness: as that of RoughConductor.)");
-    nb::class_<Plastic, Material>(module, "Plastic", "A diffuse surface under a clear coat, smooth or rough.")
+    index: index of refraction of the inside over that of the outside, over 0.
+    roughness: one or two numbers, as for RoughConductor.)");
+    nb::class_<Plastic, Material>(module, "Plastic", "A diffuse surface under a smooth or rough clear coat.")
         .def("__init__", &make_plastic, given("albedo"), given("roughness"), given("index") = 1.5,
              given("specular") = nb::make_tuple(1.0, 1.0, 1.0),
-             R"(An albedo of 1 loses no light.
+             R"(Makes a plastic. With an albedo of 1 it loses no light.
 
 Args:
-    albedo: of what enters the coat, linear red, green, blue in [0, 1], or a texture.
-    roughness: of the coat, as that of RoughConductor.
-    index: of refraction of the coat, at least 1.
-    specular: multiplies what the coat reflects, red, green, blue in [0, 1], or a texture.)");
+    albedo: the part of the light entering the coat that leaves it again: linear red, green, blue in [0, 1], or a
+        texture.
+    roughness: roughness of the coat, one or two numbers, as for RoughConductor.
+    index: index of refraction of the coat, at least 1.
+    specular: a factor of the light that the coat reflects: red, green, blue in [0, 1], or a texture.)");
 }
 
 }  // namespace limn::python

@@ -1,4 +1,4 @@
-// The module limn._limn. What it has is re-exported by limn/__init__.py.
+// The module limn._limn. The public names of it are re-exported by limn/__init__.py.
 #include <nanobind/nanobind.h>
 
 #include "bindings.h"
@@ -10,9 +10,10 @@ NB_MODULE(_limn, module) {
     namespace nb = nanobind;
     using namespace limn::python;
 
-    module.doc() = "Exact ray queries and path tracing; see the package limn.";
+    module.doc() = "The compiled part of the package limn. Import limn instead.";
     module.attr("__version__") = limn::version();
     module.attr("INVALID_ID") = kInvalidId;
+    // Translate limn's exceptions to Python's.
     nb::register_exception_translator([](const std::exception_ptr& raised, void*) {
         try {
             std::rethrow_exception(raised);
@@ -24,6 +25,7 @@ NB_MODULE(_limn, module) {
             PyErr_SetString(PyExc_RuntimeError, error.what());
         }
     });
+    // Bind the classes and functions.
     bind_textures(module);
     bind_materials(module);
     bind_shapes(module);

@@ -1,4 +1,4 @@
-// Work on many rows, on several threads, that Ctrl-C can end.
+// A parallel loop over the rows of an array that Ctrl-C can end.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -11,12 +11,16 @@
 
 namespace limn::python {
 
-inline constexpr std::size_t kPart = 1024;  // rows that are converted and traced together: they stay in the cache
-inline constexpr std::size_t kMostRows = 1 << 20;  // between looks for Ctrl-C
+// The number of rows that are converted and traced together. They fit into the cache.
+inline constexpr std::size_t kPart = 1024;
+// The number of rows after which signals are checked.
+inline constexpr std::size_t kMostRows = 1 << 20;
 
-// work(first, count) for all rows, on `threads` of them; 0: on all of the machine. Lets the interpreter's lock go.
+// Calls work(first, count) for all rows, in parts of up to kPart rows, on `threads` threads; 0 uses all threads of the
+// machine. Releases the GIL while it works. Throws what a signal handler raises. \pre the GIL is held
 template <class Work>
 void for_all_rows(std::size_t rows, int threads, const Work& work) {
+    // Works on the rows from begin to end.
     const auto some = [&](std::size_t begin, std::size_t end) {
         const std::size_t parts = (end - begin + kPart - 1) / kPart;
         const auto one = [&](std::size_t part) {
@@ -29,13 +33,14 @@ void for_all_rows(std::size_t rows, int threads, const Work& work) {
         }
         const auto all = [&] { tbb::parallel_for(std::size_t{0}, parts, one); };
         if (threads == 0) return all();
-        // More than there are processors are allowed, for whoever asks for them.
+        // TBB limits threads to the number of processors. Raise the limit if more threads are asked for.
         using tbb::global_control;
         constexpr auto kMost = global_control::max_allowed_parallelism;
         const global_control allow(kMost,
                                    std::max(static_cast<std::size_t>(threads), global_control::active_value(kMost)));
         tbb::task_arena(threads).execute(all);
     };
+    // Work on kMostRows rows at a time, and check for signals after each.
     for (std::size_t begin = 0; begin < rows; begin += kMostRows) {
         {
             const nanobind::gil_scoped_release release;

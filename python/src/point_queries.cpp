@@ -1,4 +1,4 @@
-// What points are inside of, and how far away surfaces are.
+// Bindings of the queries of points: inside or outside, and the distance to the surfaces.
 #include <cmath>
 #include <vector>
 
@@ -13,7 +13,7 @@ constexpr const char* kPoints = "an array of points, shape (..., 3)";
 
 Rows rows_of(ArrayArgument points) { return Rows(points, "points", 3, kPoints); }
 
-// work(row, point) for all.
+// Calls work(row, point) for all points.
 template <class Work>
 void for_all_points(const Rows& rows, int threads, const Work& work) {
     rows.visit([&](const auto* numbers) {
@@ -26,6 +26,7 @@ void for_all_points(const Rows& rows, int threads, const Work& work) {
     });
 }
 
+// Returns an array of ask(point) for all points.
 template <class T, class Ask>
 nb::object answer_each(const Rows& rows, int threads, const Ask& ask) {
     const NewArray<T> answers = new_array<T>(rows.shape());
@@ -34,7 +35,7 @@ nb::object answer_each(const Rows& rows, int threads, const Ask& ask) {
     return answers.array;
 }
 
-// The outward normal where a point was found: that of a ray which arrives there.
+// Returns the outward normal at the nearest point. Computes it as that of a ray from `from` that hits the point.
 Vec3 normal_at(const CompiledScene& scene, const Point3& from, const ClosestPoint& nearest) {
     const RayHit hit{.t = 1,
                      .object = nearest.object,
@@ -44,7 +45,7 @@ Vec3 normal_at(const CompiledScene& scene, const Point3& from, const ClosestPoin
                      .index_matched = nearest.index_matched,
                      .primitive = nearest.primitive};
     Vec3 way = nearest.position - from;
-    if (way == Vec3{}) way = {1, 0, 0};
+    if (way == Vec3{}) way = {1, 0, 0};  // the point is on the surface: any direction will do
     return outward_normal(scene, Ray{.origin = nearest.position - way, .direction = way}, hit);
 }
 
@@ -68,6 +69,7 @@ nb::dict compute_closest_points(const CompiledScene& scene, const Rows& rows, in
     return answer;
 }
 
+// Returns the distance to the nearest surface, or infinity if there is none.
 double distance(const CompiledScene& scene, const Point3& point) {
     const std::optional<ClosestPoint> nearest = scene.closest_point(point);
     return nearest ? nearest->distance : kInfinity;
@@ -84,13 +86,14 @@ void bind_point_queries(nb::class_<CompiledScene>& type) {
         },
         given("points"), given("threads") = 0,
         nb::sig("def contains(self, points: numpy.typing.NDArray, threads: int = 0) -> numpy.typing.NDArray"),
-        R"(Whether each point is inside of a closed surface, or exactly on a surface: bool, shape (...).
+        R"(Returns True for each point that is inside a closed surface or exactly on a surface: bool, shape (...).
 
-By winding numbers, exactly. Where surfaces are open (see open_edges) inside means nothing. A point with a NaN is outside.
+A point is inside if its winding number is not 0. The answer is exact for closed surfaces, also if they overlap. It has
+no meaning if the surfaces are open (see open_edges). A point with a NaN is outside. Moving objects are at time 0.
 
 Args:
-    points: shape (..., 3), float64 or float32, C-contiguous, in the scene's units.
-    threads: on how many threads; 0 on all. The answers do not depend on it.)");
+    points: shape (..., 3), float64 or float32, C-contiguous, in world units.
+    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.)");
     type.def(
         "winding_number",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads) {
@@ -99,7 +102,10 @@ Args:
         },
         given("points"), given("threads") = 0,
         nb::sig("def winding_number(self, points: numpy.typing.NDArray, threads: int = 0) -> numpy.typing.NDArray"),
-        "How often surfaces wind around each point, exactly: int64, shape (...). Arguments as those of contains.");
+        R"(Returns the winding number of the surfaces around each point, exactly: int64, shape (...).
+
+It is 0 outside, 1 inside a closed surface whose normals point outward, and -1 if they point inward. The numbers of
+several surfaces are added. The arguments are those of contains.)");
     type.def(
         "compute_closest_points",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads, NameArgument dtype) {
@@ -109,16 +115,20 @@ Args:
             }));
         },
         given("points"), given("threads") = 0, nb::kw_only(), given("dtype") = "float64",
-        R"(The nearest point of all surfaces to each point.
+        R"(Returns the point of all surfaces that is nearest to each given point.
+
+Moving objects are at time 0. A ValueError is raised if a sphere or disk that may be the nearest is in an Instance that
+deforms it to another shape.
 
 Args:
-    points: shape (..., 3), float64 or float32, C-contiguous, in the scene's units.
-    threads: on how many threads; 0 on all. The answers do not depend on it.
-    dtype: "float64" or "float32", of the numbers in the answer.
+    points: shape (..., 3), float64 or float32, C-contiguous, in world units.
+    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.
+    dtype: type of the numbers in the answer, "float64" or "float32".
 
 Returns:
-    A dict of arrays: points (..., 3), the nearest ones; geometry_ids, primitive_ids, primitive_uvs and primitive_normals
-    as in cast_rays. For a point with a NaN, and in an empty scene: NaN, and ids of 4294967295.)");
+    A dict of arrays. "points" (..., 3) has the nearest points. "geometry_ids", "primitive_ids", "primitive_uvs" and
+    "primitive_normals" are as in cast_rays. If the given point has a NaN, or the scene is empty, then the nearest point
+    is NaN and the ids are 4294967295.)");
     type.def(
         "compute_distance",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads, NameArgument dtype) {
@@ -130,9 +140,9 @@ Returns:
         given("points"), given("threads") = 0, nb::kw_only(), given("dtype") = "float64",
         nb::sig("def compute_distance(self, points: numpy.typing.NDArray, threads: int = 0, *, dtype: str = 'float64') "
                 "-> numpy.typing.NDArray"),
-        "How far each point is from the nearest surface, in the scene's units: shape (...); inf for a point with a "
-        "NaN, "
-        "and in an empty scene. Arguments as those of compute_closest_points.");
+        R"(Returns the distance of each point from the nearest surface, in world units: shape (...).
+
+The distance is inf if the point has a NaN or the scene is empty. The arguments are those of compute_closest_points.)");
     type.def(
         "compute_signed_distance",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads, NameArgument dtype) {
@@ -145,7 +155,10 @@ Returns:
         given("points"), given("threads") = 0, nb::kw_only(), given("dtype") = "float64",
         nb::sig("def compute_signed_distance(self, points: numpy.typing.NDArray, threads: int = 0, *, "
                 "dtype: str = 'float64') -> numpy.typing.NDArray"),
-        "compute_distance, negative where contains is true; 0 exactly on a surface.");
+        R"(Returns the distance of each point from the nearest surface, negative if the point is inside.
+
+It is 0 if the point is exactly on a surface. Inside is defined by contains. The arguments are those of
+compute_closest_points.)");
 }
 
 }  // namespace limn::python

@@ -1,4 +1,4 @@
-// What rays meet.
+// Bindings of the queries of rays.
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,20 +15,21 @@ namespace {
 
 constexpr const char* kRays = "an array of rays, shape (..., 6)";
 
-// Rays as they were given, and their ends.
+// The rays of a query, as arrays, and their range of t.
 class RayRows {
 public:
-    Rows rows;
-    std::optional<Rows> directions;  // where `rows` are origins alone
+    Rows rows;                       // origins and directions, or origins alone if `directions` is set
+    std::optional<Rows> directions;  // the directions if they are in another array
     double t_min = 0, t_max = kInfinity;
 
-    // Origins and directions.
+    // Takes two arrays, of origins and of directions.
     RayRows(ArrayArgument origins, ArrayArgument ways)
         : rows(origins, "ray_origins", 3, "an array, shape (n, 3)"),
           directions(std::in_place, ways, "ray_directions", 3, "an array, shape (n, 3)") {
         if (directions->shape() != rows.shape()) wrong_value("ray_directions", "must have the shape of ray_origins");
     }
 
+    // Takes one array of rays, and t_min and t_max with the names that errors give them.
     RayRows(ArrayArgument rays, NumberArgument lowest, NumberArgument highest, const char* lowest_name,
             const char* highest_name)
         : rows(rays, "rays", 6, kRays), t_min(number(lowest, lowest_name)), t_max(number(highest, highest_name)) {
@@ -36,7 +37,7 @@ public:
         if (!(t_max >= t_min)) wrong_value(highest_name, "must be a number, not below " + std::string(lowest_name));
     }
 
-    // work(first, rays, of a thread) for all parts, on `threads` of them.
+    // Calls work(first, rays) for all parts of the rows. `first` is the row of the first ray. See for_all_rows.
     template <class Work>
     void for_all(int threads, const Work& work) const {
         rows.visit([&](const auto* numbers) {
@@ -46,7 +47,8 @@ public:
     }
 
 private:
-    // `stride` numbers from one origin and one direction to the next.
+    // The same for given arrays. `stride` is the number of elements from one origin to the next, and from one direction
+    // to the next.
     template <class T, class U, class Work>
     void for_all(int threads, const T* origins, const U* ways, std::size_t stride, const Work& work) const {
         for_all_rows(rows.count(), threads, [&](std::size_t first, std::size_t count) {
@@ -63,17 +65,20 @@ private:
     }
 };
 
+// Answers cast_rays with numbers of type T.
 template <class T>
 nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads) {
     const NewArray<T> t_hit = new_array<T>(rays.rows.shape());
     const MetArrays<T> met(rays.rows.shape());
     rays.for_all(threads, [&](std::size_t first, std::span<const Ray> some) {
+        // Find the hits and their normals.
         thread_local std::vector<RayHit> hits;
         hits.resize(some.size());
         scene.closest_hit(some, hits);
         thread_local std::vector<Vec3> normals;
         normals.resize(some.size());
         outward_normals(scene, some, hits, normals);
+        // Store them.
         for (std::size_t i = 0; i < some.size(); ++i) {
             const std::size_t row = first + i;
             t_hit.values[row] = static_cast<T>(hits[i].t);
@@ -91,7 +96,7 @@ nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads)
     return answer;
 }
 
-// What limn.trimesh asks: the triangle of each ray, -1 for none, and t.
+// Returns for each ray the triangle that it hits first, or -1, and t. limn.trimesh calls this.
 nb::object nearest(const CompiledScene& scene, const RayRows& rays, int threads) {
     const NewArray<std::int64_t> triangles = new_array<std::int64_t>(rays.rows.shape());
     const NewArray<double> t_hit = new_array<double>(rays.rows.shape());
@@ -130,14 +135,18 @@ nb::object count_intersections(const CompiledScene& scene, const RayRows& rays, 
     return counts.array;
 }
 
+// Answers list_intersections with numbers of type T.
 template <class T>
 nb::dict list_intersections(const CompiledScene& scene, const RayRows& rays, int threads) {
+    // Find the hits of each part.
     std::vector<RayHits> parts((rays.rows.count() + kPart - 1) / kPart);
     rays.for_all(threads,
                  [&](std::size_t first, std::span<const Ray> some) { scene.all_hits(some, parts[first / kPart]); });
-    std::vector<std::size_t> begin(parts.size() + 1, 0);  // of each part's hits among all
+    // Count them. Part p has the hits from begin[p] to begin[p + 1] of the result.
+    std::vector<std::size_t> begin(parts.size() + 1, 0);
     for (std::size_t p = 0; p < parts.size(); ++p) begin[p + 1] = begin[p] + parts[p].hits.size();
 
+    // Store them, in parallel.
     const std::vector<std::size_t> shape{begin.back()};
     const NewArray<std::int64_t> splits = new_array<std::int64_t>({rays.rows.count() + 1});
     const NewArray<std::int64_t> ray_ids = new_array<std::int64_t>(shape);
@@ -177,22 +186,25 @@ void bind_ray_queries(nb::class_<CompiledScene>& type) {
         },
         given("rays"), given("threads") = 0, nb::kw_only(), given("t_min") = 0.0, given("t_max") = kInfinity,
         given("dtype") = "float64",
-        R"(The nearest hit of each ray, exactly.
+        R"(Returns the nearest hit of each ray, exactly.
+
+The boundary of a ConstantMedium counts as a surface. Moving objects are at time 0.
 
 Args:
-    rays: shape (..., 6), float64 or float32, C-contiguous: origin and direction, in the scene's units. The direction
-        may have any length but zero. A ray with a NaN, or without a direction, misses.
-    threads: on how many threads; 0 on all. The answers do not depend on it.
-    t_min, t_max: hits count with t_min < t <= t_max, in units of the direction.
-    dtype: "float64" or "float32", of the numbers in the answer.
+    rays: origins and directions in world units: shape (..., 6), float64 or float32, C-contiguous. A direction may have
+        any length but 0. A ray misses if a number is NaN, an origin or a direction is infinite, or a direction is 0.
+    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.
+    t_min, t_max: a hit counts if t_min < t <= t_max. t is in units of the direction.
+    dtype: type of the numbers in the answer, "float64" or "float32".
 
 Returns:
-    A dict of arrays, `...` being the shape of the rays:
-    t_hit (...): how far away, in units of the direction; inf where the ray misses.
-    geometry_ids (...) uint32: the object, as Scene.add numbered it; 4294967295 where the ray misses.
-    primitive_ids (...) uint32: the triangle of a mesh, as in its array; 4294967295 where the ray misses.
-    primitive_uvs (..., 2): the weights of the triangle's second and third vertex.
-    primitive_normals (..., 3): the unit normal of the outward side; zero where the ray misses.)");
+    A dict of arrays. `...` is the shape of the rays.
+    t_hit (...): the distance of the hit, in units of the direction; inf if the ray misses.
+    geometry_ids (...) uint32: the number of the object, as Scene.add returned it; 4294967295 if the ray misses.
+    primitive_ids (...) uint32: the number of the primitive within the object, for a mesh the row of its array of faces;
+        4294967295 if the ray misses.
+    primitive_uvs (..., 2): for a triangle the barycentric weights of its second and third vertex.
+    primitive_normals (..., 3): the unit outward normal; 0 if the ray misses.)");
     type.def(
         "_nearest",
         [](const CompiledScene& scene, ArrayArgument origins, ArrayArgument directions, CountArgument threads) {
@@ -201,7 +213,7 @@ Returns:
         given("ray_origins"), given("ray_directions"), given("threads"),
         nb::sig("def _nearest(self, ray_origins: numpy.typing.NDArray, ray_directions: numpy.typing.NDArray, "
                 "threads: int) -> tuple[numpy.typing.NDArray, numpy.typing.NDArray]"),
-        "The triangle that each ray hits first, -1 for none, and t. Both arrays (n, 3) float64. For limn.trimesh.");
+        "Returns for each ray the triangle that it hits first, or -1, and t. Both arrays have shape (n, 3).");
     type.def(
         "_any",
         [](const CompiledScene& scene, ArrayArgument origins, ArrayArgument directions, CountArgument threads) {
@@ -210,7 +222,7 @@ Returns:
         given("ray_origins"), given("ray_directions"), given("threads"),
         nb::sig("def _any(self, ray_origins: numpy.typing.NDArray, ray_directions: numpy.typing.NDArray, "
                 "threads: int) -> numpy.typing.NDArray"),
-        "test_occlusions with arrays as _nearest takes them.");
+        "Returns the same as test_occlusions for arrays of origins and directions, both of shape (n, 3).");
     type.def(
         "test_occlusions",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,
@@ -220,7 +232,9 @@ Returns:
         given("rays"), given("threads") = 0, nb::kw_only(), given("t_min") = 0.0, given("t_max") = kInfinity,
         nb::sig("def test_occlusions(self, rays: numpy.typing.NDArray, threads: int = 0, *, t_min: float = 0.0, "
                 "t_max: float = math.inf) -> numpy.typing.NDArray"),
-        "Whether each ray hits anything with t_min < t <= t_max: bool, shape (...). Arguments as those of cast_rays.");
+        R"(Returns True for each ray that hits anything with t_min < t <= t_max: bool, shape (...).
+
+The arguments are those of cast_rays.)");
     type.def(
         "count_intersections",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,
@@ -230,11 +244,12 @@ Returns:
         given("rays"), given("threads") = 0, nb::kw_only(), given("t_min") = 0.0, given("t_max") = kInfinity,
         nb::sig("def count_intersections(self, rays: numpy.typing.NDArray, threads: int = 0, *, t_min: float = 0.0, "
                 "t_max: float = math.inf) -> numpy.typing.NDArray"),
-        R"(How many surfaces each ray passes through: int64, shape (...).
+        R"(Returns how often each ray passes through a surface: int64, shape (...).
 
-A passage through an edge or a vertex counts once; a ray that only touches a closed surface or runs along it enters and
-leaves, or misses. So the number is even between two points outside of closed surfaces, and odd if one of them is inside.
-It may differ from the number of hits that list_intersections gives. Arguments as those of cast_rays.)");
+A passage through an edge or a vertex counts once. A ray that touches a closed surface or runs along it counts as
+passing through it twice or not at all. The number is therefore even if both ends of the ray are outside all closed
+surfaces. It is odd if one end is outside and the other is inside one closed surface. The number may differ from the
+number of hits that list_intersections returns. The arguments are those of cast_rays.)");
     type.def(
         "list_intersections",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,
@@ -246,14 +261,16 @@ It may differ from the number of hits that list_intersections gives. Arguments a
         },
         given("rays"), given("threads") = 0, nb::kw_only(), given("t_min") = 0.0, given("t_max") = kInfinity,
         given("dtype") = "float64",
-        R"(Every hit of each ray, by t; at an edge or a vertex each triangle that the ray meets.
+        R"(Returns all hits of each ray, ordered by t.
 
-Arguments as those of cast_rays.
+A ray that passes through an edge or a vertex hits each of the triangles there. The arguments are those of cast_rays.
 
 Returns:
-    A dict of arrays over all m hits, ray after ray in the order of the flattened array:
-    ray_splits (n + 1,) int64: the hits of ray i are those from ray_splits[i] to ray_splits[i + 1], not included.
-    ray_ids (m,) int64: the ray. t_hit (m,), geometry_ids (m,), primitive_ids (m,), primitive_uvs (m, 2): as in cast_rays.)");
+    A dict of arrays with the m hits of all n rays, in the order of the rays.
+    ray_splits (n + 1,) int64: the hits of ray i are those from ray_splits[i] to ray_splits[i + 1], the last one not
+        included.
+    ray_ids (m,) int64: the row of the ray in the flattened array of rays.
+    t_hit (m,), geometry_ids (m,), primitive_ids (m,), primitive_uvs (m, 2): as in cast_rays.)");
 }
 
 }  // namespace limn::python

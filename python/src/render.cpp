@@ -1,4 +1,4 @@
-// Pictures.
+// Bindings of cameras and renders.
 #include "limn/render/render.h"
 
 #include <nanobind/stl/optional.h>
@@ -21,11 +21,13 @@ namespace limn::python {
 
 namespace {
 
+// Returns the number, or nothing if the argument is None.
 std::optional<double> number_or_none(NumberArgument argument, const char* name) {
     if (argument.object.is_none()) return std::nullopt;
     return number(argument, name);
 }
 
+// Constructs a Camera from the arguments of Camera.__init__.
 void construct(Camera* self, TripleArgument look_from, TripleArgument look_at, TripleArgument up, NumberArgument fov,
                NumberArgument aspect_ratio, NumberArgument aperture_angle, NumberArgument focus_distance,
                NumberArgument shutter_open, NumberArgument shutter_close, NameArgument projection,
@@ -47,11 +49,13 @@ void construct(Camera* self, TripleArgument look_from, TripleArgument look_at, T
         .view_height = number_or_none(view_height, "view_height")};
 }
 
+// Returns a number of at least 1.
 int count(CountArgument argument, const char* name) {
     return static_cast<int>(whole(argument, name, 1, std::numeric_limits<int>::max()));
 }
 
-// Left, top, right, bottom; limn checks that they lie in the picture.
+// Returns the crop window of the argument (left, top, right, bottom), or nothing if it is None. The render checks that
+// the window is inside the picture.
 std::optional<PixelBounds> window(WindowArgument argument) {
     if (argument.object.is_none()) return std::nullopt;
     const std::vector<nb::object> of = items(argument.object, 4, "crop", "four whole numbers or None");
@@ -59,7 +63,7 @@ std::optional<PixelBounds> window(WindowArgument argument) {
     return PixelBounds{side(0), side(1), side(2), side(3)};
 }
 
-// What a camera's rays depend on.
+// Returns settings with the fields that camera rays depend on. The other fields have their defaults.
 RenderSettings ray_settings(CountArgument width, CountArgument height, CountArgument seed, CountArgument threads,
                             FlagArgument antialias, NameArgument sampler, WindowArgument crop) {
     RenderSettings s;
@@ -74,6 +78,7 @@ RenderSettings ray_settings(CountArgument width, CountArgument height, CountArgu
     return s;
 }
 
+// Returns settings with all fields but `progress`.
 RenderSettings settings_of(CountArgument width, CountArgument height, CountArgument samples, CountArgument max_depth,
                            CountArgument seed, CountArgument threads, NumberArgument error, NumberArgument time_limit,
                            CountArgument most_samples, FlagArgument uniform, FlagArgument antialias,
@@ -95,6 +100,7 @@ const char* name_of(StoppedBy reason) {
     return std::array{"samples", "error", "time", "callback"}[static_cast<std::size_t>(reason)];
 }
 
+// Returns the report as RenderResult.report in _render.py describes it.
 nb::dict report_of(const RenderResult& result) {
     const RenderReport& r = result.report;
     nb::dict report;
@@ -117,6 +123,7 @@ nb::dict report_of(const RenderResult& result) {
     return report;
 }
 
+// Returns the estimated error as RenderResult.error in _render.py describes it.
 nb::dict error_of(const ErrorEstimate& e) {
     nb::dict error;
     error["estimate"] = e.estimate;
@@ -128,6 +135,7 @@ nb::dict error_of(const ErrorEstimate& e) {
     return error;
 }
 
+// Renders, and returns the arguments of RenderResult in _render.py: image, report, error, maps.
 nb::tuple render_arrays(const CompiledScene& scene, const Camera& camera, CountArgument width, CountArgument height,
                         CountArgument samples, CountArgument max_depth, CountArgument seed, CountArgument threads,
                         NumberArgument error, NumberArgument time_limit, CountArgument most_samples,
@@ -148,6 +156,7 @@ nb::tuple render_arrays(const CompiledScene& scene, const Camera& camera, CountA
     return nb::make_tuple(array_of(std::move(result.image)), report, estimate, maps);
 }
 
+// Returns the arguments of FirstHits in _render.py.
 nb::tuple first_hit_arrays(const CompiledScene& scene, const Camera& camera, CountArgument width, CountArgument height,
                            CountArgument seed, CountArgument threads, FlagArgument antialias, NameArgument sampler,
                            WindowArgument crop) {
@@ -165,27 +174,33 @@ nb::tuple first_hit_arrays(const CompiledScene& scene, const Camera& camera, Cou
 }  // namespace
 
 void bind_render(nb::module_& module) {
-    nb::class_<Progress>(module, "Progress", "How far a render has come.")
-        .def_ro("fraction", &Progress::fraction, "0 to 1, never decreasing.")
-        .def_ro("seconds", &Progress::seconds, "Since the render began.");
+    nb::class_<Progress>(module, "Progress", "The progress of a render.")
+        .def_ro("fraction", &Progress::fraction,
+                "The part of the render that is done, 0 to 1. It never decreases. With `error` or `time_limit` it is "
+                "an estimate.")
+        .def_ro("seconds", &Progress::seconds, "Seconds since the render began.");
     nb::class_<Camera>(module, "Camera", "A thin-lens camera.")
         .def("__init__", &construct, nb::kw_only(), given("look_from") = nb::make_tuple(0.0, 0.0, 1.0),
              given("look_at") = nb::make_tuple(0.0, 0.0, 0.0), given("up") = nb::make_tuple(0.0, 1.0, 0.0),
              given("vertical_fov") = 40.0, given("aspect_ratio") = nb::none(), given("aperture_angle") = 0.0,
              given("focus_distance") = nb::none(), given("shutter_open") = 0.0, given("shutter_close") = 1.0,
              given("projection") = "perspective", given("view_height") = nb::none(),
-             R"(Angles in degrees, lengths in world units, times within the shutter, 0 to 1.
+             R"(Makes a camera. Angles are in degrees, lengths in world units, times in units of the shutter, 0 to 1.
 
 Args:
-    look_from: the eye. look_at: what is in the middle of the picture. up: what is upward in it, of any length.
-    vertical_fov: full angle between the top and the bottom edge of a perspective.
-    aspect_ratio: width over height; None: that of the pixels.
-    aperture_angle: full angle of the cone that the lens fills, seen from the focus plane; 0: a pinhole.
-    focus_distance: to the plane in focus; None: |look_at - look_from|.
-    shutter_open, shutter_close: the time of a ray is uniform between them.
-    projection: 'perspective'; 'orthographic', from the plane through look_from that stands across the view; or
-        'panorama', to all sides, 360 degrees across the picture and 180 down it, with look_at in the middle.
-    view_height: of an orthographic picture, in world units; None: what vertical_fov takes in at look_at.)");
+    look_from: the position of the camera, the centre of its lens.
+    look_at: the point in the middle of the picture.
+    up: the direction that is upward in the picture. It may have any length, but must not be along the view.
+    vertical_fov: angle between the top and the bottom edge of a perspective picture.
+    aspect_ratio: width over height of the frame. None is the width over height in pixels.
+    aperture_angle: full angle of the cone whose apex is a point in focus and whose base is the lens. 0 is a pinhole.
+    focus_distance: distance of the plane in focus along the view axis. None is |look_at - look_from|.
+    shutter_open, shutter_close: times between which the time of a ray is uniform.
+    projection: "perspective", "orthographic" or "panorama". Orthographic rays start in the plane through look_from that
+        is perpendicular to the view. Without a lens they are parallel. A panorama is equirectangular: it spans 360
+        degrees horizontally and 180 degrees vertically, with look_at in its middle. It needs an aperture_angle of 0.
+    view_height: height of an orthographic picture in world units. None is the height that vertical_fov spans at
+        look_at.)");
     module.def("_render", &render_arrays, nb::arg("scene"), nb::arg("camera"), given("width"), given("height"),
                given("samples_per_pixel"), given("max_depth"), given("seed"), given("threads"), given("error"),
                given("time_limit"), given("max_samples_per_pixel"), given("uniform"), given("antialias"),

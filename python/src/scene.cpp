@@ -1,4 +1,4 @@
-// Scenes, and what they are compiled to.
+// Bindings of Scene and CompiledScene.
 #include "limn/scene/scene.h"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -31,7 +31,7 @@ void set_name(Scene& scene, NameArgument argument) {
     scene.name = nb::cast<std::string>(argument.object);
 }
 
-// None: there is no map, and the background counts.
+// Sets the environment map. None removes it.
 void set_environment(Scene& scene, EnvironmentArgument argument) {
     scene.environment = argument.object.is_none()
                             ? nullptr
@@ -39,39 +39,54 @@ void set_environment(Scene& scene, EnvironmentArgument argument) {
 }
 
 void bind_description(nb::module_& module) {
-    nb::class_<Scene>(module, "Scene", "Objects, lights and a background. Compile it to trace rays or to render.")
+    nb::class_<Scene>(module, "Scene", R"(A description of objects, lights and a background.
+
+It must be compiled for queries of rays and points. Changing it is not thread-safe.)")
         .def(nb::init<>())
         .def_prop_rw(
             "background", [](const Scene& scene) { return scene.background; }, &set_background,
-            nb::for_setter(given("background")), "What rays meet that hit nothing.")
+            nb::for_setter(given("background")),
+            "The Background. It gives the radiance of rays that hit nothing. An environment replaces it.")
         .def_prop_rw(
             "name", [](const Scene& scene) { return scene.name; }, &set_name, nb::for_setter(given("name")),
-            "In reports.")
+            "The name of the scene in reports.")
         .def("__len__", [](const Scene& scene) { return scene.objects().size(); })
         .def_prop_ro(
             "bounds", [](const Scene& scene) { return corners(scene.bounds()); },
             nb::sig("def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
-            "The lowest and the highest corner of a box around all objects.")
+            "The lower and the upper corner of a box around all objects, over the whole shutter.")
         .def_prop_rw(
             "environment",
             [](const Scene& scene) { return std::const_pointer_cast<EnvironmentMap>(scene.environment); },
             &set_environment, nb::for_getter(nb::sig("def environment(self) -> EnvironmentMap | None")),
-            nb::for_setter(given("environment")), "An EnvironmentMap in place of the background; None: there is none.")
+            nb::for_setter(given("environment")), "The EnvironmentMap that replaces the background, or None.")
         .def(
             "add", [](Scene& scene, const LightSource& light) { scene.add(light); }, nb::arg("light"),
-            "Adds a light that is no shape. It has no number.")
+            R"(Adds a light that isn't a shape.
+
+Args:
+    light: a PointLight, SpotLight, DirectionalLight or SunLight.)")
         .def("add", &add, given("object"),
-             "Adds a shape. Returns its number, counted from 0, which is geometry_ids of hits.")
+             R"(Adds a shape.
+
+Args:
+    object: a Hittable.
+
+Returns:
+    The number of the object. Objects are numbered from 0 in the order in which they are added. Hits have this number in
+    geometry_ids.)")
         .def("add_triangles", &add_triangles, given("vertices"), given("faces"), given("material") = nb::none(),
-             R"(Adds a mesh of copied arrays.
+             R"(Adds a triangle mesh. The arrays are copied.
 
 Args:
     vertices: shape (n, 3), float32, in world units, finite.
-    faces: shape (m, 3), uint32 or other whole numbers: rows of vertices, counter-clockwise seen from outside.
-    material: for render; queries need none.
+    faces: the vertices of each triangle, counter-clockwise seen from outside: shape (m, 3), uint32 or another integer
+        type.
+    material: a Material. Queries need no material; renders do.
 
 Returns:
-    The mesh's number, counted from 0, which is geometry_ids of hits.)")
+    The number of the object. Objects are numbered from 0 in the order in which they are added. Hits have this number in
+    geometry_ids.)")
         .def(
             "compile",
             [](const Scene& scene) {
@@ -79,25 +94,31 @@ Returns:
                 const nb::gil_scoped_release release;
                 return compile(copy);
             },
-            "Builds what queries and render need, on all threads. Later changes of the scene are not in it.");
+            R"(Returns a CompiledScene, for queries and renders.
+
+The function uses all threads and releases the GIL. Later changes of the scene do not change the compiled scene.)");
 }
 
 }  // namespace
 
 void bind_scene(nb::module_& module) {
-    nb::class_<CompiledScene> compiled(module, "CompiledScene",
-                                       "A scene ready to be traced. Immutable; any number of threads may ask it.");
+    nb::class_<CompiledScene> compiled(
+        module, "CompiledScene",
+        "A scene for queries and renders. It does not change. Any number of threads may use it.");
     compiled
         .def_prop_ro(
             "primitives", [](const CompiledScene& scene) { return scene.stats().primitives; },
-            "How many there are, instanced ones counted once an instance.")
+            "The number of primitives. A primitive counts once for each instance of it.")
         .def_prop_ro(
             "memory_bytes", [](const CompiledScene& scene) { return scene.stats().memory_bytes; },
-            "Of its tables, and of arrays that it shares with the description.")
+            "The memory in bytes, including mesh arrays that are shared with the Scene.")
         .def_prop_ro(
-            "name", [](const CompiledScene& scene) { return scene.name(); }, "Scene.name.")
+            "name", [](const CompiledScene& scene) { return scene.name(); }, "The name of the Scene.")
         .def("open_edges", &CompiledScene::open_edges, nb::call_guard<nb::gil_scoped_release>(),
-             "How many edges are used more often one way than the other; 0: all surfaces are closed.");
+             R"(Returns the number of open edges of triangles, quads and disks.
+
+An edge is open if the faces at it do not use it equally often in both directions. The number is 0 if all surfaces are
+closed.)");
     bind_ray_queries(compiled);
     bind_point_queries(compiled);
     bind_description(module);

@@ -1,4 +1,4 @@
-// What rays can hit.
+// Bindings of the shapes, except for meshes.
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 
@@ -34,7 +34,7 @@ nb::tuple corners(const Box& box) {
 namespace {
 
 void bind_flat_shapes(nb::module_& module) {
-    nb::class_<Triangle, Hittable>(module, "Triangle", "A flat triangle in double.")
+    nb::class_<Triangle, Hittable>(module, "Triangle", "A flat triangle with float64 vertices.")
         .def(
             "__init__",
             [](Triangle* self, TripleArgument a, TripleArgument b, TripleArgument c, MaterialArgument material) {
@@ -42,7 +42,11 @@ void bind_flat_shapes(nb::module_& module) {
                     Triangle(point(a, "a"), point(b, "b"), point(c, "c"), material_or_none(material, "material"));
             },
             given("a"), given("b"), given("c"), given("material") = nb::none(),
-            "The outward normal is (b - a) x (c - a).");
+            R"(Makes a triangle. The outward normal is (b - a) x (c - a).
+
+Args:
+    a, b, c: the vertices, in world units.
+    material: a Material. Queries need no material; renders do.)");
     nb::class_<Quad, Hittable>(module, "Quad", "A parallelogram.")
         .def(
             "__init__",
@@ -51,8 +55,13 @@ void bind_flat_shapes(nb::module_& module) {
                                 material_or_none(material, "material"));
             },
             given("corner"), given("edge_u"), given("edge_v"), given("material") = nb::none(),
-            "corner + u edge_u + v edge_v, u and v in [0, 1]. The outward normal is edge_u x edge_v.");
-    nb::class_<Disk, Hittable>(module, "Disk", "A disk, the rim included.")
+            R"(Makes the parallelogram corner + u edge_u + v edge_v, with u and v in [0, 1].
+
+Args:
+    corner: in world units.
+    edge_u, edge_v: the edges, in world units. They must not be parallel. The outward normal is edge_u x edge_v.
+    material: a Material. Queries need no material; renders do.)");
+    nb::class_<Disk, Hittable>(module, "Disk", "A flat disk, including its rim.")
         .def(
             "__init__",
             [](Disk* self, TripleArgument center, TripleArgument normal, NumberArgument radius,
@@ -61,11 +70,17 @@ void bind_flat_shapes(nb::module_& module) {
                                 material_or_none(material, "material"));
             },
             given("center"), given("normal"), given("radius"), given("material") = nb::none(),
-            "normal: outward, of any length. radius: in world units, over 0.");
+            R"(Makes a disk.
+
+Args:
+    center: in world units.
+    normal: the outward normal. It may have any length but 0.
+    radius: in world units, over 0.
+    material: a Material. Queries need no material; renders do.)");
 }
 
 void bind_groups(nb::module_& module) {
-    nb::class_<HittableList, Hittable>(module, "HittableList", "Objects in a row, as one.")
+    nb::class_<HittableList, Hittable>(module, "HittableList", "A list of objects that is one object.")
         .def(
             "__init__",
             [](HittableList* self, nb::typed<nb::sequence, Hittable> objects) {
@@ -73,7 +88,10 @@ void bind_groups(nb::module_& module) {
                 for (const nb::handle object : objects) shapes.push_back(shape_of(object, "objects"));
                 new (self) HittableList(std::move(shapes));
             },
-            given("objects"));
+            given("objects"), R"(Makes a list.
+
+Args:
+    objects: a sequence of Hittables.)");
     module.def(
         "make_box",
         [](TripleArgument corner, TripleArgument opposite, MaterialArgument material) {
@@ -81,8 +99,12 @@ void bind_groups(nb::module_& module) {
                             material_or_none(material, "material"));
         },
         given("corner"), given("opposite"), given("material") = nb::none(),
-        "The six quads of an axis-aligned box, normals outward.");
-    nb::class_<Instance, Hittable>(module, "Instance", "An object placed, turned, scaled, or moving.")
+        R"(Returns the six quads of an axis-aligned box, with outward normals, as a HittableList.
+
+Args:
+    corner, opposite: two opposite corners, in world units.
+    material: a Material. Queries need no material; renders do.)");
+    nb::class_<Instance, Hittable>(module, "Instance", "A transformed object. It may move.")
         .def(
             "__init__",
             [](Instance* self, ShapeArgument object, MatrixArgument at_time0, MatrixArgument at_time1) {
@@ -94,10 +116,15 @@ void bind_groups(nb::module_& module) {
                     new (self) Instance(shape, first, matrix(at_time1, "at_time1"));
             },
             given("object"), given("world_from_object"), given("at_time1") = nb::none(),
-            "world_from_object: shape (3, 4) or (4, 4), rows, not singular. at_time1: the matrix at the end of the "
-            "shutter, "
-            "if the object moves.");
-    nb::class_<ConstantMedium, Hittable>(module, "ConstantMedium", "Fog, smoke, milk inside of a closed boundary.")
+            R"(Makes an instance of an object.
+
+Args:
+    object: a Hittable.
+    world_from_object: an affine transform that is not singular: shape (3, 4) or (4, 4), rows of the matrix.
+    at_time1: the transform at time 1 if the object moves, or None. world_from_object is then the transform at time 0.
+        The matrices between are interpolated linearly. They must not be singular either.)");
+    nb::class_<ConstantMedium, Hittable>(module, "ConstantMedium",
+                                         "A homogeneous medium in a closed boundary: fog, smoke or milk.")
         .def(
             "__init__",
             [](ConstantMedium* self, ShapeArgument boundary, NumberArgument density, ColorArgument albedo) {
@@ -110,18 +137,23 @@ void bind_groups(nb::module_& module) {
                     new (self) ConstantMedium(shape, extinction, color(albedo.object, "albedo"));
             },
             given("boundary"), given("density"), given("albedo"),
-            "density: extinction per world unit of length. albedo: the share that scatters, in [0, 1], or a texture.");
+            R"(Makes a medium with an isotropic phase function.
+
+Args:
+    boundary: a Hittable, which must not contain a ConstantMedium. It does not reflect or refract light.
+    density: extinction per world unit of length, at least 0.
+    albedo: single-scattering albedo, linear red, green, blue in [0, 1], or a texture.)");
 }
 
 }  // namespace
 
 void bind_shapes(nb::module_& module) {
-    nb::class_<Hittable>(module, "Hittable", "What a ray can hit.")
+    nb::class_<Hittable>(module, "Hittable", "A shape, an object that rays can hit.")
         .def_prop_ro(
             "bounds", [](const Hittable& shape) { return corners(shape.bounds()); },
             nb::sig("def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]"),
-            "The lowest and the highest corner of a box around it, over the whole shutter.");
-    nb::class_<Sphere, Hittable>(module, "Sphere", "A sphere, still or moving.")
+            "The lower and the upper corner of a box around the shape, over the whole shutter.");
+    nb::class_<Sphere, Hittable>(module, "Sphere", "A sphere. It may move.")
         .def(
             "__init__",
             [](Sphere* self, TripleArgument center, NumberArgument radius, MaterialArgument material,
@@ -132,9 +164,13 @@ void bind_shapes(nb::module_& module) {
             },
             given("center"), given("radius"), given("material") = nb::none(), nb::kw_only(),
             given("center1") = nb::none(),
-            "radius: in world units, not 0; a negative one turns the normal inward. center1: the centre at the end of "
-            "the "
-            "shutter, if the sphere moves.");
+            R"(Makes a sphere.
+
+Args:
+    center: in world units.
+    radius: in world units, not 0. A negative radius turns the normal inward.
+    material: a Material. Queries need no material; renders do.
+    center1: the centre at time 1 if the sphere moves, or None. `center` is then the centre at time 0.)");
     bind_flat_shapes(module);
     bind_groups(module);
 }

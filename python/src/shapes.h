@@ -1,4 +1,4 @@
-// Shapes and their materials as arguments.
+// Conversion of arguments that are shapes, meshes or materials.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,15 @@
 
 namespace limn::python {
 
+// Returns the material, or null if the argument is None.
 std::shared_ptr<const Material> material_or_none(MaterialArgument argument, const char* name);
 std::shared_ptr<const Hittable> shape_of(nb::handle object, const char* name);
-nb::tuple corners(const Box& box);  // the lower one, the upper one
+// Returns the lower and the upper corner of a box, each as a tuple of three numbers.
+nb::tuple corners(const Box& box);
 
-// The arrays of a mesh: (n, 3) float32 and (m, 3) of whole numbers.
+// Returns a copy of the arrays of a mesh: vertices (n, 3) float32 and faces (m, 3) of an integer type.
 MeshData mesh_data(ArrayArgument vertices, ArrayArgument faces);
+// Returns a mesh. Throws a ValueError that names `faces` if no triangle has an area.
 std::shared_ptr<const Mesh> make_mesh(MeshData data, std::vector<std::shared_ptr<const Material>> materials);
 
 }  // namespace limn::python

@@ -1,7 +1,7 @@
-"""Cycles, through Blender's Python module.
+"""Renders scenes with Cycles, by Blender's Python module bpy.
 
 Opaque balls are points of a point cloud, the only exact spheres of Cycles. Balls of glass are meshes with exact
-normals. A ball of light is a point light, which has a radius. Coordinates stay as they are, with y up."""
+normals. Spherical lamps are point lights with a radius. Coordinates are not changed: y is up."""
 
 import math
 import re
@@ -13,11 +13,11 @@ from mathutils import Matrix, Vector
 
 from geometry import index_of, pixels, sphere_mesh
 
-FEW_LIGHTS = 16  # up to here the light tree costs more than it gains
+FEW_LIGHTS = 16  # up to this number of lights the light tree costs more than it gains
 
 
 class Shader:
-    """The nodes of a material or world."""
+    """The node tree of a material or a world."""
 
     def __init__(self, owner):
         owner.use_nodes = True
@@ -25,7 +25,7 @@ class Shader:
         self.tree.nodes.clear()
 
     def node(self, kind, inputs=(), **settings):
-        """Returns the node's first output. An input is the output of another node, or a value."""
+        """Adds a node and returns its first output. An input is the output of another node, or a value."""
         node = self.tree.nodes.new("ShaderNode" + kind)
         for name, value in settings.items():
             setattr(node, name, value)
@@ -37,7 +37,8 @@ class Shader:
         return node.outputs[0] if node.outputs else None
 
     def color(self, color, space="Linear Rec.709"):
-        if "cell" in color:  # Color1 is used where the sum of the whole parts is odd
+        """Returns a colour as an input: a value or the output of a texture node."""
+        if "cell" in color:  # Color1 is the colour of cells whose indices have an odd sum
             return self.node("TexChecker", {"Vector": self.node("NewGeometry"), "Color1": rgba(color["odd"]),
                                             "Color2": rgba(color["even"]), "Scale": 1 / color["cell"]})
         if "picture" in color:
@@ -51,6 +52,7 @@ def rgba(color):
 
 
 def image_of(values, space="Linear Rec.709"):
+    """Returns a Blender image of an array. The rows of the array go from the top, those of Blender from the bottom."""
     height, width, _ = values.shape
     made = bpy.data.images.new("picture", width, height, float_buffer=True)
     made.colorspace_settings.name = space
@@ -61,7 +63,8 @@ def image_of(values, space="Linear Rec.709"):
 
 
 def material_of(told, tinted=False):
-    """A Blender material. If `tinted`, the colour is an attribute of the points."""
+    """Returns a Blender material. If `tinted` is true, its colour is an attribute of the points."""
+    # Make a medium.
     made = bpy.data.materials.new(told["kind"])
     shader = Shader(made)
     if told["kind"] == "medium":
@@ -70,10 +73,12 @@ def material_of(told, tinted=False):
             "Absorption Coefficients": told["density"] - scattering, "Scatter Coefficients": scattering,
             "Anisotropy": 0.0})})
         return made
+    # Make the nodes of a surface's colour and normal.
     color = shader.node("Attribute", attribute_name="tint") if tinted else shader.color(told.get("color", (1, 1, 1)))
     inputs = {"Color": color, "Roughness": math.sqrt(told.get("alpha", 0))}
     if "normal_map" in told:
         inputs["Normal"] = shader.node("NormalMap", {"Color": shader.color(told["normal_map"], "Non-Color")})
+    # Make the node that scatters or emits.
     if told["kind"] == "lambertian":
         surface = shader.node("BsdfDiffuse", inputs)
     elif told["kind"] == "mirror":
@@ -87,6 +92,7 @@ def material_of(told, tinted=False):
     else:
         surface = shader.node("Emission", {"Color": color, "Strength": 1.0})
         made.cycles.emission_sampling = "FRONT_BACK"
+    # Make the holes.
     if "opacity" in told:
         opacity = told["opacity"]
         share = shader.color(opacity, "Non-Color") if "picture" in opacity else opacity[0]
@@ -96,6 +102,7 @@ def material_of(told, tinted=False):
 
 
 def add(data, material=None):
+    """Adds an object with these data to the scene and returns it."""
     made = bpy.data.objects.new(data.name, data)
     bpy.context.scene.collection.objects.link(made)
     if material is not None:
@@ -115,7 +122,7 @@ def add_mesh(told, material):
 
 
 def add_points(spheres, tinted):
-    """Adds balls of one kind as a point cloud, which Blender makes from a mesh of their centres."""
+    """Adds balls of one kind of material as a point cloud. Blender can only make it from a mesh, of their centres."""
     data = bpy.data.meshes.new("centres")
     data.from_pydata([s["center"] for s in spheres], [], [])
     data.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", [s["radius"] for s in spheres])
@@ -139,11 +146,12 @@ def add_spheres(spheres):
             add_mesh(sphere_mesh(sphere, 64), material_of(material))
         else:
             clouds.setdefault(("cell" in material["color"], material["kind"]), []).append(sphere)
-    for (checkered, _), balls in sorted(clouds.items()):  # Cycles loses the tints unless their cloud is the first
+    for (checkered, _), balls in sorted(clouds.items()):  # Cycles loses the tints unless their cloud is added first
         add_points(balls, tinted=not checkered)
 
 
 def add_light(kind, power):
+    """Adds a light and returns its data and its object."""
     light = bpy.data.lights.new("light", kind)
     light.color, light.energy = np.array(power) / max(power), max(power)
     return light, add(light)
@@ -168,7 +176,7 @@ def add_sky(scene):
     world = bpy.context.scene.world = bpy.data.worlds.new("sky")
     shader = Shader(world)
     if np.ndim(scene.sky) == 3:
-        # The axis of Blender's maps is z, the scene's is y.
+        # Turn the map: z is up in Blender's maps, y in the scene.
         turn = Matrix(((0, 0, -1), (-1, 0, 0), (0, 1, 0))).to_euler()
         around = shader.node("Mapping", {"Vector": shader.node("TexCoord"), "Rotation": turn}, vector_type="VECTOR")
         color = shader.node("TexEnvironment", {"Vector": around}, image=image_of(scene.sky), interpolation="Linear",
@@ -201,6 +209,7 @@ class Peer:
     about = f"Cycles of Blender {bpy.app.version_string}, tabulated Sobol, light tree from {FEW_LIGHTS + 1} lights on"
 
     def open(self, scene):
+        # Add the scene.
         bpy.ops.wm.read_factory_settings(use_empty=True)
         add_spheres(scene.spheres)
         for mesh in scene.meshes:
@@ -219,7 +228,7 @@ class Peer:
         images = render.image_settings
         images.file_format, images.color_depth, images.color_mode = "OPEN_EXR", "32", "RGB"
         for name in ("max", "diffuse", "glossy", "transmission", "volume"):
-            # The segments from the camera and to a light do not count.
+            # Cycles does not count the segments from the camera and to a light.
             setattr(cycles, f"{name}_bounces", max(0, scene.max_depth - 2))
         cycles.transparent_max_bounces = 64
         cycles.caustics_reflective = cycles.caustics_refractive = True
@@ -236,7 +245,7 @@ class Peer:
         scene.render.threads, scene.render.filepath = threads, path
         scene.cycles.samples, scene.cycles.seed = spp, seed
         bpy.ops.render.render(write_still=True)
-        # The header of the picture says how long the sampling took.
+        # Read the seconds of sampling in the header of the picture.
         time = re.search(rb"cycles\.[^\0]*\.render_time\0string\0....(\d\d):(\d\d\.\d\d)", Path(path).read_bytes(),
                          re.DOTALL)
         return 60 * int(time[1]) + float(time[2]), spp

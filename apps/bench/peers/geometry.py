@@ -1,26 +1,32 @@
-"""A scene as `limn_transport SCENE --describe` writes it."""
+"""Reads scenes as `limn_transport SCENE --describe` writes them."""
 
 import json
 
 import numpy as np
 
-RARELY = 0.02  # how often the back of a lamp is sampled if a wall is right behind it, over other sides of lamps
-NEAR = 2  # distance of such a wall
-GAP = 1e-3  # between the two sides of a lamp
-LARGE = 50  # radius of a ball
-LIFT = 0.2  # of media: Mitsuba misses a boundary that touches the floor
+RARELY = 0.02  # sampling weight of the back of a lamp that is close to a wall; other sides have 1
+NEAR = 2  # largest distance of such a wall
+GAP = 1e-3  # distance between the front and the back of a lamp
+LARGE = 50  # radius from which a ball counts as the ground
+LIFT = 0.2  # how far media are moved up, because Mitsuba misses a boundary that touches the floor
 
 
 class Scene:
-    """Numbers are arrays. A colour is three numbers, {"cell", "even", "odd"} for a checker, or {"picture"} with rows
-    from the top, bilinear and repeated. `sky` is None in the dark, a colour, or a latitude-longitude map."""
+    """A scene to render.
+
+    The vertices, triangles, normals and uvs of meshes are arrays. A colour is one of three: a list of red, green and
+    blue; a dict {"cell", "even", "odd"} for a checkerboard; a dict {"picture"} for an image with rows from the top,
+    which is interpolated bilinearly and repeated. `sky` is None if there is no light around the scene. Otherwise it is
+    a colour or a latitude-longitude map."""
 
     def __init__(self, text):
+        # Read the description.
         told = json.loads(text)
         self.max_depth, self.camera, self.suns = told["max_depth"], told["camera"], told["suns"]
         self.spheres, self.meshes, self.media = told["spheres"], told["meshes"], told["media"]
         for medium in self.media:
             (medium["boundary"],) = medium["boundary"]["meshes"]
+        # Convert the meshes to arrays.
         for mesh in self.meshes + [medium["boundary"] for medium in self.media]:
             mesh["vertices"] = np.array(mesh["vertices"], dtype=np.float32)
             mesh["triangles"] = np.array(mesh["triangles"], dtype=np.uint32)
@@ -28,6 +34,7 @@ class Scene:
                 mesh[name] = np.array(mesh[name], dtype=np.float32) if mesh.get(name) else None
         for medium in self.media:
             medium["boundary"]["vertices"][:, 1] += LIFT
+        # Read the light around the scene.
         bottom, top = told["background"]["bottom"], told["background"]["top"]
         self.has_map = told["environment"] is not None
         if self.has_map:
@@ -38,7 +45,7 @@ class Scene:
             self.sky = top if any(top) else None
 
     def backs(self):
-        """The other sides of lamps, for renderers whose lamps shine to one side, and how often to sample them."""
+        """Yields the back of each lamp and its sampling weight, for renderers whose lamps emit on one side only."""
         for lamp in self.meshes:
             if lamp["material"]["kind"] != "light":
                 continue
@@ -52,15 +59,16 @@ class Scene:
 
 
 def sphere_mesh(sphere, rings):
-    """A ball of triangles with exact normals, which point inward if the radius is negative. A large ball is the ground,
-    and has more rings towards its top."""
+    """Returns a ball as a mesh with exact normals, which point inward if the radius is negative. A large ball is the
+    ground and has more rings towards its top."""
     segments, polar = 2 * rings, np.linspace(0, np.pi, rings + 1)
     if abs(sphere["radius"]) >= LARGE:
         segments, polar = 512, np.concatenate([[0], np.geomspace(1e-4, np.pi, 400)])
     around = 2 * np.pi * np.arange(segments) / segments
     sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
     normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), -1).reshape(-1, 3)
-    # a and b are neighbours in a ring, c and d are below them. The first ring is the top, the last the bottom.
+    # Connect the rings. a and b are neighbours in a ring. c and d are below them. The first and the last ring are the
+    # poles.
     rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
     a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
     c, d = a + segments, b + segments
@@ -70,18 +78,19 @@ def sphere_mesh(sphere, rings):
 
 
 def pixels(picture):
+    """Returns an image as an array of shape (height, width, 3)."""
     return np.array(picture["values"], dtype=np.float32).reshape(picture["height"], picture["width"], 3)
 
 
 def index_of(metal):
-    """The index of refraction, eta and k, that a RoughConductor makes of reflectance and edge tint."""
+    """Returns the index of refraction, eta and k, that RoughConductor computes from reflectance and edge tint."""
     r, tint = np.array(metal["reflectance"]), np.array(metal["edge_tint"])
     eta = tint * (1 - r) / (1 + r) + (1 - tint) * (1 + np.sqrt(r)) / (1 - np.sqrt(r))
     return eta, np.sqrt(np.maximum(0, (r * (eta + 1) ** 2 - (eta - 1) ** 2) / (1 - r)))
 
 
 def sky_image(bottom, top, height=512):
-    """The gradient over a latitude-longitude map, from straight up in its first row to straight down in its last."""
+    """Returns the gradient as a latitude-longitude map. Its first row is straight up, its last row straight down."""
     upward = np.cos(np.pi * (np.arange(height) + 0.5) / height)[:, None, None]
     rows = (1 - upward) / 2 * np.array(bottom) + (1 + upward) / 2 * np.array(top)
     return np.ascontiguousarray(np.broadcast_to(rows, (height, 2 * height, 3)), dtype=np.float32)

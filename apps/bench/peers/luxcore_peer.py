@@ -1,6 +1,7 @@
-"""LuxCore: path tracing on the processor, independent samples.
+"""Renders scenes with LuxCore, by path tracing on the processor with independent samples.
 
-It knows triangles alone: balls are meshes with exact normals. Its lamps shine to one side. In its sky z is up."""
+LuxCore has only triangles, so that balls are meshes with exact normals. Its lamps emit on one side only. z is up in its
+sky."""
 
 import time
 
@@ -9,7 +10,7 @@ import pyluxcore
 
 from geometry import sphere_mesh
 
-Y_UP = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # columns: the sky's z becomes the scene's y
+Y_UP = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]  # a matrix by columns that turns the sky's z to the scene's y
 
 
 def floats(values):
@@ -39,13 +40,13 @@ class Peer:
             self.add(medium["boundary"], self.medium(medium))
 
     def define(self, kind, settings):
-        """Defines one of the lights, materials, objects, textures or volumes, and returns its name."""
+        """Adds a definition and returns its name. `kind` is lights, materials, objects, textures or volumes."""
         name = f"{kind}{len(self.told)}"
         self.told.update({f"scene.{kind}.{name}.{key}": value for key, value in settings.items()})
         return name
 
     def properties(self, more):
-        """Returns what was defined since the last call, and more."""
+        """Returns the definitions since the last call together with `more`."""
         properties = pyluxcore.Properties()
         for name, value in {**self.told, **more}.items():
             properties.Set(pyluxcore.Property(name, value))
@@ -53,6 +54,7 @@ class Peer:
         return properties
 
     def add(self, mesh, material):
+        """Adds a mesh. `material` is the name of its material."""
         arrays = (None if mesh[part] is None else [*map(tuple, mesh[part].tolist())]
                   for part in ("vertices", "triangles", "normals"))
         self.scene.DefineMesh(f"mesh of {material}", *arrays, None, None, None)
@@ -97,12 +99,14 @@ class Peer:
         return self.define("materials", {"type": "null", "volume.interior": volume})
 
     def render(self, path, size, spp, seed, threads):
-        c, low = self.camera, 2 / size  # LuxCore's pixel (x, y) is the (x, y + 1) of others
+        # Set the camera. LuxCore's pixel (x, y) is the pixel (x, y + 1) of other renderers.
+        c, low = self.camera, 2 / size
         camera = {"type": "perspective", "lookat.orig": floats(c["look_from"]), "lookat.target": floats(c["look_at"]),
                   "up": floats(c["up"]), "fieldofview": c["vertical_fov"], "lensradius": c["lens_radius"],
                   "focaldistance": c["focus_distance"], "screenwindow": [-1, 1, -1 - low, 1 - low],
                   "autofocus.enable": False, "cliphither": 1e-3, "clipyon": 1e5}
         self.scene.Parse(self.properties({f"scene.camera.{name}": value for name, value in camera.items()}))
+        # Set the integrator.
         session = pyluxcore.RenderSession(pyluxcore.RenderConfig(self.properties({
             "renderengine.type": "PATHCPU", "sampler.type": "RANDOM", "sampler.random.adaptive.strength": 0.0,
             "renderengine.seed": 1000 * seed,  # thread i has seed + i
@@ -110,6 +114,7 @@ class Peer:
             "film.filter.type": "NONE", "film.outputs.0.type": "RGB", "film.outputs.0.filename": path,
             **{f"path.pathdepth.{kind}": self.depth for kind in ("total", "diffuse", "glossy", "specular")},
             "path.clamping.variance.maxvalue": 0.0, "path.hybridbackforward.enable": False}), self.scene))
+        # Render.
         session.Start()
         start = time.perf_counter()
         while not session.HasDone():

@@ -1,11 +1,11 @@
-"""Mitsuba 3: path tracing with the multijitter sampler, compiled by LLVM.
+"""Renders scenes with Mitsuba 3, by path tracing with the multijitter sampler, compiled by LLVM.
 
-Its area lights shine to one side. It has no solid textures: the checker is a plug-in."""
+Its area lights emit on one side only. It has no solid textures, so that the checkerboard is a plug-in."""
 
 import os
 from pathlib import Path
 
-# The packages libllvm18 and newer have this name. LLVM 15 and 16 crash on some processors.
+# Find the LLVM of Debian's packages libllvm18 and newer, which have this name. LLVM 15 and 16 crash on some processors.
 os.environ.setdefault("DRJIT_LIBLLVM_PATH", str(max(Path("/usr/lib").glob("*/libLLVM.so.*"), default="none installed")))
 
 import drjit as dr
@@ -14,13 +14,15 @@ import numpy as np
 
 from geometry import index_of, pixels
 
-LANES = 1 << 24  # paths at once: more take more memory, and are not faster
-FAR = 1e4  # distance of the discs that stand for suns
+LANES = 1 << 24  # number of paths at once; more would take more memory and not be faster
+FAR = 1e4  # distance of the discs that replace suns
 
 mi.set_variant("llvm_ad_rgb")
 
 
 class SolidChecker(mi.Texture):
+    """A three-dimensional checkerboard."""
+
     def __init__(self, props):
         super().__init__(props)
         self.cell = props["cell"]
@@ -76,7 +78,7 @@ def bsdf(material):
 
 
 def surface(material, share=1.0):
-    """What the material decides of a shape. `share` scales how often a lamp is sampled."""
+    """Returns the properties of a shape that depend on its material. `share` is the sampling weight of a lamp."""
     told = {"bsdf": bsdf(material)}
     if material["kind"] == "light":
         told["emitter"] = {"type": "area", "radiance": rgb(material["color"]), "sampling_weight": share}
@@ -84,7 +86,7 @@ def surface(material, share=1.0):
 
 
 def shapes(told, share=1.0):
-    """A mesh, or the quads that it consists of: Mitsuba samples rectangles faster."""
+    """Returns a mesh, or the rectangles that it consists of. Mitsuba samples rectangles faster."""
     properties = surface(told["material"], share)
     if told["normals"] is not None or len(told["vertices"]) != 2 * len(told["triangles"]):
         return [mesh(told, properties)]
@@ -108,12 +110,13 @@ def mesh(told, properties):
         if told[values] is not None:
             parameters[name] = told[values].ravel()
     if told["uvs"] is not None:
-        parameters["vertex_texcoords"] = (told["uvs"] * [1, -1] + [0, 1]).ravel()  # its pictures begin at the top
+        parameters["vertex_texcoords"] = (told["uvs"] * [1, -1] + [0, 1]).ravel()  # v is downward in its images
     parameters.update()
     return made
 
 
 def sun_disc(sun):
+    """Returns a distant lamp with the irradiance and the angular radius of a sun."""
     to_sun = -np.array(sun["direction"]) / np.linalg.norm(sun["direction"])
     radius = np.radians(sun["angular_radius"])
     up = [0, 1, 0] if abs(to_sun[1]) < 0.9 else [1, 0, 0]
@@ -140,20 +143,21 @@ class Peer:
             "phase": {"type": "isotropic"}}}) for medium in scene.media]
         parts += [sun_disc(sun) for sun in scene.suns]
         if np.ndim(scene.sky) == 3:
-            # The left edge of its maps is -z, that of limn's +z.
+            # Turn the map: the left edge of Mitsuba's maps is -z, of limn's +z.
             turned = np.ascontiguousarray(np.roll(scene.sky, scene.sky.shape[1] // 2, axis=1))
             parts.append({"type": "envmap", "bitmap": mi.Bitmap(turned)})
         elif scene.sky is not None:
             parts.append({"type": "constant", "radiance": rgb(scene.sky)})
         self.scene = mi.load_dict({"type": "scene", **{f"part{i}": part for i, part in enumerate(parts)}})
         self.camera = scene.camera
-        # Roulette pays unless light has to pass through glass.
+        # Use Russian roulette unless light has to pass through glass.
         glass = any("glass" in shape["material"]["kind"] for shape in scene.spheres + scene.meshes)
         self.integrator = {"type": "volpath" if scene.media else "path", "max_depth": scene.max_depth,
                            "rr_depth": 100 if glass else 5}
 
     def render(self, path, size, spp, seed, threads):
-        """The seconds are those of the kernels: recording and compiling them does not count."""
+        """Returns the seconds that the kernels take, without those of recording and compiling them."""
+        # Set the camera, the film and the sampler.
         c = self.camera
         told = {"type": "perspective", "fov": c["vertical_fov"], "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e5,
                 "to_world": mi.ScalarTransform4f().look_at(c["look_from"], c["look_at"], c["up"]),
@@ -165,14 +169,15 @@ class Peer:
         sensor = mi.load_dict(told)
         dr.set_thread_count(threads)
         sensor.sampler().set_sample_count(spp)
-        spp = sensor.sampler().sample_count()  # rounded up to rows times columns of strata
+        spp = sensor.sampler().sample_count()  # rounded up to a product of rows and columns of strata
         passes = next(n for n in range(1, spp + 1) if spp % n == 0 and spp // n * size**2 <= LANES)
         integrator = mi.load_dict({**self.integrator, "samples_per_pass": spp // passes})
+        # Render.
         dr.kernel_history_clear()
         picture = mi.render(self.scene, sensor=sensor, integrator=integrator, spp=spp, seed=seed)
         dr.eval(picture)
         dr.sync_thread()
         seconds = 1e-3 * sum(kernel["execution_time"] for kernel in dr.kernel_history())
-        dr.set_thread_count(2)  # with one thread, the writing never ends
+        dr.set_thread_count(2)  # with one thread Mitsuba never finishes writing
         mi.Bitmap(picture).write(path)
         return seconds, spp

@@ -1,9 +1,9 @@
-"""One of limn's peers: python worker.py NAME FILE_DESCRIPTOR.
+"""Runs one of limn's peers: python worker.py NAME FILE_DESCRIPTOR.
 
-A peer is a module NAME_peer with a class Peer, which has an `about` (name, version and settings), open(Scene), and
-render(picture, size, spp, seed, threads). That writes an EXR file, and returns the seconds of rendering alone and the
-samples a pixel. A worker receives a description of a scene and then the arguments of renders. It answers with (True,
-result) or (False, message)."""
+A peer is a module NAME_peer with a class Peer. Peer has a text `about` with name, version and settings, a method
+open(Scene), and a method render(picture, size, spp, seed, threads). render writes an EXR file and returns the seconds
+of rendering alone and the samples of each pixel. The worker receives the description of a scene, and then the arguments
+of one render after the other. It answers each with (True, result) or (False, message)."""
 
 import importlib
 import os
@@ -23,9 +23,9 @@ if __name__ == "__main__":
         while True:
             pipe.send((True, peer.render(*pipe.recv())))
     except EOFError:
-        pass  # the other end is closed
+        pass  # the other end of the pipe is closed
     except Exception as problem:
         traceback.print_exc()
         pipe.send((False, f"{type(problem).__name__}: {problem}"))
     sys.stderr.flush()
-    os._exit(0)  # what the renderers do at their ends is not always clean
+    os._exit(0)  # skips the renderers' own cleanup, which is not reliable

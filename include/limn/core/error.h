@@ -1,6 +1,6 @@
 /// \file
-/// The exceptions that limn throws. Besides them only std::bad_alloc and what user-defined classes and callbacks throw
-/// may leave a function.
+/// The exceptions that limn throws. Its functions throw nothing else, except std::bad_alloc and the exceptions of
+/// user-defined classes and callbacks.
 #pragma once
 
 #include <stdexcept>
@@ -8,24 +8,25 @@
 
 namespace limn {
 
-/// What every limn function throws when it cannot do its work. `what()` names the file, line or argument.
+/// The base class of limn's exceptions. It is thrown by a function that cannot do its work. `what()` names the file,
+/// line or argument.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// Something is wrong in an argument alone: an impossible camera, a negative size, a NaN radius.
+/// An invalid argument, for example an impossible camera, a negative size or a NaN radius.
 class ArgumentError : public Error {
 public:
     using Error::Error;
 };
 
-/// Something is wrong with a file: missing, unreadable, malformed, unwritable. `what()` starts with its path.
+/// A fault of a file: it is missing, unreadable or malformed, or cannot be written. `what()` starts with its path.
 class FileError : public Error {
 public:
-    /// `what()` is "path: problem".
+    /// Makes `what()` return "path: problem".
     FileError(const std::string& path, const std::string& problem) : Error(path + ": " + problem), path_(path) {}
-    const std::string& path() const { return path_; }  ///< as the caller named it
+    const std::string& path() const { return path_; }  ///< the path as the caller gave it
 
 private:
     std::string path_;

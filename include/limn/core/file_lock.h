@@ -1,17 +1,23 @@
 /// \file
-/// Who may write a file.
+/// A lock that keeps other processes from writing a file.
 #pragma once
 
 #include <string>
 
 namespace limn {
 
-/// The right to write a file. One object has it at a time, of all processes, and it ends with its process. It holds
-/// over replacements of the file: the lock is on PATH.lock beside it, which a killed process leaves behind without
-/// harm. Where the file system has no locks, every process gets one.
+/// An exclusive lock on the writing of a file.
+///
+/// - At any time at most one FileLock in all processes holds the lock of a path.
+/// - The lock ends with the object, or with its process.
+/// - The lock is held on a second file, PATH.lock, so it outlasts a replacement of PATH. The destructor deletes
+///   PATH.lock. A killed process leaves PATH.lock behind, which does no harm.
+/// - On a file system without locks every process gets the lock.
 class FileLock {
 public:
-    /// \throws FileError if it is held already, by this process or another, or PATH.lock cannot be made
+    /// Takes the lock, without waiting.
+    /// \throws FileError if this process or another holds it already, PATH.lock cannot be created, or links lead in a
+    /// circle
     explicit FileLock(const std::string& path);
     ~FileLock();
     FileLock(const FileLock&) = delete;

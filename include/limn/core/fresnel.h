@@ -1,14 +1,16 @@
 /// \file
-/// The choice of a dielectric's reflectance.
+/// The formulas for the reflectance of a dielectric.
 #pragma once
 
 #include <cstdint>
 
 namespace limn {
 
-/// The reflectance of a dielectric: Fresnel's equations for unpolarised light (Born and Wolf, Principles of Optics, 7th
-/// ed., section 1.5.2), or Schlick's approximation (An Inexpensive BRDF Model for Physically-based Rendering, 1994)
-/// with the incident-side cosine on both sides, as in Shirley, Ray Tracing in One Weekend.
+/// A formula for the reflectance of a dielectric.
+///
+/// - `exact`: Fresnel's equations for unpolarised light (Born and Wolf, Principles of Optics, 7th ed., section 1.5.2).
+/// - `schlick`: Schlick's approximation (An Inexpensive BRDF Model for Physically-based Rendering, 1994). It takes the
+///   cosine of the incident direction on both sides of the surface, as in Shirley, Ray Tracing in One Weekend.
 enum class Fresnel : std::uint8_t { exact, schlick };
 
 }  // namespace limn

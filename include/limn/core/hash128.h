@@ -1,5 +1,5 @@
 /// \file
-/// A digest, which stands for a large thing where only equality counts.
+/// A digest, to compare large data for equality.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace limn {
 
-/// 128 bits of XXH3 (Collet, xxHash: https://xxhash.com): of different things never equal, except in an attack.
-/// The same on every processor.
+/// A 128-bit digest by XXH3 (Collet, xxHash: https://xxhash.com). Digests of different data don't collide by accident;
+/// they can be made to collide on purpose. A digest is the same on every processor.
 using Hash128 = std::array<std::uint64_t, 2>;
 
 }  // namespace limn

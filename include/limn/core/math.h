@@ -1,5 +1,5 @@
 /// \file
-/// Numeric constants and the bound on accumulated rounding.
+/// Numeric constants, and a bound on accumulated rounding errors.
 #pragma once
 
 #include <limits>
@@ -10,17 +10,18 @@
 
 namespace limn {
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< the t of a miss
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< infinity; the t of a miss
 inline constexpr double kPi = 3.14159265358979323846;                         ///< the double nearest to pi
 
-/// Largest relative error of one rounded double operation, 2^-53.
+/// The largest relative error of one rounded operation on doubles, 2^-53.
 inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Bound on the relative error that n rounded operations accumulate (Higham, Accuracy and Stability of Numerical
-/// Algorithms, 2nd ed., 2002, Lemma 3.1). \pre n >= 0
+/// Returns a bound on the relative error that n rounded operations accumulate (Higham, Accuracy and Stability of
+/// Numerical Algorithms, 2nd ed., 2002, Lemma 3.1).
+/// \pre n >= 0
 constexpr double gamma(int n) { return n * kRoundoff / (1 - n * kRoundoff); }
 
-/// Degrees to radians.
+/// Converts degrees to radians.
 constexpr double radians(double degrees) { return degrees * (kPi / 180); }
 
 }  // namespace limn

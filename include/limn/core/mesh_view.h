@@ -1,5 +1,5 @@
 /// \file
-/// A mesh's arrays as the tracing code sees them.
+/// Views of the arrays of a mesh.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace limn {
 
-/// Views of the arrays of an indexed triangle mesh; not owning. Every index is in range.
+/// The arrays of an indexed triangle mesh, which it does not own. Every index is in range.
 struct MeshView {
-    std::span<const Float3> vertices;               ///< in object space
-    std::span<const Index3> triangles;              ///< rows of `vertices`
-    std::span<const Float3> normals;                ///< per vertex, or empty
-    std::span<const Float2> uvs;                    ///< per vertex, or empty
-    std::span<const std::uint32_t> material_slots;  ///< per triangle, or empty: all slot 0
+    std::span<const Float3> vertices;               ///< positions in object space
+    std::span<const Index3> triangles;              ///< indices into `vertices`
+    std::span<const Float3> normals;                ///< one per vertex, or empty
+    std::span<const Float2> uvs;                    ///< one per vertex, or empty
+    std::span<const std::uint32_t> material_slots;  ///< one per triangle; empty: slot 0 for all
 };
 
 }  // namespace limn

@@ -7,28 +7,33 @@
 
 namespace limn {
 
-struct RayFrame;  // limn's own
+struct RayFrame;  // internal
 
-/// The half-open segment origin + t direction, t in (t_min, t_max]. The direction need not have unit length; t is in
-/// units of it. `time` is in shutter units, 0 to 1; finite times outside are clamped by whatever moves.
+/// A ray: the points origin + t direction with t in the half-open interval (t_min, t_max]. The direction need not have
+/// unit length; t is in units of the direction.
 struct Ray {
     Point3 origin;             ///< finite
-    Vec3 direction;            ///< of any finite length but zero
-    double t_min = 0;          ///< open: a hit at t_min is none
-    double t_max = kInfinity;  ///< closed: a hit at t_max is one
-    double time = 0;           ///< in shutter units
-    /// limn's own, null in a ray that you make. Inside instances it says what the rounded origin and direction stand
-    /// for, so that decisions are exact. Valid during the call of hit() that receives it. A copy with another t_min or
-    /// t_max keeps it. One with another origin or direction is another ray, and taken as it is. Queries of a
-    /// CompiledScene take every ray as it is.
+    Vec3 direction;            ///< finite and not zero, of any length
+    double t_min = 0;          ///< excluded: a hit at t_min is not found
+    double t_max = kInfinity;  ///< included: a hit at t_max is found
+    /// The time in shutter units: 0 when the shutter opens, 1 when it closes. Moving objects clamp it to [0, 1].
+    double time = 0;
+    /// Internal data of a ray inside an instance; null in a ray that you make. The origin and the direction in the
+    /// space of an instance are rounded. The frame describes the exact ray, so that limn's shapes can decide exactly
+    /// whether they are hit.
+    ///
+    /// - The pointer is valid during the call of Hittable::hit that receives the ray.
+    /// - A copy of the ray may have another t_min or t_max.
+    /// - If a copy has another origin or direction, shapes ignore its frame and use its own numbers.
+    /// - Queries of a CompiledScene ignore the frame.
     const RayFrame* frame = nullptr;
 
-    /// The point at t, rounded.
+    /// Returns the point at t, rounded.
     constexpr Point3 at(double t) const { return origin + t * direction; }
 };
 
-/// Whether a ray can be traced: finite origin, direction and time, a direction that is not zero, no NaN, t_min <=
-/// t_max, t_min below +infinity. In every query an unusable ray misses.
+/// Returns true if a ray can be traced. Its origin, direction and time are then finite, its direction is not zero,
+/// t_min <= t_max and t_min < +infinity. In every query an unusable ray misses.
 inline bool is_usable(const Ray& r) {
     return is_finite(r.origin) && is_finite(r.direction) && !(r.direction == Vec3{}) && r.t_min <= r.t_max &&
            r.t_min < kInfinity && std::isfinite(r.time);

@@ -1,5 +1,5 @@
 /// \file
-/// What is known of one point on a surface, and how a material scatters there.
+/// Points on surfaces, and the results of scattering there.
 #pragma once
 
 #include <cstdint>
@@ -13,71 +13,76 @@ namespace limn {
 class Material;
 struct MaterialThunks;
 
-/// Which material a surface has: a row of the compiled scene's table, or a user-defined object with the functions to
-/// call on it. Not owning: valid as long as the scene that it came from.
+/// The material of a surface: a row of the compiled scene's table of materials, or a user-defined object and the
+/// functions to call on it. It owns nothing, and is valid as long as the scene that it came from.
 struct MaterialRef {
-    static constexpr std::uint32_t kNone = 0xffffffff;    ///< an id: no material
-    static constexpr std::uint32_t kObject = 0xfffffffe;  ///< an id: `object` is the material
+    static constexpr std::uint32_t kNone = 0xffffffff;    ///< the id of no material
+    static constexpr std::uint32_t kObject = 0xfffffffe;  ///< the id of a user-defined material
 
-    std::uint32_t id = kNone;                ///< row in the table; kObject: `object` counts; kNone: no material
-    const Material* object = nullptr;        ///< the described material, where id == kObject
-    const MaterialThunks* thunks = nullptr;  ///< how to call it
+    std::uint32_t id = kNone;                ///< row of the table of materials, kObject or kNone
+    const Material* object = nullptr;        ///< the user-defined material if id == kObject
+    const MaterialThunks* thunks = nullptr;  ///< the functions to call on `object`
 };
 
-/// A point on a surface (or in a medium, where normal is zero), in world space.
+/// A point on a surface or in a medium, in world space. In a medium the normals are zero.
 struct Surface {
-    Point3 position;         ///< as computed: rounded
-    Vec3 position_error;     ///< bound on the distance of `position` from the true surface along each axis
-    Normal3 normal;          ///< geometric, unit, on the side of front_face
-    Normal3 shading_normal;  ///< interpolated, unit, same side; equals `normal` where the shape has no own normals
+    Point3 position;         ///< the computed point, rounded
+    Vec3 position_error;     ///< bound on the distance of `position` from the surface along each axis
+    Normal3 normal;          ///< geometric normal, unit, on the side that the ray came from
+    Normal3 shading_normal;  ///< unit, on the side of `normal`; equals `normal` unless the shape has normals of its own
     Uv uv;                   ///< texture coordinates
-    /// Whether the ray came from the side of the shape's outward normal. Of rays within 1e-15 of its plane: either.
+    /// True if the ray came from the side of the shape's outward normal. For a ray within 1e-15 radians of the surface
+    /// either value is possible.
     bool front_face = true;
-    MaterialRef material;  ///< valid as long as the compiled scene
-    /// How the position moves with u; zero of user-defined shapes and at poles of spheres, edges of a mesh's triangle
-    /// where its uv have no area.
+    MaterialRef material;  ///< the material; valid as long as the compiled scene
+    /// The derivatives of the position with respect to uv.u and uv.v. They are zero on user-defined shapes and at the
+    /// poles of spheres. In a mesh triangle whose texture coordinates have no area they are edges of the triangle.
+    ///@{
     Vec3 dp_du;
-    Vec3 dp_dv;  ///< the same with v
+    Vec3 dp_dv;
+    ///@}
 
-    /// A ray that leaves in `direction` from a point moved off the surface by its error bound, towards the side that
-    /// the direction points to, so that it cannot hit the same flat or convex surface again (Pharr, Jakob, Humphreys,
-    /// Physically Based Rendering, 4th ed., section 6.8).
-    /// \param direction of any length, towards either side: t is in units of it
-    /// \param time in shutter units, passed on
+    /// Returns a ray that starts at this point and goes in `direction`. Its origin is moved off the surface by the
+    /// error bound, towards the side that the direction points to. So it cannot hit the same flat or convex surface
+    /// again (Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., section 6.8).
+    /// \param direction the direction of the ray, of any length and towards either side
+    /// \param time the time of the ray, in shutter units
     Ray spawn_ray(const Vec3& direction, double time) const;
 
-    /// A ray to `target` with t_max just under 1: a surface through the target does not count as an obstacle. Direction
-    /// is target - origin, so that t is a fraction of the way. Of the target only its coordinates are known: for a
-    /// point computed on a large surface prefer the form below.
+    /// Returns a ray from this point to `target`, to test for obstacles. Its direction is target - origin. Its t_max is
+    /// just under 1, so that a surface through the target is no obstacle. The error of the target is estimated from its
+    /// coordinates. Prefer the overload below for a point on a surface, because a Surface knows its error.
     Ray spawn_ray_to(const Point3& target, double time) const;
 
-    /// The same for a target on another surface, which both ends leave by their error bounds.
+    /// Returns a ray from this point to a point on another surface, to test for obstacles. Both ends are moved off
+    /// their surfaces by their error bounds. The direction is the difference of the moved ends, and t_max is 1 - 2^-40.
     Ray spawn_ray_to(const Surface& target, double time) const;
 };
 
-/// The origin that `Surface::spawn_ray` starts from: `position`, moved along `normal` by the error's extent along it,
-/// towards the side that `direction` points to, and then to the next double.
+/// Returns the origin of the ray that `Surface::spawn_ray` makes. `position` is moved along `normal` by
+/// dot(abs(normal), error), towards the side that `direction` points to. Each coordinate that moves is then moved to
+/// the next double.
 Point3 offset_origin(const Point3& position, const Vec3& error, const Normal3& normal, const Vec3& direction);
 
-/// Three independent numbers in [0, 1).
+/// Three independent random numbers, uniform in [0, 1).
 struct Random3 {
-    /// Each uniform.
+    /// One of the numbers.
     ///@{
     double x = 0, y = 0, z = 0;
     ///@}
 };
 
-/// A scattered direction. Absent (std::nullopt) means absorbed.
+/// A sampled direction of scattered light. A function that samples one returns std::nullopt if light is absorbed.
 struct ScatterSample {
     Vec3 direction;  ///< unit, world space, away from the surface
-    Color weight;    ///< f |cos| / pdf: what the path's throughput is multiplied by
-    double pdf = 0;  ///< per solid angle; 0 marks a specular direction, which no other sampling can find
+    Color weight;    ///< f |cos| / pdf, the factor by which the path's throughput changes
+    double pdf = 0;  ///< per solid angle; 0 for a specular direction, which light sampling cannot find
 };
 
-/// The scattering function for a given pair of directions.
+/// The value of a scattering function for a pair of directions.
 struct ScatterValue {
     Color value;     ///< f |cos|, in 1/sr
-    double pdf = 0;  ///< with which `sample` draws that direction, per solid angle; 0 if it never does
+    double pdf = 0;  ///< density per solid angle with which `sample` draws the direction; 0 if it never does
 };
 
 }  // namespace limn

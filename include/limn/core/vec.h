@@ -1,6 +1,6 @@
 /// \file
-/// Points, vectors and normals in double precision. They are distinct types so that a normal cannot be transformed as
-/// a vector by accident; `Vec3(n)` and `Normal3(v)` convert on purpose.
+/// Points, vectors and normals in double precision. They are distinct types, so that a normal cannot be transformed as
+/// a vector by accident. `Vec3(n)` and `Normal3(v)` convert explicitly.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace limn {
 
 /// A displacement or direction, in the user's unit of length.
 struct Vec3 {
-    /// Coordinates, by name or by axis number 0, 1, 2; zero by default.
+    /// The coordinates, by name or by axis number 0, 1, 2. They are zero by default.
     ///@{
     double x = 0, y = 0, z = 0;
 
@@ -24,9 +24,9 @@ struct Vec3 {
     ///@}
 };
 
-/// A direction that is perpendicular to a surface; transformed by the inverse transpose.
+/// A direction perpendicular to a surface. It is transformed by the inverse transpose.
 struct Normal3 {
-    /// Coordinates. Conversions from and to a vector have to be spelt out.
+    /// The coordinates. Conversions from and to a vector are explicit.
     ///@{
     double x = 0, y = 0, z = 0;
 
@@ -36,12 +36,12 @@ struct Normal3 {
     constexpr Normal3 operator-() const { return {-x, -y, -z}; }
     constexpr bool operator==(const Normal3&) const = default;
     ///@}
-    constexpr explicit operator Vec3() const { return {x, y, z}; }  ///< on purpose
+    constexpr explicit operator Vec3() const { return {x, y, z}; }  ///< converts to a vector
 };
 
 /// A location in space.
 struct Point3 {
-    /// Coordinates, by name or by axis number 0, 1, 2; the origin by default.
+    /// The coordinates, by name or by axis number 0, 1, 2. They are zero by default.
     ///@{
     double x = 0, y = 0, z = 0;
 
@@ -56,41 +56,42 @@ struct Point3 {
 
 /// Texture coordinates.
 struct Uv {
-    /// u to the right, v upward over an image; what they mean on a shape, the shape says.
+    /// In an image, u goes from left to right and v from the bottom up. Each shape defines its own u and v.
     ///@{
     double u = 0, v = 0;
     constexpr bool operator==(const Uv&) const = default;
     ///@}
 };
 
-/// A triple of float32, the form in which a mesh stores positions and normals.
+/// Three float32: a position or normal of a mesh.
 struct Float3 {
-    /// Coordinates.
+    /// The coordinates.
     ///@{
     float x = 0, y = 0, z = 0;
     constexpr bool operator==(const Float3&) const = default;
     ///@}
 };
 
-/// A pair of float32, the form in which a mesh stores texture coordinates.
+/// Two float32: texture coordinates of a mesh.
 struct Float2 {
-    /// As in Uv.
+    /// The texture coordinates, as in Uv.
     ///@{
     float u = 0, v = 0;
     constexpr bool operator==(const Float2&) const = default;
     ///@}
 };
 
-/// Three vertex numbers of a mesh triangle.
+/// The indices of the three vertices of a mesh triangle.
 struct Index3 {
-    /// Counted from 0; counter-clockwise seen from outside.
+    /// Indices from 0. The vertices are in counter-clockwise order, seen from outside.
     ///@{
     std::uint32_t a = 0, b = 0, c = 0;
     constexpr bool operator==(const Index3&) const = default;
     ///@}
 };
 
-/// By coordinate. A difference of points is a vector; points do not add up.
+/// Return the result of the operation on each coordinate. The difference of two points is a vector. Points cannot be
+/// added.
 ///@{
 constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -104,7 +105,7 @@ constexpr Point3 operator+(const Point3& a, const Vec3& b) { return {a.x + b.x, 
 constexpr Point3 operator-(const Point3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 ///@}
 
-/// The scalar product.
+/// Return the scalar product.
 ///@{
 constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 constexpr double dot(const Normal3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -112,45 +113,46 @@ constexpr double dot(const Vec3& a, const Normal3& b) { return dot(b, a); }
 constexpr double dot(const Normal3& a, const Normal3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 ///@}
 
-/// The vector product, right-handed: cross(x, y) = z.
+/// Returns the right-handed vector product: cross(x, y) = z.
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// May overflow and underflow; `length` does not.
+/// Returns the squared length. It may overflow or underflow, unlike `length`.
 constexpr double length_squared(const Vec3& a) { return dot(a, a); }
 
-/// Euclidean length. std::hypot: neither overflows nor underflows on the way.
+/// Returns the Euclidean length, by std::hypot: no intermediate result overflows or underflows.
 inline double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// The largest magnitude of a coordinate; NaN counts only where all three are.
+/// Return the largest magnitude of a coordinate. A NaN is ignored unless all three coordinates are NaN.
 ///@{
 inline double max_abs(const Vec3& a) {
-    const auto largest = [](double x, double y) { return x < y || x != x ? y : x; };  // std::fmax without its call
+    const auto largest = [](double x, double y) { return x < y || x != x ? y : x; };  // std::fmax, inlined
     return largest(std::abs(a.x), largest(std::abs(a.y), std::abs(a.z)));
 }
 inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 ///@}
 
-/// `a` scaled by a power of two, exactly, so that its largest coordinate lies in [1/2, 1): its squares stay in range.
-/// Zero stays zero.
+/// Returns `a` times a power of two such that the largest magnitude of a coordinate is in [1/2, 1). Its squared length
+/// cannot overflow. The zero vector stays zero.
+/// \pre a is finite
 inline Vec3 scale_to_one(const Vec3& a) {
     int exponent = 0;
     std::frexp(max_abs(a), &exponent);
     return {std::ldexp(a.x, -exponent), std::ldexp(a.y, -exponent), std::ldexp(a.z, -exponent)};
 }
 
-/// The unit vector along (x, y, z), whose square double does not hold: a case that `normalize` seldom meets.
+/// Returns the unit vector along (x, y, z). `normalize` calls it if the squared length may overflow or underflow.
 Vec3 normalize_extreme(double x, double y, double z);
 
-/// `a` scaled to unit length, right for any finite non-zero length; NaN for the zero vector.
+/// Returns the unit vector along `a`. The length of `a` may be any finite number but zero; the zero vector gives NaN.
 inline Vec3 normalize(const Vec3& a) {
     const double squared = dot(a, a);
     if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
     return normalize_extreme(a.x, a.y, a.z);
 }
 
-/// The unit vector along cross(a, b), right for edges of any finite size; NaN where they are parallel.
+/// Returns the unit vector along cross(a, b). The vectors may have any finite length. Parallel vectors give NaN.
 inline Vec3 unit_cross(const Vec3& a, const Vec3& b) {
     const Vec3 c = cross(a, b);
     const double squared = dot(c, c);
@@ -158,10 +160,10 @@ inline Vec3 unit_cross(const Vec3& a, const Vec3& b) {
     return normalize(cross(scale_to_one(a), scale_to_one(b)));
 }
 
-/// The magnitude of each coordinate.
+/// Returns the vector of the magnitudes of the coordinates.
 constexpr Vec3 abs(const Vec3& a) { return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z}; }
 
-/// Neither infinite nor NaN in any coordinate.
+/// Return true if no coordinate is infinite or NaN.
 ///@{
 inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 inline bool is_finite(const Normal3& a) { return is_finite(Vec3(a)); }

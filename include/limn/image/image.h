@@ -1,5 +1,5 @@
 /// \file
-/// Pixels in memory.
+/// Images in memory.
 #pragma once
 
 #include <cstddef>
@@ -11,48 +11,51 @@
 
 namespace limn {
 
-/// Pixels of a picture: columns [left, right) of rows [top, bottom), counted from its upper left corner.
+/// A rectangle of pixels: columns [left, right) of rows [top, bottom).
 struct PixelBounds {
-    /// As said above.
+    /// Columns and rows, counted from the upper left corner of the picture.
     ///@{
     int left = 0, top = 0, right = 0, bottom = 0;
     ///@}
 
-    int width() const { return right - left; }            ///< in pixels
-    int height() const { return bottom - top; }           ///< in pixels
-    bool operator==(const PixelBounds&) const = default;  ///< the same pixels
+    int width() const { return right - left; }            ///< returns the number of columns
+    int height() const { return bottom - top; }           ///< returns the number of rows
+    bool operator==(const PixelBounds&) const = default;  ///< compares the bounds
 };
 
-/// An owning image of linear RGB float32, rows from the top, pixels from the left. Values are not clamped. Reading is
-/// thread-safe, and so is setting different pixels.
+/// An image of linear RGB values in float32, which it owns. Pixel (0, 0) is the upper left one. Values are not clamped.
+/// Threads may read an image at the same time, and set different pixels at the same time.
 class Image {
 public:
-    Image() = default;  ///< no pixels
-    /// \throws ArgumentError if a side is not positive, or memory lacks
+    Image() = default;  ///< makes an image without pixels
+    /// Makes an image of one colour. \throws ArgumentError if a side is not positive, or there is not enough memory
     Image(int width, int height, const Color& fill = {});
 
-    int width() const { return width_; }            ///< in pixels
-    int height() const { return height_; }          ///< in pixels
-    bool empty() const { return values_.empty(); }  ///< no pixels
+    int width() const { return width_; }            ///< returns the width in pixels
+    int height() const { return height_; }          ///< returns the height in pixels
+    bool empty() const { return values_.empty(); }  ///< returns true if there are no pixels
 
-    /// \pre 0 <= x < width(), 0 <= y < height()
+    /// Returns the pixel in column x, row y. \pre 0 <= x < width(), 0 <= y < height()
     Color at(int x, int y) const {
         const float* p = &values_[offset(x, y)];
         return {p[0], p[1], p[2]};
     }
-    /// Rounds to float32. \pre as for `at`
+    /// Sets the pixel in column x, row y, rounded to float32. \pre 0 <= x < width(), 0 <= y < height()
     void set(int x, int y, const Color& c) {
         float* p = &values_[offset(x, y)];
-        p[0] = static_cast<float>(c.r), p[1] = static_cast<float>(c.g), p[2] = static_cast<float>(c.b);
+        p[0] = static_cast<float>(c.r);
+        p[1] = static_cast<float>(c.g);
+        p[2] = static_cast<float>(c.b);
     }
 
-    /// width * height * 3 values: r g b, r g b, ... Valid as long as the image.
+    /// Return the width * height * 3 values: r g b, r g b, ... row by row from the top. The span is valid until the
+    /// image is destroyed or assigned to.
     ///@{
     std::span<const float> values() const { return values_; }
     std::span<float> values() { return values_; }
     ///@}
 
-    bool operator==(const Image&) const = default;  ///< sizes and values; an image with a NaN equals nothing
+    bool operator==(const Image&) const = default;  ///< compares sizes and values; NaN differs from NaN
 
 private:
     std::size_t offset(int x, int y) const {
@@ -62,10 +65,10 @@ private:
     std::vector<float> values_;
 };
 
-/// A number for each pixel beside its colour.
+/// A further channel of an image: one number for each pixel.
 struct ImageLayer {
-    std::string name;           ///< of the channel: 1 to 70 printable characters, not R, G, B or A
-    std::vector<float> values;  ///< row by row from the top left pixel
+    std::string name;  ///< the channel's name: 1 to 70 printable ASCII characters without blanks, not R, G, B or A
+    std::vector<float> values;  ///< one per pixel, row by row from the top left pixel
 };
 
 }  // namespace limn

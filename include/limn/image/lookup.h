@@ -1,15 +1,17 @@
 /// \file
-/// How an image is read between and beyond its pixels.
+/// How an image texture is looked up between and beyond its pixels.
 #pragma once
 
 #include <cstdint>
 
 namespace limn {
 
-/// Which pixels count: the one that the point lies in, or the four whose centres are around it, by their nearness.
+/// The filter of a lookup. `nearest` takes the pixel that contains the point. `bilinear` interpolates between the four
+/// pixels whose centres are around the point.
 enum class Filter : std::uint8_t { nearest, bilinear };
 
-/// What lies outside [0, 1]: the image again, its edge, or its mirror image.
+/// The continuation of an image outside [0, 1]. `repeat` repeats the image, `clamp` continues its edge, and `mirror`
+/// alternates the image and its mirror image.
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
 }  // namespace limn

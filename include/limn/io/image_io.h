@@ -1,7 +1,11 @@
 /// \file
-/// Image files. Written, by suffix: EXR and PNG; built without OpenImageIO: PNG and HDR. Read, by contents, whatever
-/// the name: EXR (with OpenImageIO), PNG, JPEG, HDR, BMP and TGA, of which BMP unpacked. All functions are thread-safe,
-/// for different files.
+/// Reading and writing image files.
+///
+/// - The suffix of a file's name decides the format in which it is written: EXR or PNG; PNG or HDR in a build without
+///   OpenImageIO.
+/// - The contents of a file decide the format in which it is read: EXR (with OpenImageIO), PNG, JPEG, HDR, TGA and
+///   uncompressed BMP.
+/// - Threads may call all functions at the same time, for different files.
 #pragma once
 
 #include <cstddef>
@@ -15,103 +19,129 @@
 
 namespace limn {
 
-/// How stored values become linear ones. `automatic`: what the file says, else sRGB for 8-bit and 16-bit integer
-/// formats and linear for floating point. `srgb` decodes the sRGB transfer, `raw` takes the values as they are.
+/// The way in which stored values are converted to linear ones.
+///
+/// - `automatic`: as the file says; if it says nothing, sRGB for integers and linear for floating point.
+/// - `srgb`: decodes the sRGB transfer function.
+/// - `raw`: takes the values as they are.
 enum class Encoding { automatic, srgb, raw };
 
-/// Where a picture lies in a larger one, of which it is a part.
+/// The place of a picture in a larger picture, the whole.
 struct PartOf {
-    /// In pixels: of the picture's upper left corner from that of the whole, and of the whole.
+    /// `left` and `top` are the column and row of the whole in which the picture's upper left pixel is. `width` and
+    /// `height` are the size of the whole in pixels.
     ///@{
     int left = 0, top = 0, width = 0, height = 0;
     ///@}
 
-    bool operator==(const PartOf&) const = default;  ///< the same place
+    bool operator==(const PartOf&) const = default;  ///< compares all members
 };
 
-/// What a picture is written with.
+/// Options of save_image.
 struct SaveOptions {
-    bool half = false;  ///< EXR: half instead of float; save_image throws a FileError if a value is too large for it
-    /// Facts about the picture, written as text: EXR attributes and PNG text named `limn:NAME`, HDR comments. NAME as
-    /// in the `--report`, 1 to 70 printable characters. EXR does not keep an empty text, HDR no line breaks.
+    bool half = false;  ///< EXR: store half instead of float; no finite value may exceed 65504
+    /// Facts about the picture: pairs of a name and a text. They are written as attributes of an EXR or text of a PNG,
+    /// called `limn:NAME`, or as comments of an HDR. A name has 1 to 70 printable ASCII characters without blanks. A
+    /// text has no zero byte. An EXR loses an empty text; an HDR has blanks instead of line breaks.
     std::vector<std::pair<std::string, std::string>> facts{};
-    /// EXR: further channels, float in any case. Other formats have no place for them and leave them out.
+    /// EXR: further channels, always stored as float. Other formats don't store them.
     std::vector<ImageLayer> layers{};
-    /// EXR and PNG: empty, or a value for each pixel, row by row, by which its colour is multiplied. EXR keeps colours
-    /// so, PNG has them divided by it.
+    /// EXR and PNG: empty, or the alpha of each pixel, row by row. The image's colours are multiplied by it (associated
+    /// alpha). An EXR stores them like this; a PNG stores them divided by alpha. An HDR stores no alpha.
     std::vector<float> alpha{};
-    double exposure = 0;  ///< in stops, of what is not linear: PNG shows colours multiplied by 2^exposure
-    /// EXR: the data window is the picture's, the display window that of the whole.
+    double exposure = 0;  ///< PNG: in stops; colours are multiplied by 2^exposure
+    /// EXR: the whole of which the picture is a part. The data window is the picture, the display window is the whole.
     std::optional<PartOf> part_of{};
 };
 
-/// Writes a picture; PNG gets the sRGB transfer, and says so, clamped to [0, 1]; EXR is linear, with the primaries of
-/// BT.709 stated. Float EXR keeps every bit, infinities and NaN too. The file appears whole or not at all: a temporary
-/// file beside it (`.limn-*.tmp`; what a killed process leaves, the next one removes) is written, read back and
-/// compared, flushed to disk and renamed. A file that is replaced keeps its permissions, and its owner where the system
-/// lets it; a link is followed, also to where no file is yet. Only regular files are replaced: no pipe, no device.
+/// Writes a picture to a file.
 ///
-/// \throws FileError naming the file: unknown suffix, unwritable, disk full, no pixels, non-finite values for PNG,
-/// values too large for HDR
+/// - An EXR is linear and states the primaries of BT.709. A float EXR keeps every bit, infinities and NaN too.
+/// - A PNG has 8 bits with the sRGB transfer function, clamped to [0, 1], and says so.
+/// - An HDR has one exponent and three mantissas of 8 bits for a pixel. Negative components become 0.
 ///
-/// \throws ArgumentError if a fact's name or text or a layer's name cannot be written, alpha or a layer is not of the
-/// picture's size, the picture does not lie in the whole, or the exposure is not finite
+/// The file appears whole or not at all. limn writes a temporary file `.limn-*.tmp` in the same folder, flushes it to
+/// disk, reads it back, compares it and renames it. A killed process may leave its temporary file; the next save in
+/// that folder deletes it. A replaced file keeps its permissions, and its owner if the system permits that. Links are
+/// followed, also to a file that does not exist yet. Only regular files are replaced, no pipes or devices.
+///
+/// \throws FileError that names the file, if
+/// - its suffix is unknown,
+/// - it cannot be written, or the disk is full,
+/// - the image has no pixels,
+/// - a value is not finite (PNG, HDR) or too large (HDR, half).
+///
+/// \throws ArgumentError if
+/// - the name or the text of a fact is not allowed,
+/// - the name of a layer is not allowed or occurs twice,
+/// - alpha or a layer has not one value for each pixel,
+/// - the picture is not inside the whole,
+/// - the exposure of a PNG is not finite.
 void save_image(const Image& image, const std::string& path, const SaveOptions& options = {});
 
-/// \throws FileError where save_image would throw it for the name alone: an unknown suffix
+/// Checks that save_image knows the suffix of the name. \throws FileError if it doesn't
 void check_image_name(const std::string& path);
 
-/// Whether a picture of that name keeps SaveOptions::layers. \throws FileError as check_image_name
+/// Returns true if save_image writes SaveOptions::layers to a file of that name: if it is an EXR.
+/// \throws FileError if the suffix is unknown
 bool image_holds_layers(const std::string& path);
 
-/// \throws FileError where save_image would throw it for a reason that can be known beforehand: suffix, folder,
-/// permissions
+/// Checks that a picture can be written to `path`: the suffix, the folder, permissions and free disk space. Writes a
+/// temporary file in the folder and deletes it.
+/// \throws FileError as save_image would
 void check_writable(const std::string& path);
 
-/// Reads the first three channels as stored, not multiplied by alpha; of fewer than three, the first as grey. A CMYK
-/// JPEG is converted; an EXR's data window is the picture. An EXR with subsampled channels is refused. Only regular
-/// files are read: no pipe, no device. A picture whose size the file cannot hold or the machine's memory cannot is
-/// refused before memory is taken for it. Before a library decodes a file, limn has told its format by its contents and
-/// checked its header. JPEG, HDR, BMP and TGA have no checksums: damage that leaves them readable is not noticed.
-/// \throws FileError naming the file: missing, no picture (and what it appears to be), broken off, a wrong checksum
+/// Reads the first three channels of a picture as linear values. If it has fewer than three, the first one is grey.
+///
+/// - Alpha is ignored: colours are not multiplied or divided by it.
+/// - A CMYK JPEG is converted to RGB.
+/// - The picture of an EXR is its data window.
+///
+/// limn checks the format and the header before any library decodes the file. It refuses a size for which the file is
+/// too short or the machine's memory too small, before it allocates memory. JPEG, HDR, BMP and TGA have no checksums:
+/// damage is not noticed if the file stays readable. Only regular files are read, no pipes or devices.
+///
+/// \throws FileError that names the file, if it is missing, truncated or too large, is no picture (the message says
+/// what it appears to be), has a wrong checksum, or is an EXR with subsampled channels
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 
-/// The same from the bytes of a file, which messages call `name`.
+/// Reads a picture as load_image does, from the bytes of a file. Messages call it `name`.
 Image load_image_from_memory(std::span<const std::byte> bytes, Encoding encoding = Encoding::automatic,
                              const std::string& name = "image in memory");
 
-/// The alpha of a picture, as red, green and blue of an Image: as stored, from 0, where nothing is, to 1. std::nullopt
-/// if it has no channel A; no JPEG, HDR and few BMP have one. Checked and refused as by load_image.
+/// Reads the alpha channel of a picture, from 0 (transparent) to 1 (opaque), as stored. Red, green and blue of the
+/// result are all alpha. Returns std::nullopt if the picture has no channel A; a JPEG or HDR never has one.
+/// \throws FileError as load_image does
 std::optional<Image> load_alpha(const std::string& path);
 
-/// The same from the bytes of a file, which messages call `name`.
+/// Reads an alpha channel as load_alpha does, from the bytes of a file. Messages call it `name`.
 std::optional<Image> load_alpha_from_memory(std::span<const std::byte> bytes,
                                             const std::string& name = "image in memory");
 
 /// One channel of a picture file.
 struct ImageChannel {
-    std::string name;  ///< "R", "G", "B"; "Y" where there is only grey; "A"; others as the file names them
-    std::string type;  ///< of its values as stored: "uint8", "uint16", "half", "float" ...
+    std::string name;  ///< "R", "G", "B", "A"; "Y" if there is only grey; others as the file names them
+    std::string type;  ///< type of the stored values: "uint8", "uint16", "half", "float", ...
 };
 
-/// What the header of a picture says.
+/// The header of a picture file.
 struct ImageInfo {
-    int width = 0;                       ///< in pixels
-    int height = 0;                      ///< in pixels
-    std::vector<ImageChannel> channels;  ///< in the order of the file
-    std::optional<PartOf> part_of{};     ///< of an EXR whose data window is not its display window
-    /// The text facts of a picture that save_image wrote, in no particular order.
+    int width = 0;                       ///< width in pixels
+    int height = 0;                      ///< height in pixels
+    std::vector<ImageChannel> channels;  ///< all channels, in the order of the file
+    std::optional<PartOf> part_of{};     ///< set for an EXR whose data window is not its display window
+    /// SaveOptions::facts of a picture that save_image wrote, in no particular order.
     std::vector<std::pair<std::string, std::string>> facts{};
 };
 
-/// Reads size and channels, all of them, and decodes no pixels.
-/// \throws FileError as load_image, but for what only pixels tell
+/// Reads the header of a picture. Pixels are not decoded.
+/// \throws FileError as load_image does, except for faults that show only when pixels are decoded
 ImageInfo load_image_info(const std::string& path);
 
-/// The same from the bytes of a file, which messages call `name`.
+/// Reads a header as load_image_info does, from the bytes of a file. Messages call it `name`.
 ImageInfo load_image_info_from_memory(std::span<const std::byte> bytes, const std::string& name = "image in memory");
 
-/// ImageInfo::facts of a picture. \throws FileError as load_image_info
+/// Reads the ImageInfo::facts of a picture. \throws FileError as load_image_info does
 std::vector<std::pair<std::string, std::string>> load_image_facts(const std::string& path);
 
 }  // namespace limn

@@ -1,5 +1,5 @@
 /// \file
-/// Models from files.
+/// Reading models: OBJ, PLY, STL and glTF.
 #pragma once
 
 #include <cstddef>
@@ -12,29 +12,30 @@
 
 namespace limn {
 
-/// What a reader puts where the files say nothing.
+/// Options for reading a model.
 struct ModelOptions {
-    /// For faces without a material; by default grey, Lambertian of albedo 0.5.
+    /// The material of faces that have none. By default it is Lambertian with albedo 0.5.
     std::shared_ptr<const Material> default_material{};
-    /// Whether the images that materials name are read. Without them a material of an OBJ with map_Kd takes Kd, and
-    /// without Kd (0.6, 0.6, 0.6); one of a glTF takes its factors.
+    /// True to read the images that materials name. Without its image, a material of an OBJ takes Kd, or (0.6, 0.6,
+    /// 0.6) if it has map_Kd but no Kd. A material of a glTF takes its factors.
     bool textures = true;
-    /// In degrees: a mesh without normals gets those of smooth_normals. By default it stays flat.
+    /// The crease angle in degrees, 0 to 180: a mesh without normals gets normals from smooth_normals with this angle.
+    /// By default such a mesh stays flat.
     std::optional<double> crease{};
 };
 
-/// Reads a model, in any locale: Wavefront OBJ (load_obj), PLY, STL or glTF 2.0 (.gltf and .glb), told apart by their
-/// contents; the name counts only for a damaged binary STL. docs/models.md says what materials become and what gives a
-/// warning. Only regular files are read: no pipe, no device.
+/// Reads a model: Wavefront OBJ (see load_obj), PLY, STL or glTF 2.0 (.gltf and .glb). The contents of the file decide
+/// the format. The name matters only for a damaged binary STL. The result does not depend on the locale. docs/models.md
+/// says how materials are translated and what gives a warning. Only regular files are read, no pipes or devices.
 ///
-/// \throws FileError naming the file and, where there is one, the place in it: unreadable, no model (and what it
-/// appears to be), damaged, no usable face
+/// \throws FileError that names the file and, if there is one, the place in it. The file is unreadable, no model (the
+/// message says what it appears to be) or damaged, or has no usable face.
 ///
 /// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_model(const std::string& path, const ModelOptions& options = {});
 
-/// The same from the bytes of a file, which messages call `path`; what it names is beside that, so with a name alone in
-/// the current folder.
+/// Reads a model as load_model does, from the bytes of a file. Messages call it `path`. The files that the model names
+/// are looked for in the folder of `path`; if `path` has no folder, in the current folder.
 Model load_model_from_memory(std::span<const std::byte> bytes, const std::string& path,
                              const ModelOptions& options = {});
 

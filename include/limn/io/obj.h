@@ -1,27 +1,37 @@
 /// \file
-/// Models from Wavefront files.
+/// Reading Wavefront OBJ models.
 #pragma once
 
 #include "limn/io/model.h"
 
 namespace limn {
 
-using ObjOptions = ModelOptions;  ///< what load_obj puts where the files say nothing
+using ObjOptions = ModelOptions;  ///< options of load_obj
 
-/// Reads a Wavefront OBJ and its MTL, in any locale; load_model does so, too. Decimals become the nearest float32.
-/// Polygons are cut by ear clipping; one of many thousand corners that takes too long is dropped with a warning.
-/// Vertices are those of the file unless faces name normals or texture coordinates: then one for each combination, and
-/// a corner without a normal, or with one of length zero, gets its face's, one without a texture coordinate (0, 0).
+/// Reads a Wavefront OBJ and its MTL. load_model reads them too. The result does not depend on the locale. Only regular
+/// files are read, no pipes or devices.
 ///
-/// What files say in odd ways: lines end in LF, CR LF or CR, and continue behind a backslash; a byte order mark is
-/// skipped; '#' begins a comment. A name may hold blanks; a '#' behind a blank ends it, unless a digit follows
-/// ("Material #25" is a name). mtllib may give one name or several; it is relative to the OBJ, pictures to the MTL. An
-/// index may point forward. Groups become Model::parts. Weights and vertex colours are not used, nor are lines, points
-/// and smoothing. Other unknown lines, the options of pictures and a second material of the same name are passed over
-/// with a warning. Only regular files are read: no pipe, no device.
+/// **Geometry.**
+/// - Decimals become the nearest float32.
+/// - Polygons are cut by ear clipping. A polygon with many thousand corners is dropped with a warning if cutting it
+///   takes too long.
+/// - If no face names normals or texture coordinates, the vertices are those of the file. Otherwise there is a vertex
+///   for each combination that occurs. A corner without a normal, or with a normal of length zero, gets the normal of
+///   its face. A corner without a texture coordinate gets (0, 0).
+/// - Indices may refer to elements further down in the file.
+/// - Groups become Model::parts.
+/// - Weights, vertex colours, lines, points and smoothing groups are not used.
 ///
-/// A material, its colours clamped to what they may have, becomes the first of these that fits; docs/models.md says
-/// more: what index, roughness, Kd and Ks are, masks and bumps around the material, and what becomes a warning:
+/// **Text.**
+/// - A line ends in LF, CR LF or CR. A backslash at its end continues it.
+/// - A byte order mark is skipped. '#' begins a comment.
+/// - A name may contain blanks. A '#' after a blank ends the name, unless a digit follows: "Material #25" is a name.
+/// - mtllib may give one name or several. They are relative to the OBJ, and pictures are relative to the MTL.
+/// - Unknown lines, options of pictures other than -bm, and a second material of the same name are skipped with a
+///   warning.
+///
+/// **Materials.** Colours are clamped to the range that materials allow. The first row that fits decides.
+/// docs/models.md defines index, roughness, Kd and Ks, and describes masks, bumps and warnings.
 ///
 /// | MTL | material |
 /// |---|---|
@@ -32,11 +42,14 @@ using ObjOptions = ModelOptions;  ///< what load_obj puts where the files say no
 /// | illum 3, 5, 8, or no illum and Ks brighter than Kd; no map_Kd | RoughConductor(Ks, roughness) |
 /// | else | Plastic(Kd, roughness, index, Ks) |
 ///
-/// A material or picture that is missing or unreadable is replaced, with a warning: a material by the default one, a
-/// picture by Kd or Ks, and without Kd by (0.6, 0.6, 0.6).
+/// If a material is missing or unreadable, the default one is used, with a warning. If a picture is missing or
+/// unreadable, Kd or Ks is used, with a warning, and (0.6, 0.6, 0.6) if there is no Kd.
 ///
-/// \throws FileError naming file and line: unreadable, no OBJ (and what it appears to be), no usable face, an index out
-/// of range, a coordinate that is not a finite float32, a malformed number in the OBJ or the MTL
+/// \throws FileError that names the file and, if there is one, the line. The file is unreadable or no OBJ (the message
+/// says what it appears to be), has no usable face, an index out of range or a coordinate that is not a finite float32,
+/// or the OBJ or MTL has a malformed number.
+///
+/// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_obj(const std::string& path, const ObjOptions& options = {});
 
 }  // namespace limn

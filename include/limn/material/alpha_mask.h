@@ -1,22 +1,28 @@
 /// \file
-/// Leaves, fences, worn cloth: surfaces with holes.
+/// A material for surfaces with holes: leaves, fences, worn cloth.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// Another material where a texture is opaque; elsewhere light passes as if there were no surface. Renders follow it
-/// for all rays, those to lamps included; queries of a CompiledScene tell of the whole surface. On a user-defined shape
-/// it has no effect. compile() refuses one around another.
+/// Wraps another material and gives it an opacity. The surface stops that share of the light and scatters it like the
+/// wrapped material. The rest of the light goes straight on, as if there were no surface.
+///
+/// - Renders apply the opacity to all rays, shadow rays included.
+/// - Queries of a CompiledScene ignore it and report the whole surface.
+/// - It has no effect on a user-defined shape.
+/// - compile() throws ArgumentError if one AlphaMask wraps another.
 class AlphaMask final : public Material {
 public:
-    /// \param opacity a texture whose red, from 0 to 1, is how much of the light the surface stops
-    /// \param cutoff if over 0: it stops all light where its opacity is at least that, and none elsewhere
+    /// \param opacity a texture whose red component, clamped to [0, 1], is the opacity
+    /// \param cutoff if above 0, the surface stops all light where the opacity is at least `cutoff`, and none elsewhere
     ///
     /// \throws ArgumentError if the material or the texture is null, or the cutoff is not in [0, 1]
     AlphaMask(std::shared_ptr<const Material> material, std::shared_ptr<const Texture> opacity, double cutoff = 0);
-    /// The same opacity everywhere. \throws ArgumentError if the material is null, or the opacity is not in [0, 1]
+    /// Makes a mask of constant opacity.
+    ///
+    /// \throws ArgumentError if the material is null, or the opacity is not in [0, 1]
     AlphaMask(std::shared_ptr<const Material> material, double opacity);
     Color emitted(const Surface& s) const override { return material_->emitted(s); }
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;

@@ -1,17 +1,19 @@
 /// \file
-/// Glass, water.
+/// A material for clear glass and water.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// A smooth interface to a clear medium of the given index of refraction, relative to what is outside the shape's
-/// outward normal. Reflects or refracts with the probability of its reflectance, weight 1. Radiance is not scaled by
-/// 1/n^2, which cancels as long as camera and lights are outside.
+/// A smooth interface between two clear media. `sample` reflects with the probability of the reflectance and refracts
+/// otherwise. The weight is 1. Radiance is not scaled by 1/n^2 when it enters a medium of index n. The factor cancels
+/// as long as the camera and the lights are outside. A direction that an interpolated shading normal sends to the wrong
+/// side of the geometric surface is absorbed.
 class Dielectric final : public Material {
 public:
-    /// \param index inside over outside; below 1 for a bubble
+    /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
+    /// normal; below 1 for a bubble
     /// \param fresnel the formula of the reflectance
     ///
     /// \throws ArgumentError if the index is not positive and finite

@@ -1,5 +1,5 @@
 /// \file
-/// Lamps.
+/// A material for area lights.
 #pragma once
 
 #include "limn/material/material.h"
@@ -7,13 +7,20 @@
 
 namespace limn {
 
-/// Emits the same radiance in every direction, on both sides or one, and scatters nothing. On a sphere, triangle, quad,
-/// disk or mesh it is sampled as a light, unless its texture, or that of an AlphaMask around it, is user-defined, or it
-/// is on a sphere with an AlphaMask (docs/architecture.md, "One path", also for instances). Elsewhere paths find it by
-/// scattering.
+/// Emits the same radiance in every direction, on both sides or one, and scatters nothing. Light sampling finds it on
+/// spheres, triangles, quads, disks and meshes. Paths find it by scattering alone if
+///
+/// - its texture, or the opacity of an AlphaMask around it, is user-defined or contains a user-defined texture
+/// - it is on a sphere and has an AlphaMask around it
+/// - it is on a user-defined shape
+///
+/// docs/architecture.md, "One path", lists the remaining cases: some instanced emitters and some textured spheres.
 class DiffuseLight final : public Material {
 public:
-    /// \throws ArgumentError if a component is negative or not finite; if the texture is null
+    /// \param radiance emitted radiance in W / (sr m^2), at least 0, or a texture
+    /// \param sides sides of the surface that emit
+    ///
+    /// \throws ArgumentError if a component is negative or not finite, or the texture is null
     ///@{
     explicit DiffuseLight(const Color& radiance, Sides sides = Sides::both);
     explicit DiffuseLight(std::shared_ptr<const Texture> radiance, Sides sides = Sides::both);

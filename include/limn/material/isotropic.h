@@ -6,11 +6,13 @@
 
 namespace limn {
 
-/// Scatters into all directions alike, albedo / (4 pi): the phase function of a ConstantMedium. On a surface there is
-/// no cosine.
+/// Scatters equally into all directions: albedo / (4 pi). A ConstantMedium creates one from its albedo. On a surface it
+/// ignores the normal, and its value contains no cosine.
 class Isotropic final : public Material {
 public:
-    /// \throws ArgumentError if the albedo is outside [0, 1]; if the texture is null
+    /// \param albedo in [0, 1], or a texture
+    ///
+    /// \throws ArgumentError if the albedo is outside [0, 1], or the texture is null
     ///@{
     explicit Isotropic(const Color& albedo);
     explicit Isotropic(std::shared_ptr<const Texture> albedo);

@@ -1,16 +1,19 @@
 /// \file
-/// Matte surfaces.
+/// A material for matte surfaces.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// The ideal diffuse reflector, f = albedo / pi, on both sides. Around an interpolated normal, what lies below the
-/// geometric surface is absorbed (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 5.3).
+/// The ideal diffuse reflector, f = albedo / pi, on both sides. Light that an interpolated shading normal would scatter
+/// below the geometric surface is absorbed (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997,
+/// section 5.3).
 class Lambertian final : public Material {
 public:
-    /// \throws ArgumentError if the albedo is negative, over 1 or not finite; if the texture is null
+    /// \param albedo in [0, 1], or a texture
+    ///
+    /// \throws ArgumentError if the albedo is outside [0, 1], or the texture is null
     ///@{
     explicit Lambertian(const Color& albedo);
     explicit Lambertian(std::shared_ptr<const Texture> albedo);

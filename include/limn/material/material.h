@@ -11,32 +11,41 @@
 
 namespace limn {
 
-/// How a surface scatters and emits light. All directions are unit vectors in world space that point away from the
-/// surface; `out` is where the path came from. Implementations are immutable and thread-safe; they draw no random
-/// numbers of their own. A subclass needs `sample` alone if it is specular (pdf 0), else also `value`, which must
-/// describe the same function: weight == value / pdf. A mixture draws between a specular part and the rest; `value` and
-/// the pdf, times the probability of that choice, then describe the rest. docs/extending.md works out an example.
+/// Describes how a surface scatters and emits light. All directions are unit vectors in world space that point away
+/// from the surface. `out` points back along the path.
+///
+/// - A subclass that is specular overrides `sample` alone, and its pdf is 0. Any other subclass overrides `value` too.
+/// - `sample` and `value` describe the same function: weight == value / pdf.
+/// - A mixture of a specular part and a rest chooses one of them in `sample`. The weight of the specular part is
+///   divided by the probability of choosing it. `value` returns f |cos| of the rest, and a pdf that includes the
+///   probability of choosing the rest.
+/// - Implementations are immutable and thread-safe. They use no random numbers except those in `random`.
+///
+/// docs/extending.md works out an example.
 class Material {
 public:
     virtual ~Material() = default;
 
-    /// Radiance that leaves towards the viewer.
+    /// Returns the radiance that the surface emits towards the viewer. The default is black.
     virtual Color emitted(const Surface&) const { return {}; }
 
-    /// Draws a direction from numbers in [0, 1); std::nullopt if the light is absorbed.
+    /// Draws a scattered direction from three uniform numbers in [0, 1). Returns std::nullopt if the light is absorbed.
     virtual std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const = 0;
 
-    /// f |cos| and the density with which `sample` draws `in`; zero for specular materials.
+    /// Returns f |cos| for the given directions, and the pdf per solid angle with which `sample` draws `in`. Both are
+    /// zero for a specular material, which is the default.
     virtual ScatterValue value(const Surface&, const Vec3& /*out*/, const Vec3& /*in*/) const { return {}; }
 
-    /// The default gives a record of a user-defined material, through which the compiled scene calls these functions.
+    /// Returns the record from which compile() makes the compiled material. The default describes a user-defined
+    /// material: the compiled scene calls the virtual functions above.
     virtual MaterialRecord lower(RecordSink& sink) const;
 };
 
-/// The id of `material` in `sink`, lowered the first time; none for null.
+/// Returns the id of `material` in `sink`, or MaterialId::none for null. Calls Material::lower the first time only.
 MaterialId lower_material(RecordSink& sink, const std::shared_ptr<const Material>& material);
 
-/// A reference through which a described material is called as it is; none for null. Not owning.
+/// Returns a reference through which the virtual functions of `material` are called, or a reference to no material for
+/// null. The reference doesn't own the material.
 MaterialRef material_ref(const Material* material);
 
 }  // namespace limn

@@ -1,18 +1,21 @@
 /// \file
-/// Mirrors and brushed metal.
+/// A material for mirrors and simple rough metal.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// A mirror of the given albedo (no Fresnel term) whose reflected unit direction is displaced by fuzz times a point
-/// drawn uniformly in the unit ball (Shirley, Ray Tracing in One Weekend, section 9.6); what ends below the surface is
-/// absorbed. fuzz 0 is a perfect mirror. So rough metal loses light where it is seen at a cosine c below its fuzz f:
-/// the share (f - c)^2 (2 f + c) / (4 f^3), one half at grazing incidence.
+/// A mirror without a Fresnel term, whose reflected unit direction is displaced by `fuzz` times a point drawn uniformly
+/// in the unit ball (Shirley, Ray Tracing in One Weekend, section 9.6). A displaced direction that points below the
+/// surface is absorbed. Let c be the cosine of the viewing angle and f the fuzz. The share of the light that is lost
+/// that way is (f - c)^2 (2 f + c) / (4 f^3) if c < f, and 0 otherwise. It is one half at grazing incidence.
 class Metal final : public Material {
 public:
-    /// \throws ArgumentError if the albedo is outside [0, 1] or fuzz is outside [0, 1]; if the texture is null
+    /// \param albedo share of the light that is reflected, in [0, 1], or a texture
+    /// \param fuzz radius of the ball, in [0, 1]; 0 is a perfect mirror
+    ///
+    /// \throws ArgumentError if the albedo or the fuzz is outside [0, 1], or the texture is null
     ///@{
     explicit Metal(const Color& albedo, double fuzz = 0);
     explicit Metal(std::shared_ptr<const Texture> albedo, double fuzz = 0);

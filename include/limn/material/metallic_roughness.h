@@ -1,36 +1,43 @@
 /// \file
-/// What glTF and most painting programs call a material.
+/// The material model of glTF and of most painting programs.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// The metallic-roughness model of glTF 2.0 (Khronos, 2021, section 3.9.2 and appendix B): a mixture of a metal, which
-/// reflects the base colour by Schlick's approximation, and of a diffuse base colour under a clear coat, both of the
-/// same roughness. Where the appendix lets light vanish, none does: facets scatter more than once as in a
-/// RoughConductor, and the coat and what is below are those of Plastic, by Fresnel's equations; so a white one returns
-/// all light, to 1e-3 up to angles of 85 degrees, and light goes both ways alike. Around an interpolated normal, what
-/// lies below the geometric surface is absorbed.
+/// The metallic-roughness model of glTF 2.0 (Khronos, 2021, section 3.9.2 and appendix B). It mixes two surfaces of the
+/// same roughness:
+///
+/// - a metal, which reflects the base colour by Schlick's approximation
+/// - a diffuse surface of the base colour under a clear coat
+///
+/// The formulas of the appendix lose energy. limn adds multiple scattering between microfacets as in RoughConductor,
+/// and uses the coat and the base of Plastic with Fresnel's equations. A white base colour then returns all light, to
+/// within 1e-3, for angles of up to 85 degrees from the normal. The model is reciprocal. Light that an interpolated
+/// shading normal would scatter below the geometric surface is absorbed.
 class MetallicRoughness final : public Material {
 public:
-    /// A roughness below 0.001 counts as 0.001, as a picture may hold any: alpha, its square, is at least 1e-6. Metal
-    /// and Plastic can be smooth.
+    /// Makes a material of constant metallic and roughness. A roughness below 0.001 counts as 0.001, so no
+    /// MetallicRoughness is perfectly smooth. RoughConductor and Plastic can be.
     ///
-    /// \param base_color what metal reflects at normal incidence, and the albedo of the rest; in [0, 1], or a texture
-    /// \param metallic 0 plastic, 1 metal; between both a mixture
+    /// \param base_color reflectance of the metal at normal incidence and albedo of the diffuse base, in [0, 1], or a
+    /// texture
+    /// \param metallic share of the metal in the mixture, in [0, 1]
     /// \param roughness in [0, 1], see Roughness
-    /// \param index of the coat over that of the outside, at least 1
+    /// \param index index of refraction of the coat over that of the outside, at least 1
     ///
-    /// \throws ArgumentError if one of these is outside its range or not finite, or a texture is null
+    /// \throws ArgumentError if an argument is outside its range or not finite, or a texture is null
     ///@{
     MetallicRoughness(const Color& base_color, double metallic, double roughness, double index = 1.5);
     MetallicRoughness(std::shared_ptr<const Texture> base_color, double metallic, double roughness, double index = 1.5);
     ///@}
-    /// Both vary over the surface.
+    /// Makes a material whose metallic and roughness vary over the surface. The other arguments are as above.
     ///
-    /// \param metallic_roughness its green is multiplied by `roughness`, its blue by
-    /// `metallic`, and the products are clamped to [0, 1]; red is not used
+    /// \param metallic_roughness a texture whose green is multiplied by `roughness` and whose blue is multiplied by
+    /// `metallic`. The products are clamped to [0, 1]. Red is not used.
+    ///
+    /// \throws ArgumentError as above
     MetallicRoughness(std::shared_ptr<const Texture> base_color, std::shared_ptr<const Texture> metallic_roughness,
                       double metallic = 1, double roughness = 1, double index = 1.5);
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
@@ -38,9 +45,9 @@ public:
     MaterialRecord lower(RecordSink& sink) const override;
 
 private:
-    std::shared_ptr<const Texture> base_color_, metallic_roughness_;  // the second one may be null
+    std::shared_ptr<const Texture> base_color_, metallic_roughness_;  // metallic_roughness_ may be null
     double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // without the texture
+    std::shared_ptr<const MaterialDetails> details_;  // parameters of the record, without the id of its texture
 };
 
 }  // namespace limn

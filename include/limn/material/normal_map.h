@@ -1,24 +1,32 @@
 /// \file
-/// Bumps that a picture tells.
+/// Bumps from an image of normals.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// Another material around normals that a texture bends. Its red, green and blue, from 0 to 1, are the coordinates from
-/// -1 to 1 along Surface::dp_du, across it towards dp_dv, and along the shading normal (whose sign is not used), as in
-/// glTF; where the shape has no dp_du the normal is not bent.
+/// Wraps another material and bends its shading normal by a texture, in the tangent space of glTF. The texture's
+/// components in [0, 1] are mapped to coordinates in [-1, 1]:
 ///
-/// What limn's own materials reflect is not lost where the normal is bent: it is turned into view where it faces away,
-/// and what is reflected below the geometric surface leaves as if mirrored there, which is the tangent facet of
-/// Schüssler, Heitz, Hanika and Dachsbacher, Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing,
-/// SIGGRAPH Asia 2017. Without that a white diffuse surface loses (1 - cos) / 2 where it is bent: 7 % at 30 degrees, a
-/// quarter at 60. Light through a Dielectric or a RoughDielectric, or scattered by a user-defined material, is absorbed
-/// there.
+/// - red: along Surface::dp_du, projected into the plane perpendicular to the shading normal
+/// - green: perpendicular to red in that plane, towards Surface::dp_dv
+/// - blue: along the shading normal; its sign is ignored
+///
+/// The normal is not bent if Surface::dp_du is zero. A bent normal that faces away from the viewer is turned until its
+/// cosine with the direction to the viewer is 0.001.
+///
+/// Light that limn's opaque materials reflect below the geometric surface isn't lost. It is mirrored at the geometric
+/// surface, which models the tangent facet of Schüssler, Heitz, Hanika and Dachsbacher, Microfacet-based Normal Mapping
+/// for Robust Monte Carlo Path Tracing, SIGGRAPH Asia 2017. A white diffuse surface whose normal is bent by an angle a
+/// would otherwise lose the share (1 - cos a) / 2: 7 % at 30 degrees, 25 % at 60 degrees. Light that a Dielectric, a
+/// RoughDielectric or a user-defined material sends to the wrong side is absorbed. compile() throws ArgumentError if
+/// one NormalMap wraps another.
 class NormalMap final : public Material {
 public:
-    /// \throws ArgumentError if the material or the texture is null; a NormalMap of a NormalMap is refused by compile()
+    /// \param normals a texture of normals, linear, not sRGB
+    ///
+    /// \throws ArgumentError if the material or the texture is null
     NormalMap(std::shared_ptr<const Material> material, std::shared_ptr<const Texture> normals);
     Color emitted(const Surface& s) const override { return material_->emitted(s); }
     std::optional<ScatterSample> sample(const Surface& s, const Vec3& out, const Random3& random) const override;
@@ -26,11 +34,12 @@ public:
     MaterialRecord lower(RecordSink& sink) const override;
 
 private:
+    // Returns `s` with the bent shading normal. If `folds_`, its geometric normal is the bent normal too.
     Surface bent(const Surface& s, const Vec3& out) const;
 
     std::shared_ptr<const Material> material_;
     std::shared_ptr<const Texture> normals_;
-    bool folds_;  // what is reflected below the surface
+    bool folds_;  // true if light that is reflected below the surface is mirrored back
 };
 
 }  // namespace limn

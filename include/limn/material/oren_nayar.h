@@ -1,22 +1,21 @@
 /// \file
-/// Rough matte surfaces: clay, plaster, the Moon.
+/// A material for rough matte surfaces: clay, plaster, the Moon.
 #pragma once
 
 #include "limn/material/material.h"
 
 namespace limn {
 
-/// A diffuse reflector of microfacets that shadow and light each other, which keeps its brightness towards the edge of
-/// a ball: Oren and Nayar's model in the form of Portsmouth, Kutz and Hill (EON: A Practical Energy-Preserving Rough
-/// Diffuse BRDF, 2024). It is reciprocal, and an albedo of 1 loses no light at any roughness and angle. Around an
-/// interpolated normal, what lies below the geometric surface is absorbed.
+/// A diffuse reflector of microfacets that shadow and light each other: Oren and Nayar's model in the form of
+/// Portsmouth, Kutz and Hill (EON: A Practical Energy-Preserving Rough Diffuse BRDF, 2024). A rough ball stays bright
+/// towards its edge. The model is reciprocal. An albedo of 1 loses no light at any roughness or angle. Light that an
+/// interpolated shading normal would scatter below the geometric surface is absorbed.
 class OrenNayar final : public Material {
 public:
-    /// \param albedo what a facet reflects, in [0, 1], or a texture
+    /// \param albedo albedo of a facet, in [0, 1], or a texture
     /// \param roughness in [0, 1]; 0 is Lambertian
     ///
-    /// \throws ArgumentError if the albedo is negative, over 1 or not finite, the texture is null, or the roughness is
-    /// not in [0, 1]
+    /// \throws ArgumentError if the albedo or the roughness is outside [0, 1], or the texture is null
     ///@{
     OrenNayar(const Color& albedo, double roughness);
     OrenNayar(std::shared_ptr<const Texture> albedo, double roughness);

@@ -1,5 +1,5 @@
 /// \file
-/// Ground glass, frosted glass, ice.
+/// A material for ground glass, frosted glass and ice.
 #pragma once
 
 #include "limn/material/material.h"
@@ -7,15 +7,19 @@
 
 namespace limn {
 
-/// An interface to a clear medium whose microfacets reflect and refract as a Dielectric does (Walter, Marschner, Li and
-/// Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007), with the distribution of Trowbridge
-/// and Reitz (GGX) and the masking of Smith. Of roughness 0 it is a Dielectric, bit for bit. As there, radiance is not
-/// scaled by 1/n^2, so that what goes through is reciprocal but for the squares of the indices. Light that facets
-/// scatter more than once is lost: at an index of 1.5 and normal incidence 0.1 % at a roughness of 0.3, 0.8 % at 0.5
-/// and 11 % at 1, and there 58 % from inside.
+/// A rough interface between two clear media. Its microfacets reflect and refract as a Dielectric does (Walter,
+/// Marschner, Li and Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007). They have the
+/// distribution of Trowbridge and Reitz (GGX) and the masking of Smith. If the interface is smooth or its index is 1,
+/// it is a Dielectric, bit for bit.
+///
+/// Radiance is not scaled by 1/n^2, as in Dielectric. Transmission is therefore reciprocal except for a factor, the
+/// ratio of the squared indices. Light that facets scatter more than once is lost. At an index of 1.5 and normal
+/// incidence from outside, the loss is 0.1 % at a roughness of 0.3, 0.8 % at 0.5 and 11 % at 1. From inside it is 58 %
+/// at a roughness of 1.
 class RoughDielectric final : public Material {
 public:
-    /// \param index inside over outside; below 1 for a bubble
+    /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
+    /// normal; below 1 for a bubble
     /// \param roughness see Roughness
     ///
     /// \throws ArgumentError if the index is not positive and finite, or the roughness is not in [0, 1]
@@ -26,7 +30,7 @@ public:
 
 private:
     double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // null: smooth
+    std::shared_ptr<const MaterialDetails> details_;  // null: a Dielectric
 };
 
 }  // namespace limn

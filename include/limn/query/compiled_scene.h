@@ -1,5 +1,5 @@
 /// \file
-/// Scenes ready to be traced.
+/// Compiled scenes, and the queries that they answer.
 #pragma once
 
 #include <cstddef>
@@ -23,84 +23,112 @@ namespace flat {
 struct Scene;
 }
 
-/// What compiling made.
+/// The size of a compiled scene and the time that compiling took.
 struct SceneStats {
-    std::size_t memory_bytes = 0;  ///< of the compiled scene, mesh arrays that it shares with the description included
-    std::uint64_t primitives = 0;  ///< instanced ones counted once an instance
-    std::uint64_t stored_primitives = 0;  ///< instanced ones counted once
-    std::uint64_t degenerate = 0;         ///< stored triangles of exactly zero area, which nothing can hit
-    std::uint64_t lights = 0;             ///< emitters that can be sampled
-    double seconds = 0;                   ///< that compiling took
+    std::size_t memory_bytes = 0;  ///< memory of the scene, with the mesh arrays that it shares with the description
+    std::uint64_t primitives = 0;  ///< number of primitives; an instanced one counts for each instance
+    std::uint64_t stored_primitives = 0;  ///< number of primitives; an instanced one counts once
+    std::uint64_t degenerate = 0;         ///< number of stored triangles of exactly zero area, which no ray can hit
+    std::uint64_t lights = 0;             ///< number of light sources that can be sampled
+    double seconds = 0;                   ///< time that compiling took
 };
 
-/// A scene in the flat form that limn traces: only what the scene uses. Movable, immutable, thread-safe; the Scene that
-/// it was compiled from may be destroyed: what of it is still needed is shared. A moved-from one may only be assigned
-/// to or destroyed.
+/// A scene in the flat form that limn traces rays against. `compile` makes it from a Scene.
+///
+/// It is immutable, and any number of threads may query it at the same time. It shares ownership of what it needs of
+/// the Scene, which may be destroyed. A moved-from CompiledScene may only be assigned to or destroyed.
+///
+/// Queries decide exactly what is hit, crossed or inside. docs/queries.md explains their rules, with examples. They
+/// throw what the functions of user-defined objects throw, and ArgumentError as said below.
 class CompiledScene {
 public:
-    explicit CompiledScene(std::unique_ptr<flat::Scene> scene);  ///< for `compile`
-    /// Moves in constant time.
+    explicit CompiledScene(std::unique_ptr<flat::Scene> scene);  ///< internal; called by `compile`
+    /// Move a scene, in constant time.
     ///@{
     CompiledScene(CompiledScene&&) noexcept;
     CompiledScene& operator=(CompiledScene&&) noexcept;
     ///@}
     ~CompiledScene();
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the primitive with the lowest number. Boundaries
-    /// of media count, flagged. An unusable ray misses. Throws only what an object of the caller's own class throws.
+    /// Returns the nearest hit with t in (t_min, t_max]. Of equally near hits it is the one whose primitive has the
+    /// lowest number. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable ray (see
+    /// is_usable) misses.
     std::optional<RayHit> closest_hit(const Ray& ray) const;
-    /// Whether there is any hit with t in (t_min, t_max]: exactly where closest_hit finds one.
+    /// Returns true if closest_hit finds a hit for the ray.
     bool any_hit(const Ray& ray) const;
 
-    /// Every hit with t in (t_min, t_max], by t and, of equals, by the primitive's number: at a shared edge or vertex
-    /// each triangle that the ray meets, once; a sphere where it is entered and where it is left, once where the
-    /// ray touches it or both t are rounded to one. Ties within rounding may stand in either order. Boundaries of media
-    /// count, flagged; an unusable ray meets nothing. The first one is closest_hit's. The second form replaces what is
-    /// in `hits` and keeps its memory, here and below.
+    /// Return every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
+    /// primitive. The first hit is that of closest_hit.
+    ///
+    /// - At a shared edge or vertex each triangle that the ray hits is listed once.
+    /// - A sphere is hit where the ray enters and where it exits. It is listed once if the ray touches it, or if both t
+    ///   are rounded to the same number.
+    /// - The t of hits at the same point may differ by rounding. Such hits may be in either order.
+    /// - The boundary of a medium is a hit too; RayHit::index_matched marks it.
+    /// - An unusable ray has no hits.
+    ///
+    /// The second overload replaces the contents of `hits` and reuses its memory.
     ///@{
     std::vector<RayHit> all_hits(const Ray& ray) const;
     void all_hits(const Ray& ray, std::vector<RayHit>& hits) const;
     ///@}
 
-    /// Where the ray passes through surfaces between t_min and t_max, by t: once also where it goes through an edge or
-    /// a vertex. The ray counts as moved by less than any number, both ends with it, always the same way
-    /// (docs/queries.md). So a ray that touches a closed surface or runs along a face crosses it twice or not at all:
-    /// between two points outside, the count is even. An end that lies on a surface counts as on one side of it. A ray
-    /// that touches a sphere between its ends misses it. Disks and user-defined shapes answer as they do for all_hits.
-    /// None for an unusable ray.
+    /// Return the points where the ray passes through surfaces between t_min and t_max, sorted by t. A passage through
+    /// an edge or a vertex is listed once. The ray and both of its ends count as moved by an infinitesimal vector, the
+    /// same for all rays (docs/queries.md).
+    ///
+    /// - A ray that touches an edge of a closed surface, or runs along a face of it, has two crossings there or none.
+    ///   So the number of crossings with closed surfaces is even between two points outside.
+    /// - An end exactly on a surface is on the side to which it is moved.
+    /// - A ray that touches a sphere between its ends does not cross it.
+    /// - Disks and user-defined shapes are crossed where all_hits has hits.
+    /// - An unusable ray has no crossings.
+    ///
+    /// The second overload replaces the contents of `crossings` and reuses its memory.
     ///@{
     std::vector<RayCrossing> crossings(const Ray& ray) const;
     void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;
-    std::size_t count_intersections(const Ray& ray) const;  ///< how many these are
-    /// How many of them go outward less those that go inward: by how much closed surfaces wind more often around the
-    /// ray's start than around its end.
+    /// Returns the number of crossings.
+    std::size_t count_intersections(const Ray& ray) const;
+    /// Returns the number of outward crossings minus the number of inward ones. If surfaces are closed, this is the
+    /// winding number around the start of the ray minus that around its end.
     std::int64_t winding_number(const Ray& ray) const;
     ///@}
 
-    /// How often surfaces wind around a point, and whether it lies on one, exactly. `time`: of moving objects, 0 to 1.
-    /// What surfaces that are not closed make of a winding number depends on the way that is counted along: see
-    /// open_edges. Nowhere, so outside, where a coordinate is not finite.
+    /// Returns the winding number of the surfaces around a point, and whether the point is exactly on a surface. If a
+    /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
+    /// is unspecified. A point with a coordinate that isn't finite counts as outside.
+    /// \param point in world space
+    /// \param time of moving objects, in shutter units, 0 to 1
     PointLocation locate(const Point3& point, double time = 0) const;
-    /// Whether the point is inside, or exactly on a surface: PointLocation::is_inside.
+    /// Returns PointLocation::is_inside of `locate`: true if the point is inside or exactly on a surface.
     bool contains(const Point3& point, double time = 0) const;
-    /// How many edges of triangles, quads and disks are open: used more often one way than the other, ends compared as
-    /// they are. 0: every triangle mesh and box is closed, and winding numbers mean what they say. Edges that lie
-    /// across several shorter ones count as open, and so do those of surfaces that only instances together close. Takes
-    /// some 100 ns and 50 bytes a triangle.
+    /// Returns the number of open edges of triangles, quads and disks. An edge is open if faces use it more often in
+    /// one direction than in the other. The ends of edges are compared by their coordinates. If the number is 0, all
+    /// meshes and boxes are closed, and winding numbers are meaningful.
+    ///
+    /// - An edge that coincides with several shorter ones is open.
+    /// - The edges of a surface that only several instances close together are open.
+    /// - The rim of a disk is an open edge.
+    ///
+    /// The function takes about 100 ns and 50 bytes for each triangle.
     std::uint64_t open_edges() const;
 
-    /// The nearest point of all surfaces, up to `max_distance` away; of equally near ones the primitive with the lowest
-    /// number. The distance is right to 2^-32 of the largest coordinate of the point, the surfaces and, inside
-    /// instances, what lies between. Nothing where there is no surface so near, or a coordinate is not finite.
-    /// \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a sphere or a disk
-    /// that may be the nearest stands in an instance that turns its round shape into another
+    /// Returns the point of all surfaces that is nearest to `point`. Of equally near ones it is that of the primitive
+    /// with the lowest number. The error of the distance is at most 2^-32 of the largest coordinate of the point, of
+    /// the surfaces and of the intermediate results inside instances. Returns std::nullopt if no surface is within
+    /// `max_distance`, or if a coordinate is not finite.
+    /// \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a sphere or disk
+    /// that may be the nearest is in an instance that shears it or scales it unevenly
     std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
                                               double time = 0) const;
-    /// The distance of closest_point; negative where the point is inside (contains), 0 where it is exactly on a
-    /// surface, kInfinity where there is no surface. \throws ArgumentError as closest_point
+    /// Returns the distance of closest_point. It is negative if the point is inside, 0 if the point is exactly on a
+    /// surface, and kInfinity if there is no surface or a coordinate is not finite.
+    /// \throws ArgumentError as closest_point does
     double signed_distance(const Point3& point, double time = 0) const;
 
-    /// The same for a ray that passes some primitives over. Rays without a filter pay nothing for it.
+    /// Answer the queries of the same names for a ray that ignores the primitives which `filter` excludes. They are
+    /// somewhat slower than queries without a filter.
     /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
     ///@{
     std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter) const;
@@ -110,10 +138,14 @@ public:
     std::size_t count_intersections(const Ray& ray, const RayFilter& filter) const;
     ///@}
 
-    /// Many rays, in the calling thread, or on `threads` of them; 0: on as many as the caller's TBB arena has. The
-    /// answers do not depend on it. A miss has t == kInfinity; `occluded` is 1 or 0. Return how many of the rays were
-    /// unusable.
-    /// \throws ArgumentError if spans differ in length, or threads are not 0 to 1024; as for single rays
+    /// Answer the queries of the same names for many rays, bit for bit as for single rays. Result i is that of rays[i].
+    /// A miss of closest_hit has t == kInfinity. `occluded` is 1 if the ray hits something, else 0. An unusable ray
+    /// misses.
+    /// \param threads the number of threads: 1 is the calling thread, 0 as many as the caller's TBB arena has. The
+    /// results do not depend on it.
+    /// \return the number of unusable rays
+    /// \throws ArgumentError if spans differ in length, `threads` is not in 0 to 1024, `filter.objects` is neither
+    /// empty nor as long as the scene has objects, or `filter.without_each` is neither empty nor as long as `rays`
     ///@{
     std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1) const;
     std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1) const;
@@ -125,7 +157,9 @@ public:
     std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1) const;
     ///@}
 
-    /// The same for many points, at time 0.
+    /// Answer the queries of the same names for many points at time 0. Result i is that of points[i]. `inside` is 1 or
+    /// 0. A ClosestPoint has the distance kInfinity if there is no surface. `threads` is as for rays.
+    /// \throws ArgumentError if spans differ in length or `threads` is not in 0 to 1024, and as for single points
     ///@{
     void locate(std::span<const Point3> points, std::span<PointLocation> locations, int threads = 1) const;
     void contains(std::span<const Point3> points, std::span<std::uint8_t> inside, int threads = 1) const;
@@ -133,27 +167,31 @@ public:
     void signed_distance(std::span<const Point3> points, std::span<double> distances, int threads = 1) const;
     ///@}
 
-    /// All about the point that `ray` hits. \pre hit was found for this ray in this scene, by closest_hit or all_hits;
-    /// of a user-defined shape, by closest_hit
+    /// Returns the surface at the point that `ray` hits.
+    /// \pre `hit` was found in this scene for `ray`, by closest_hit or all_hits; for a user-defined shape only by
+    /// closest_hit
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
-    /// How much light a surface that is seen straight on scatters, the mean over a few fixed directions: the albedo of
-    /// a diffuse material, white for glass, black where there is no material.
+    /// Returns the share of light along the shading normal that the surface scatters. It is the mean weight of 16 fixed
+    /// samples of the material: the albedo of a diffuse material, white for glass, and black if there is no material.
     Color albedo(const Surface& surface) const;
-    Color emission(const Surface& surface) const;  ///< radiance towards the viewer
-    /// What the model calls the material of the surface that is hit (Model::materials), also where another has replaced
-    /// it; empty for what is of no model or no material of it. Valid as long as the scene. \pre as for surface_at
+    Color emission(const Surface& surface) const;  ///< returns the radiance that is emitted towards the viewer
+    /// Returns the name that the model file gives to the material of the surface (Model::materials), even if
+    /// Model::replace_material has replaced the material. The name is empty if the object is not from a model, or the
+    /// face has no material in the file. It is valid as long as the scene.
+    /// \pre `hit` was found in this scene
     std::string_view material_name(const RayHit& hit) const;
 
-    const SceneStats& stats() const { return stats_; }  ///< counts and sizes
-    /// What is compiled in, separated by spaces: "sphere quad mesh instance moving-instance foreign-shape texture ..."
+    const SceneStats& stats() const { return stats_; }  ///< returns size and compile time
+    /// Returns the kinds of shapes and the features that the scene uses, separated by blanks: "sphere quad mesh
+    /// instance moving-instance foreign-shape texture ..."
     const std::string& features() const;
-    const std::string& name() const;  ///< Scene::name
-    /// Of all that its pictures depend on: the same wherever and however it was compiled. User-defined objects are in
-    /// it by their tags (core/tagged.h).
+    const std::string& name() const;  ///< returns Scene::name
+    /// Returns the digest of everything in the scene that its pictures depend on. It does not depend on the machine or
+    /// the build that compiled the scene. User-defined objects enter it by their tags (limn/core/tagged.h).
     const Hash128& digest() const;
-    bool has_untagged() const;  ///< whether it has user-defined objects without a tag
+    bool has_untagged() const;  ///< returns true if a user-defined object has no tag
 
-    const flat::Scene& flat() const { return *scene_; }  ///< for limn's own rooms
+    const flat::Scene& flat() const { return *scene_; }  ///< internal; returns the tables
 
 private:
     friend CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
@@ -162,17 +200,22 @@ private:
     SceneStats stats_;
 };
 
-/// Compiles a description, in parallel in the caller's TBB arena. Pure: the same scene gives the same tables.
-/// \throws ArgumentError if an object contains itself, instances nest deeper than 16, the boundary of a medium
-/// contains a medium, a NormalMap or an AlphaMask stands around another of its kind, there are too many primitives, or
-/// the background is negative or not finite
+/// Compiles a scene, in parallel in the caller's TBB arena. Pure: the same scene always gives the same tables.
+/// \throws ArgumentError if
+/// - an object contains itself,
+/// - instances are nested deeper than 16,
+/// - the boundary of a medium contains a medium,
+/// - a NormalMap contains a NormalMap, or an AlphaMask an AlphaMask,
+/// - there are too many objects or primitives,
+/// - the background is negative or not finite.
 CompiledScene compile(const Scene& scene);
 
-/// Makes of a compiled scene what `compile` makes of its description with some Instances elsewhere. The trees of what
-/// is instanced stay; that over the objects, the lights and the media are made anew. So what a program moves often
-/// belongs into Instances, and large still meshes too. Renders and queries of the scene must have ended.
-/// \throws ArgumentError, and leaves the scene as it is, if there is no such object, it is no Instance or one without
-/// primitives, it is moved twice, or its matrices are none for an Instance
+/// Returns the scene that `compile` would make from the description with some Instances at other places. The trees of
+/// instanced objects are kept. The tree over all objects, the lights and the media are built again. So it is fast if
+/// moving objects and large static meshes are Instances.
+/// \pre no render or query of `scene` is running
+/// \throws ArgumentError if an object does not exist, is no Instance, is an Instance without primitives or is moved
+/// twice, or if its matrices are not allowed for an Instance; `scene` is then unchanged
 CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn

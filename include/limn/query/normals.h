@@ -1,5 +1,5 @@
 /// \file
-/// Normals of many hits.
+/// The normals of many hits.
 #pragma once
 
 #include <span>
@@ -8,9 +8,10 @@
 
 namespace limn {
 
-/// The unit normal of the outward side where each ray has hit, whichever side it came from: that of
-/// CompiledScene::surface_at, in less time. Zero for a miss. \pre hits were found for these rays in this scene, as for
-/// surface_at \throws ArgumentError if spans differ in length
+/// Writes the outward unit normal of the surface at each hit, whichever side the ray came from. It is the geometric
+/// normal of CompiledScene::surface_at, computed faster. A miss gets the zero vector.
+/// \pre hits[i] was found in `scene` for rays[i], as for surface_at
+/// \throws ArgumentError if spans differ in length
 void outward_normals(const CompiledScene& scene, std::span<const Ray> rays, std::span<const RayHit> hits,
                      std::span<Vec3> normals);
 

@@ -1,5 +1,5 @@
 /// \file
-/// What queries of a CompiledScene are told, and what they answer. Plain values; none holds a pointer but RayFilter.
+/// Arguments and results of the queries of a CompiledScene. They are plain values; only RayFilter holds pointers.
 #pragma once
 
 #include <cstddef>
@@ -14,44 +14,51 @@ namespace limn {
 
 inline constexpr std::uint64_t kNoPrimitive = ~std::uint64_t{0};  ///< a number that no primitive has
 
-/// A hit of a ray in a compiled scene. It holds no pointer.
+/// A hit of a ray in a compiled scene.
 struct RayHit {
-    double t = kInfinity;      ///< in units of the ray's direction; kInfinity: a miss
-    std::uint32_t object = 0;  ///< in the order of Scene::add
-    /// The primitive's number within the object: the triangle of a mesh, the place in a list.
+    double t = kInfinity;      ///< in units of the ray's direction; kInfinity for a miss
+    std::uint32_t object = 0;  ///< number of the object, in the order of Scene::add
+    /// The number of the primitive within the object: of the triangle in a mesh, of the shape in a list.
     std::uint64_t element = 0;
-    /// Triangle: weight of the second vertex; quad: along edge u; disk: over the square around it; user-defined: its
-    /// own; sphere: 0.
+    /// Parameters of the point on the primitive.
+    ///
+    /// - Triangle: barycentric weights of the second and third vertex.
+    /// - Quad: coordinates along edge_u and edge_v, 0 to 1.
+    /// - Disk: coordinates in the square around it, 0 to 1.
+    /// - Sphere: 0. CompiledScene::surface_at computes its texture coordinates.
+    /// - User-defined shape: as its `hit` sets them.
+    ///@{
     double u = 0;
-    double v = 0;                 ///< triangle: weight of the third vertex; quad: along edge v; otherwise as u
-    bool index_matched = false;   ///< the boundary of a medium
-    std::uint64_t primitive = 0;  ///< the primitive's number within the scene
+    double v = 0;
+    ///@}
+    bool index_matched = false;   ///< true for the boundary of a medium
+    std::uint64_t primitive = 0;  ///< number of the primitive within the scene
 };
 
-/// Where a ray passes through a surface; see CompiledScene::crossings.
+/// A point where a ray passes through a surface; see CompiledScene::crossings.
 struct RayCrossing : RayHit {
-    bool inward = false;  ///< against the outward normal
+    bool inward = false;  ///< true if the ray goes against the outward normal
 };
 
-/// Where a point lies.
+/// The location of a point: inside, outside or on surfaces.
 struct PointLocation {
-    /// How often the surfaces enclose the point: 0 outside, 1 inside of a closed surface whose normals point outward,
-    /// -1 where they point inward; the sum over all surfaces.
+    /// The sum over all surfaces of how often they enclose the point. A closed surface with the point inside counts 1,
+    /// or -1 if its normals point inward. Otherwise it counts 0.
     std::int64_t winding_number = 0;
-    bool on_surface = false;                 ///< exactly on a sphere or a closed flat primitive; of disks unknown
-    std::uint64_t primitive = kNoPrimitive;  ///< the first of those that it is exactly on
+    bool on_surface = false;                 ///< true if the point is exactly on a sphere, triangle or quad
+    std::uint64_t primitive = kNoPrimitive;  ///< the lowest number of a primitive that the point is on
 
-    bool is_inside() const { return on_surface || winding_number != 0; }  ///< or on the surface
+    bool is_inside() const { return on_surface || winding_number != 0; }  ///< returns true if inside or on a surface
 };
 
-/// The parts of a surface that a point may be nearest to.
+/// A part of a primitive.
 enum class Feature : std::uint8_t { face, edge, vertex };
 
-/// The point of all surfaces that is nearest to another.
+/// The point of all surfaces that is nearest to a given point.
 struct ClosestPoint {
-    double distance = kInfinity;             ///< kInfinity: there is none
+    double distance = kInfinity;             ///< distance of the two points; kInfinity if there is none
     Point3 position;                         ///< the nearest point
-    Feature feature = Feature::face;         ///< of the primitive, that the point lies on; a disk's rim is its edge
+    Feature feature = Feature::face;         ///< part of the primitive that has the point; the rim of a disk is an edge
     std::uint32_t object = 0;                ///< as in RayHit
     std::uint64_t element = 0;               ///< as in RayHit
     double u = 0;                            ///< as in RayHit
@@ -60,24 +67,26 @@ struct ClosestPoint {
     std::uint64_t primitive = kNoPrimitive;  ///< as in RayHit
 };
 
-/// Which sides of surfaces count for a ray: front, where it goes against the outward normal, back or both.
-/// Where it touches a sphere it meets both.
+/// The sides of surfaces that a ray can hit. A ray hits the front if it goes against the outward normal, else the back.
+/// A ray that touches a sphere hits both sides.
 enum class Faces : std::uint8_t { both, front, back };
 
-/// What a ray passes over. The spans are not owned.
+/// The primitives that a ray ignores. It does not own the arrays of its spans.
 struct RayFilter {
-    std::uint64_t without = kNoPrimitive;  ///< a RayHit::primitive: the one that the ray starts on
-    Faces faces = Faces::both;             ///< those that count
-    /// By RayHit::object, as many as the scene has objects: those of 0 are passed over. Empty: all count.
+    std::uint64_t without = kNoPrimitive;  ///< RayHit::primitive to ignore, for example the one that the ray starts on
+    Faces faces = Faces::both;             ///< the sides that can be hit
+    /// One value for each object of the scene, by RayHit::object. An object whose value is 0 is ignored. If the span is
+    /// empty, no object is ignored.
     std::span<const std::uint8_t> objects = {};
-    /// Of batches: `without` for each ray. Empty: the same for all.
+    /// One value of `without` for each ray of a batch, which replaces it. If the span is empty, `without` holds for all
+    /// rays. Queries of a single ray don't use it.
     std::span<const std::uint64_t> without_each = {};
 };
 
-/// All hits of many rays: those of ray i are hits[first[i]] up to hits[first[i + 1]], not included.
+/// All hits of many rays. The hits of ray i have the indices from first[i] up to, but not including, first[i + 1].
 struct RayHits {
-    std::vector<RayHit> hits;        ///< in the order of the rays
-    std::vector<std::size_t> first;  ///< one more than there are rays
+    std::vector<RayHit> hits;        ///< the hits of all rays, in the order of the rays
+    std::vector<std::size_t> first;  ///< index of the first hit of each ray, then hits.size()
 
     /// Returns the hits of one ray.
     std::span<const RayHit> of(std::size_t ray) const {

@@ -1,5 +1,5 @@
 /// \file
-/// The sums of samples that pictures are made of, in memory and in files.
+/// Films: the sums of the samples of a picture, in memory and in files.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +19,16 @@
 
 namespace limn {
 
-/// What films must have in common to be continued and merged, but for `scene`, `features` and `shard`.
+/// The render that a film belongs to. A film can be continued by a render, or merged with other films, if all fields
+/// are equal except `scene`, `features` and `shard`.
 struct FilmInfo {
     std::string scene{};     ///< Scene::name
     std::string features{};  ///< CompiledScene::features
     Hash128 scene_digest{};  ///< CompiledScene::digest
-    /// Of the running program's file, if the scene has user-defined objects without a tag; otherwise 0.
+    /// The digest of the running program's file if the scene has user-defined objects without a tag, else 0.
     Hash128 program{};
-    Camera camera{};  ///< that took it
-    /// As in RenderSettings.
+    Camera camera{};  ///< the camera of the render
+    /// The settings of the same names in RenderSettings.
     ///@{
     int width = 0, height = 0;
     int max_depth = 0;
@@ -41,34 +42,38 @@ struct FilmInfo {
     Shard shard{};
     ///@}
 
-    /// The pixels that the film has, of a picture of width x height.
+    /// Returns the pixels of the film within the picture of width x height: the crop window, or all pixels.
     PixelBounds window() const { return crop.value_or(PixelBounds{0, 0, width, height}); }
 };
 
-/// Why a film is not of the same render as another: "its seed is 2, not 1"; empty if it is.
+/// Returns the first difference between the renders of two films, such as "its seed is 2, not 1". Returns an empty
+/// string if the films belong to the same render.
 std::string difference(const FilmInfo& film, const FilmInfo& other);
 
-/// How many samples each pixel is to have.
+/// The number of samples that each pixel is to have.
 struct SamplePlan {
-    /// Of each pixel in the first pass of a render. From so many on there is an estimate of the error, and they tell
-    /// adaptive sampling how noisy the pixels are.
+    /// The number of samples of each pixel in the first pass of a render. The error can be estimated from this number
+    /// on. Adaptive sampling takes the noise of the pixels from the first pass.
     static constexpr int kFirstPass = 8;
 
-    int samples = 0;  ///< in the mean over the picture; 0: none yet
-    /// Of the pixel at Film::place, in multiples of the mean; empty: all pixels get as many.
+    int samples = 0;  ///< mean number of samples per pixel; 0 before the first pass
+    /// The number of samples of each pixel relative to the mean, by Film::place. If it is empty, all pixels get the
+    /// same number.
     std::vector<float> rates{};
-    double scale = 0;  ///< samples of a pixel whose rate is 1
-    /// The upper end of the error's interval where it was looked at last; NaN: never.
+    double scale = 0;  ///< number of samples of a pixel whose rate is 1
+    /// The upper end of the error's 95 % interval at the last milestone: a number of samples at which renders to any
+    /// target check their error. It is infinity if there was no estimate, and NaN before the first milestone.
     double upper_error = std::numeric_limits<double>::quiet_NaN();
 
-    /// Of the pixel in row y, column x, which stands at `place` in `rates`.
+    /// Returns the number of samples that the pixel in column x, row y is to have. `place` is its index in `rates`.
     std::uint32_t wanted(int x, int y, std::size_t place) const {
         return rates.empty() ? static_cast<std::uint32_t>(samples) : wanted(x, y, rates[place], scale);
     }
-    /// By rate and scale, in whole rounds of the replicates. Never falls when the scale grows.
+    /// Returns the number of samples for a rate and a scale. It is a multiple of the number of replicates, at least
+    /// kFirstPass, and never falls when the scale grows.
     static std::uint32_t wanted(int x, int y, float rate, double scale) {
-        // The sequence R2 rounds up or down, evenly over the picture and for a pixel alike at every scale (Roberts, The
-        // unreasonable effectiveness of quasirandom sequences, 2018).
+        // Round up or down by the sequence R2. Its numbers are even over the picture, and a pixel has the same number
+        // at every scale (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
         const std::uint32_t r2 =
             static_cast<std::uint32_t>(x) * 0xC13FA9A9u + static_cast<std::uint32_t>(y) * 0x91E10DA6u;
         const double rounds = std::min(scale * rate / 2 + r2 * 0x1p-32, 0x1p30);
@@ -76,89 +81,108 @@ struct SamplePlan {
     }
 };
 
-/// The film of a render: sums of the samples of each pixel, in two replicates from which their error is known. Sample i
-/// of a pixel belongs to replicate i mod 2. Each pixel gets its samples in order, so that the sums, in double, depend
-/// on nothing else. Different pixels may be changed by different threads.
+/// The film of a render. It has the sums of the samples of each pixel, in two replicates whose difference gives the
+/// error. Sample i of a pixel belongs to replicate i mod 2. Each pixel gets its samples in order, so the sums, in
+/// double, don't depend on the threads. Threads may change different pixels at the same time.
 class Film {
 public:
-    static constexpr int kReplicates = 2;                      ///< independent of each other
-    static constexpr int kTile = 16;                           ///< pixels a side
-    static constexpr std::size_t kTilePixels = kTile * kTile;  ///< those beyond the picture included
+    static constexpr int kReplicates = 2;  ///< number of independent replicates
+    static constexpr int kTile = 16;       ///< width and height of a tile in pixels
+    /// The number of pixels in a tile. It includes those beyond the border of the picture.
+    static constexpr std::size_t kTilePixels = kTile * kTile;
 
-    /// Black, with the tiles of its shard. \throws ArgumentError if there is no such shard, Error if memory lacks
+    /// Makes a black film with the tiles of `info.shard`.
+    /// \throws ArgumentError if there is no such shard, Error if there is not enough memory
     explicit Film(const FilmInfo& info);
-    /// Of no scene in particular. \throws Error if memory lacks
+    /// Makes a black film that belongs to no scene. \throws Error if there is not enough memory
     Film(int width, int height);
-    /// Black, with some tiles, ascending. \throws Error if memory lacks
+    /// Makes a black film with the given tiles, in ascending order. \throws Error if there is not enough memory
     Film(const FilmInfo& info, std::vector<std::uint32_t> tiles);
 
-    /// The film in a file. \throws FileError if there is none, it is damaged or cut short, or of a version of limn
-    /// whose samples are others
+    /// Reads a film.
+    /// \throws FileError if the file is missing, damaged, truncated or no film, or if it is from a version of limn that
+    /// has another format or other samples
     static Film load(const std::string& path);
-    /// The film that the tiles of all files make together, in any order; needs the memory of one film.
-    /// \throws FileError, which names the files, also if they are not of one render, are unfinished, overlap, or leave
-    /// tiles out; ArgumentError if there are no paths
+    /// Reads films whose tiles together make the whole picture, and returns the whole film. The order of the files does
+    /// not matter. The function needs the memory of one film.
+    /// \throws FileError that names the files, as `load` does, and if they don't belong to one render, are unfinished,
+    /// share tiles or lack tiles
+    /// \throws ArgumentError if `paths` is empty
     static Film merge(std::span<const std::string> paths);
-    /// Writes the film to a file as save_image does: whole or not at all. \throws FileError
+    /// Writes the film to a file, whole or not at all, as save_image does. \throws FileError that names the file
     void save(const std::string& path) const;
 
-    const FilmInfo& info() const { return info_; }  ///< what it is a film of
-    /// In pixels, of FilmInfo::window. Rows and columns below are counted within it.
+    const FilmInfo& info() const { return info_; }  ///< returns the render that the film belongs to
+    /// Return the size of FilmInfo::window in pixels. Columns and rows in the functions below are counted within the
+    /// window.
     ///@{
     int width() const { return width_; }
     int height() const { return height_; }
     ///@}
-    /// Whether it has all tiles of the picture.
+    /// Returns true if the film has all tiles of the picture.
     bool is_whole() const { return tiles_.size() == slots_.size(); }
-    /// Whether each of its pixels has the samples that the plan wants.
+    /// Returns true if each pixel of the film has as many samples as the plan says.
     bool is_finished() const { return is_finished(tiles_); }
-    bool is_finished(std::span<const std::uint32_t> tiles) const;  ///< the same of some of its tiles
-    std::size_t memory_bytes() const;                              ///< of all that it holds
+    /// Returns true if each pixel of the given tiles has as many samples as the plan says. \pre the film has the tiles
+    bool is_finished(std::span<const std::uint32_t> tiles) const;
+    std::size_t memory_bytes() const;  ///< returns the memory of the film
 
-    /// A sample that is not finite counts as black; the result says whether it was finite.
-    /// \param clear of the sample's light, how much came by from behind the scene; counts in a transparent film
-    /// \pre it has the pixel's tile
+    /// Adds a sample to the pixel in column x, row y. Returns false if the sample is not finite; it then counts as
+    /// black and opaque.
+    /// \param x,y column and row of the pixel
+    /// \param sample the radiance of the sample
+    /// \param clear the share of the sample that is background seen past the scene, 0 to 1. The radiance of that
+    /// background is not part of `sample`. A film that is not transparent ignores the share.
+    /// \pre the film has the pixel's tile
     bool add(int x, int y, const Color& sample, double clear = 0);
 
-    /// Of the pixel in row y, column x; black, without samples, where the film lacks the tile.
+    /// Return a property of the pixel in column x, row y. A pixel whose tile the film lacks is black and has no
+    /// samples.
     ///@{
     std::uint32_t samples(int x, int y) const { return at(x, y).samples; }
-    Color mean(int x, int y) const;  ///< of all samples, black if there is none yet
-    /// The part of its samples that met something; 0 if there is none yet, 1 in a film that is not transparent.
+    Color mean(int x, int y) const;  ///< returns the mean of all samples; black if there are none
+    /// Returns the share of the pixel that is not background, 0 to 1. It is 0 if there are no samples, else 1 in a film
+    /// that is not transparent.
     double alpha(int x, int y) const;
-    /// Samples in replicate r, and their mean. \pre there is one
+    /// Return the number of samples in replicate r, and their mean. \pre for the mean: the replicate has a sample
     ///@{
     std::uint32_t replicate_samples(int x, int y, std::uint32_t r) const;
     Color replicate_mean(int x, int y, std::uint32_t r) const;
     ///@}
-    /// The variance of the mean, estimated without bias from the difference of the replicates: one degree of freedom.
-    /// \pre each has a sample
+    /// Returns the variance of the mean, estimated from the difference of the replicates. The estimate is unbiased and
+    /// has one degree of freedom.
+    /// \pre each replicate has a sample
     Color variance(int x, int y) const;
-    /// The variance of the mean if all samples were independent. Sobol points are not, so it is biased, but it has n -
-    /// 1 degrees of freedom instead of one. \pre there are two
+    /// Returns the variance that the mean of n independent samples would have. It has n - 1 degrees of freedom. It is
+    /// biased, because Sobol points are not independent.
+    /// \pre the pixel has two samples
     Color independent_variance(int x, int y) const;
-    /// The largest share that one sample has of the pixel's luminance, 0 to 1.
+    /// Returns the largest share that one sample has in the luminance of the pixel, 0 to 1.
     double largest_share(int x, int y) const;
     ///@}
 
-    Image image() const;  ///< of the means
-    /// The part of `image` that is a tile's. \pre the image has the film's size, and the film the tile
+    Image image() const;  ///< returns the means of all pixels
+    /// Writes the means of a tile's pixels into an image. \pre the image has the film's size, and the film has the tile
     void draw(std::uint32_t tile, Image& image) const;
-    void draw_alpha(std::uint32_t tile, std::span<float> alpha) const;  ///< the same of `alpha`
-    std::vector<float> alpha() const;      ///< row by row; empty in a film that is not transparent
-    double mean_samples() const;           ///< a pixel that it has
-    std::uint64_t all_samples() const;     ///< of all pixels that it has
-    std::size_t own_pixels() const;        ///< that it has
-    std::uint32_t fewest_samples() const;  ///< of all pixels of the picture
+    /// Writes the alpha of a tile's pixels into a table of all pixels, row by row. \pre the film has the tile
+    void draw_alpha(std::uint32_t tile, std::span<float> alpha) const;
+    std::vector<float> alpha() const;   ///< returns all alpha values, row by row; empty if the film is not transparent
+    double mean_samples() const;        ///< returns the mean number of samples over the pixels of the film's tiles
+    std::uint64_t all_samples() const;  ///< returns the number of all samples
+    std::size_t own_pixels() const;     ///< returns the number of pixels in the film's tiles
+    /// Returns the lowest number of samples of a pixel; 0 if the film lacks tiles.
+    std::uint32_t fewest_samples() const;
 
-    /// Of a pixel in tables that go row by row, and how many there are.
+    /// Return the index of a pixel in a table of all pixels row by row, and the size of such a table.
     ///@{
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
     std::size_t pixels() const { return index(0, height_); }
     ///@}
-    /// The same in tables that go tile by tile, over those that it has, 256 places for each.
+    /// Return the index of a pixel in a table of the film's tiles, 256 entries for each tile, and the size of such a
+    /// table.
+    /// \pre for `place`: the film has the pixel's tile
     ///@{
     std::size_t place(int x, int y) const {
         const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
@@ -167,33 +191,43 @@ public:
     std::size_t places() const { return tiles_.size() * kTilePixels; }
     ///@}
 
-    /// How many samples its pixels are to have, and the seconds that its samples took, for whoever adds them.
+    /// Return or set the plan, and the seconds that the samples took. The film only stores them for the code that adds
+    /// samples.
     ///@{
     const SamplePlan& plan() const { return plan_; }
     SamplePlan& plan() { return plan_; }
-    /// Takes the rates of its tiles from a table for `tiles`, ascending.
+    /// Sets the rates of the plan. `rates` has 256 entries for each of `tiles`, in ascending order. Tiles that the film
+    /// lacks are ignored.
+    /// \throws ArgumentError if `rates` has another length
     void set_rates(std::span<const std::uint32_t> tiles, std::span<const float> rates);
     double seconds() const { return seconds_; }
     void set_seconds(double seconds) { seconds_ = seconds; }
     ///@}
 
-    /// What was traced for a tile.
+    /// The number of rays and samples that were traced for a tile.
     struct Counts {
         std::uint64_t rays = 0;                   ///< camera, scattered and shadow rays
-        std::uint64_t unusable_rays = 0;          ///< of these
-        std::uint64_t nonfinite = 0;              ///< samples
-        Counts& operator+=(const Counts& other);  ///< the sums
+        std::uint64_t unusable_rays = 0;          ///< rays that could not be traced (see is_usable)
+        std::uint64_t nonfinite = 0;              ///< samples that were not finite
+        Counts& operator+=(const Counts& other);  ///< adds each count
     };
-    using Tile = PixelBounds;                                                              ///< of the film
-    static Tile tile(const FilmInfo& info, std::uint32_t number);                          ///< by its index, row by row
-    Tile tile(std::uint32_t number) const { return tile(info_, number); }                  ///< the same
-    static std::uint32_t tile_count(const FilmInfo& info);                                 ///< of all its window
-    std::span<const std::uint32_t> tiles() const { return tiles_; }                        ///< that it has, ascending
-    bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }            ///< whether it has the tile
-    void count(std::uint32_t tile, const Counts& more) { counts_[slots_[tile]] += more; }  ///< \pre it has the tile
-    Counts counts() const;                                                                 ///< of all its tiles
+    using Tile = PixelBounds;  ///< the pixels of a tile within the film's window
+    /// Return the pixels of a tile. Tiles are numbered row by row from the top left one.
+    ///@{
+    static Tile tile(const FilmInfo& info, std::uint32_t number);
+    Tile tile(std::uint32_t number) const { return tile(info_, number); }
+    ///@}
+    /// Returns the number of tiles of the whole window. \throws Error if they are more than 2^24
+    static std::uint32_t tile_count(const FilmInfo& info);
+    std::span<const std::uint32_t> tiles() const { return tiles_; }  ///< returns the film's tiles, ascending
+    bool has(std::uint32_t tile) const { return slots_[tile] < tiles_.size(); }  ///< returns true if it has the tile
+    /// Adds to the counts of a tile. \pre the film has the tile
+    void count(std::uint32_t tile, const Counts& more) { counts_[slots_[tile]] += more; }
+    Counts counts() const;  ///< returns the sum of the counts of all tiles
 
-    /// A tile as a file holds it, and how long that is. `set_tile` takes what `tile_bytes` gave. \pre it has the tile
+    /// Convert a tile to the bytes that are stored in a file, and back. `tile_size` is the number of the bytes.
+    /// `set_tile` throws an ArgumentError if there are more or fewer.
+    /// \pre the film has the tile
     ///@{
     static std::size_t tile_size(const FilmInfo& info) { return kTileBytes + (info.transparent ? kClearBytes : 0); }
     std::vector<std::byte> tile_bytes(std::uint32_t tile) const;
@@ -211,18 +245,18 @@ private:
     static constexpr std::size_t kTileBytes = 24 + 80 * kTilePixels, kClearBytes = 8 * kTilePixels;
 
     FilmInfo info_;
-    int width_ = 0, height_ = 0;        // of the window
-    std::size_t across_ = 0;            // tiles in a row
-    std::vector<std::uint32_t> tiles_;  // that it has, ascending
-    std::vector<std::uint32_t> slots_;  // of each tile of the picture: its place in tiles_, or tiles_.size()
-    std::vector<Pixel> pixels_;         // tile by tile, and one that stays black
-    std::vector<double> clear_;         // of a transparent film, as pixels_: what was not met by its samples
-    std::vector<Counts> counts_;        // tile by tile
+    int width_ = 0, height_ = 0;        // size of the window
+    std::size_t across_ = 0;            // number of tiles in a row
+    std::vector<std::uint32_t> tiles_;  // numbers of the film's tiles, ascending
+    std::vector<std::uint32_t> slots_;  // for each tile of the window: its index in tiles_, or tiles_.size()
+    std::vector<Pixel> pixels_;         // tile by tile; then a black tile for those that the film lacks
+    std::vector<double> clear_;         // in a transparent film: for each of pixels_ the sum of `clear`
+    std::vector<Counts> counts_;        // for each of tiles_
     SamplePlan plan_;
     double seconds_ = 0;
 };
 
-/// Whether a file begins as films do.
+/// Returns true if the file begins as a film does. Returns false if it is no regular file.
 bool is_film_file(const std::string& path);
 
 }  // namespace limn

@@ -1,5 +1,5 @@
 /// \file
-/// What the camera meets first, for compositing and denoising.
+/// The first surface in each pixel, for compositing and denoising.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,35 @@
 
 namespace limn {
 
-/// Of each pixel, row by row from the top left one, the first surface that the camera sees. Boundaries of media, and
-/// shapes that say they bend no light, are looked through, and so are the holes of an AlphaMask: the surface is the
-/// one by which half of the light is stopped.
+/// The first surface that the camera sees in each pixel. All tables go row by row from the top left pixel.
 ///
-/// Albedo and normal are means over the camera rays of the pixel's first kRays samples, so that edges, a lens and
-/// motion look as they do in the picture: without these three they are the surface's own, free of noise. All else is
-/// that of the ray through the middle of the pixel, of the lens and of the shutter.
+/// - Boundaries of media, and shapes that say that they are index-matched, don't count as surfaces.
+/// - Surfaces with an AlphaMask are skipped until half of the light is stopped.
+/// - Albedo and normal are means over the camera rays of the pixel's first kRays samples. So they show edges, blur by a
+///   lens and blur by motion as the picture does.
+/// - Position, depth, object and primitive are those of one ray, through the middle of the pixel, of the lens and of
+///   the shutter.
 struct FirstHits {
-    static constexpr int kRays = 16;  ///< a pixel
+    static constexpr int kRays = 16;  ///< number of rays per pixel for albedo and normal
 
-    Image albedo;              ///< CompiledScene::albedo; black where there is nothing
-    Image normal;              ///< Surface::shading_normal, as a NormalMap bends it; (0, 0, 0) where there is nothing
-    Image position;            ///< in world units; (0, 0, 0) where there is nothing
-    std::vector<float> depth;  ///< from the ray's origin, in world units; infinite where there is nothing
-    std::vector<std::int64_t> object;     ///< RayHit::object; -1 where there is nothing
-    std::vector<std::int64_t> primitive;  ///< RayHit::element; -1 where there is nothing
+    Image albedo;              ///< CompiledScene::albedo; black if there is no surface
+    Image normal;              ///< shading normal in world space, bent by a NormalMap; zero if there is no surface
+    Image position;            ///< point in world space; zero if there is no surface
+    std::vector<float> depth;  ///< distance from the ray's origin, in world units; infinite if there is no surface
+    std::vector<std::int64_t> object;     ///< RayHit::object; -1 if there is no surface
+    std::vector<std::int64_t> primitive;  ///< RayHit::element; -1 if there is no surface
 
-    /// As channels of an EXR: of "albedo" albedo.R, albedo.G and albedo.B, of "normal" and "position" .X, .Y and .Z, of
-    /// the others one of that name. Numbers of objects and primitives are float, exact up to 16777216.
+    /// Returns the values of a member as channels of an EXR. "albedo" gives albedo.R, albedo.G and albedo.B. "normal"
+    /// and "position" give three channels that end in .X, .Y and .Z. "depth", "object" and "primitive" give one channel
+    /// of that name. Numbers of objects and primitives become float, which is exact up to 16777216.
     /// \throws ArgumentError for another name
     std::vector<ImageLayer> layers(std::string_view name) const;
-    static bool knows(std::string_view name);  ///< whether `layers` does
+    static bool knows(std::string_view name);  ///< returns true if `layers` accepts the name
 };
 
-/// Traces camera rays, and nothing behind what they hit. Of the settings those count that say which pixels there are,
-/// and which rays: size, crop, seed, sampler, antialias, threads. \throws what `render` throws for settings and camera
+/// Traces the camera rays up to the first surface. Of the settings only width, height, crop, seed, sampler, antialias
+/// and threads matter.
+/// \throws ArgumentError or Error as `render` does
 FirstHits first_hits(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
 
 }  // namespace limn

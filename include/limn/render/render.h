@@ -1,5 +1,5 @@
 /// \file
-/// Pictures from scenes.
+/// Rendering a scene to a picture.
 #pragma once
 
 #include <cstdint>
@@ -15,83 +15,100 @@
 
 namespace limn {
 
-/// What the render knows of its own relMSE (see image/compare.h), from the difference of two independent replicates.
-/// The reference in the denominator lies between the mean of the eight pixels around and the pixel's own, nearer to its
-/// own the more the 3x3 pixels differ beyond their noise. There is no estimate with fewer than 8 samples in a pixel,
-/// where too much of the noise comes from samples that found light alone in their pixels, or where the squares of
-/// samples are no numbers. Light that no path has found yet cannot be seen.
+/// The estimated relMSE of a picture (see ImageMetrics::relative_mse), computed from the difference of two independent
+/// replicates. It cannot include light that no path has found.
+///
+/// The reference value in the denominator is between the pixel's own value and the mean of the eight pixels around it.
+/// It is nearer to the pixel's own value the more the 3x3 pixels differ beyond their noise.
+///
+/// There is no estimate if
+/// - the film is not whole,
+/// - a pixel has fewer than 8 samples,
+/// - the squares of samples are not finite,
+/// - too much of the noise comes from samples that alone in their pixel found light.
 struct ErrorEstimate {
-    double estimate = 0;  ///< NaN where there is none
-    /// The 95 % interval of the picture's true error, from the spread over pixels; NaN where there is none.
+    double estimate = 0;  ///< the relMSE; NaN if there is no estimate
+    /// The 95 % interval of the picture's true error; NaN if there is no estimate.
     ///@{
     double ci95_low = 0, ci95_high = 0;
     ///@}
-    /// 99.9th percentile over pixels of the largest share that one sample has of its pixel, 0 to 1.
+    /// The 99.9th percentile over the pixels of Film::largest_share: the largest share that one sample has in the
+    /// luminance of its pixel, 0 to 1.
     double max_sample_share = 0;
-    std::string reason;              ///< why there is no estimate; empty where there is one
+    std::string reason;              ///< why there is no estimate; empty if there is one
     std::optional<double> target{};  ///< RenderSettings::error
-    bool reached = false;            ///< there is a target, and ci95_high is at or under it
+    bool reached = false;            ///< true if there is a target and ci95_high is at most the target
 };
 
-/// What ended a render: the number of samples, RenderSettings::error, RenderSettings::time_limit or the callback.
+/// The reason why a render ended: the number of samples, RenderSettings::error, RenderSettings::time_limit, or the
+/// progress callback.
 enum class StoppedBy : std::uint8_t { samples, error, time, callback };
 
-/// What was rendered, how, and what it cost.
+/// The settings, the cost and the end of a render.
 struct RenderReport {
     std::string scene;                    ///< Scene::name
-    int width = 0;                        ///< in pixels
-    int height = 0;                       ///< in pixels
-    std::uint64_t seed = 0;               ///< as asked for
-    int threads = 0;                      ///< that the render had
-    int max_depth = 0;                    ///< as asked for
-    double samples_per_pixel = 0;         ///< mean over pixels
-    double compile_seconds = 0;           ///< that `compile` took
-    double render_seconds = 0;            ///< that its samples took, in all runs and parts
-    std::uint64_t rays = 0;               ///< camera, scattered and shadow rays
-    std::uint64_t nonfinite_samples = 0;  ///< counted as black
-    /// Of `rays`, those that a shape or material of extreme numbers made unusable (see is_usable): they carry
-    /// no light.
+    int width = 0;                        ///< width of the rendered window in pixels
+    int height = 0;                       ///< height of the rendered window in pixels
+    std::uint64_t seed = 0;               ///< RenderSettings::seed
+    int threads = 0;                      ///< number of threads of the render
+    int max_depth = 0;                    ///< RenderSettings::max_depth
+    double samples_per_pixel = 0;         ///< mean number of samples per pixel
+    double compile_seconds = 0;           ///< time that `compile` took
+    double render_seconds = 0;            ///< time that the samples took, in all runs and shards
+    std::uint64_t rays = 0;               ///< number of camera, scattered and shadow rays
+    std::uint64_t nonfinite_samples = 0;  ///< number of samples that were not finite; they count as black
+    /// The number of `rays` that are unusable (see is_usable) because a shape or material has extreme numbers. They
+    /// carry no light.
     std::uint64_t unusable_rays = 0;
-    std::string features;                       ///< CompiledScene::features
-    std::size_t memory_bytes = 0;               ///< compiled scene and film
-    bool complete = true;                       ///< false if the callback stopped it, or the caller's own TBB context
-    StoppedBy stopped_by = StoppedBy::samples;  ///< the first to hit
+    std::string features;          ///< CompiledScene::features
+    std::size_t memory_bytes = 0;  ///< memory of the compiled scene and the film
+    /// False if the progress callback, or the caller's own TBB context, stopped the render.
+    bool complete = true;
+    StoppedBy stopped_by = StoppedBy::samples;  ///< why the render ended
 };
 
-/// What is known of each pixel, row by row from the top left one.
+/// Numbers for each pixel of a picture, row by row from the top left pixel.
 struct PixelMaps {
-    /// The pixel's own estimated relMSE, of which ErrorEstimate::estimate is the mean; empty where there is none.
+    /// The estimated relMSE of each pixel. Its mean is ErrorEstimate::estimate. It is empty if there is no estimate.
     std::vector<float> error;
-    std::vector<float> samples;  ///< that the pixel has
-    /// Of a transparent picture, otherwise empty: how much of the pixel is not background, 0 to 1. That is the part of
-    /// the camera's paths that met something; a path that media weakened, and nothing else, counts by the mean of its
-    /// channels. Colours are multiplied by it (associated alpha): image + (1 - alpha) background is the picture with
-    /// a background of one colour.
+    std::vector<float> samples;  ///< number of samples of each pixel
+    /// The alpha of each pixel of a transparent picture, else empty. Alpha is the share of the pixel that is not
+    /// background, 0 to 1. A path that is scattered or hits a surface counts as 1. A path that a medium only attenuates
+    /// counts as 1 minus the mean transmittance of the three channels.
+    ///
+    /// Colours are multiplied by alpha (associated alpha): image + (1 - alpha) background is the picture over a
+    /// background of one colour.
     std::vector<float> alpha;
 };
 
-/// A picture and what is known of it.
+/// The result of a render.
 struct RenderResult {
-    Image image;          ///< linear, not clamped
-    ErrorEstimate error;  ///< of `image`
-    /// Of all runs and parts that made the film; `threads`, `complete` and `stopped_by` of the last run.
+    Image image;          ///< the picture, linear and not clamped
+    ErrorEstimate error;  ///< the estimated error of `image`
+    /// The report on all runs and shards that made the film. `threads`, `complete` and `stopped_by` are those of the
+    /// last run.
     RenderReport report;
-    PixelMaps maps;  ///< of `image`
+    PixelMaps maps;  ///< further numbers for each pixel of `image`
 };
 
-/// Renders. Thread-safe: several renders may share a scene. The pixels depend on scene, camera and settings, but not on
-/// `threads` and `progress`, unless a time limit or the callback ends the render.
+/// Renders a scene. Several threads may render the same scene at the same time. The picture depends on scene, camera
+/// and settings, but not on `threads` or the machine, unless a time limit or the progress callback ends the render.
 ///
-/// \throws ArgumentError for impossible settings or an impossible camera, Error if a primitive has no material or
-/// memory lacks; what the progress callback or a user-defined object throws
+/// \throws ArgumentError if the settings or the camera are invalid
+///
+/// \throws Error if a primitive has no material, or there is not enough memory
+///
+/// An exception of the progress callback or of a user-defined object is passed on.
 RenderResult render(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
 
-/// What a film is worth so far; `error` is the one that was asked for. Of the report those fields that only a render
-/// knows are empty. Runs on the threads of the caller's TBB arena. \throws ArgumentError if `error` is not positive and
-/// finite
+/// Returns the picture of a film with its error and report. The report's `threads` and `compile_seconds` are 0, and its
+/// `memory_bytes` is that of the film. The function runs on the threads of the caller's TBB arena.
+/// \param film the film
+/// \param error the target of the error, for ErrorEstimate::target and ErrorEstimate::reached
+/// \throws ArgumentError if `error` is not positive and finite
 RenderResult render_result(const Film& film, std::optional<double> error = {});
 
-/// limn's version, "major.minor.patch".
+/// Returns limn's version, "major.minor.patch".
 const char* version();
 
 }  // namespace limn

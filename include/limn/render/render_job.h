@@ -1,5 +1,5 @@
 /// \file
-/// Renders that can be shown, paused, saved and continued.
+/// Renders that can be previewed, interrupted, saved and continued.
 #pragma once
 
 #include <functional>
@@ -13,66 +13,75 @@
 
 namespace limn {
 
-/// A render of which `render` is the short form. However it is interrupted, saved, loaded and continued, on whatever
-/// machine and number of threads: its film, and the error at which it stops, are those of an uninterrupted render.
+/// A render that can be interrupted, saved, loaded and continued. `render` is the short form. The film, and the error
+/// at which the render ends, are those of an uninterrupted render, on any machine and with any number of threads.
 /// \code
 /// RenderJob job(scene, camera, settings);
 /// if (std::filesystem::exists("a.film")) job.load("a.film");
 /// job.run();
 /// job.save("a.film");
 /// \endcode
-/// The functions are for one thread at a time, but for those that say otherwise. They throw what `render` throws.
+/// Only one thread at a time may call the member functions, except `save`, `image` and `alpha`. They throw what
+/// `render` throws, and FileError as said below.
 class RenderJob {
 public:
-    /// The scene must outlive the job.
+    /// Makes a job with a black film. The scene must outlive the job.
     RenderJob(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings = {});
     ~RenderJob();
     RenderJob(const RenderJob&) = delete;
     RenderJob& operator=(const RenderJob&) = delete;
 
-    /// Continues from a film instead of the job's own. It may have more tiles than the job's shard.
-    /// \throws FileError as Film::load; also if it is of another scene or camera, or other settings but for threads,
-    /// samples, error and time limit; the job is then as before
-    /// \return whether the job has all of the film's tiles
+    /// Replaces the film of the job by the film in a file, from which the render continues. That film must have the
+    /// tiles of the job's shard, and may have more.
+    /// \return true if the job has all tiles of the film in the file
+    /// \throws FileError as Film::load does, and if the film lacks tiles or belongs to another render (see FilmInfo).
+    /// Threads, numbers of samples, error and time limit may differ. The job is then unchanged.
     bool load(const std::string& path);
-    /// Renders what a plan wants instead of what the settings say. \throws FileError as `load`
+    /// Reads a plan that plan_next_round wrote. `run` then renders the samples of the plan, whatever the settings say.
+    /// \throws FileError as `load` does, and if the plan has fewer samples than the film or gives pixels other rates
     void load_plan(const std::string& path);
 
-    /// Renders until something of the settings ends it. Continues where it was ended before, by a time limit (which
-    /// begins anew), the callback or an exception.
+    /// Renders until the samples, the error, the time limit or the progress callback of the settings end the run. A
+    /// later run continues where the last one was ended, also by an exception. The time limit holds for each run.
+    /// \return why the run ended
     StoppedBy run();
-    /// So many samples more in the mean over pixels, from 1 on, whatever the error is: beyond the pass that was begun,
-    /// which is finished first where something ended it.
+    /// Renders `count` more samples per pixel, in the mean over the pixels. RenderSettings::error is ignored. If the
+    /// last run was ended within a pass, the pass is completed first and does not count.
+    /// \return why the run ended
+    /// \throws ArgumentError if `count` is less than 1 or too large
     StoppedBy add_samples(int count);
 
-    /// Writes the film to a file, which appears whole or not at all. By any thread, at any time: while the job runs,
-    /// the film is that of some moment of it. \throws FileError
+    /// Writes the film to a file, which appears whole or not at all. Any thread may call it at any time. While the job
+    /// runs, it writes the samples that each tile has at that moment.
+    /// \throws FileError that names the file
     void save(const std::string& path) const;
-    /// The picture so far, and its alpha as in PixelMaps. By any thread, at any time.
+    /// Return the current picture, and its alpha as in PixelMaps. Any thread may call them at any time.
     ///@{
     Image image() const;
     std::vector<float> alpha() const;
     ///@}
 
-    const Film& film() const;     ///< not while it runs
-    RenderResult result() const;  ///< not while it runs
+    const Film& film() const;     ///< returns the film. \pre the job is not running
+    RenderResult result() const;  ///< returns picture, error and report. \pre the job is not running
 
 private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
 
-/// Calls a function regularly, in a thread of its own, as long as this object lives: to show or save what a job has so
-/// far.
+/// Calls a function regularly, in a thread of its own, until the object is destroyed. It can show or save the picture
+/// of a job while the job runs.
 /// \code
 /// const Repeated preview(5, [&] { save_image(job.image(), "a.png"); });
 /// job.run();
 /// \endcode
 class Repeated {
 public:
-    /// Every `seconds`. What the function throws ends the program. \throws ArgumentError if seconds are not over 0
+    /// Starts the thread. It waits `seconds` before each call. If the function throws an exception, the program is
+    /// terminated.
+    /// \throws ArgumentError if `seconds` is not positive
     Repeated(double seconds, std::function<void()> function);
-    /// Waits for a call that runs, and makes no more.
+    /// Ends the thread. If the function is running, waits until it returns.
     ~Repeated();
     Repeated(const Repeated&) = delete;
     Repeated& operator=(const Repeated&) = delete;
@@ -82,14 +91,15 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Saves a job's film regularly, in a thread of its own, as long as this object lives.
+/// Saves the film of a job regularly, in a thread of its own, until the object is destroyed.
 class Checkpoints {
 public:
-    /// Every `seconds`. The job must outlive the object. `failed` is called by that thread with what was wrong
-    /// when a film could not be written; the render continues. \throws ArgumentError if seconds are not over 0
+    /// Starts the thread. It waits `seconds` before each save. If a film cannot be written, it calls `failed` with the
+    /// error, and the render continues. The job must outlive the object.
+    /// \throws ArgumentError if `seconds` is not positive
     Checkpoints(const RenderJob& job, const std::string& path, double seconds,
                 std::function<void(const Error&)> failed);
-    /// Waits for a save that is under way, and begins no other.
+    /// Ends the thread. If it is saving, waits until the file is written.
     ~Checkpoints();
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;
@@ -98,9 +108,13 @@ private:
     Repeated repeated_;
 };
 
-/// Writes to `path` how many samples per pixel each shard needs next, for RenderJob::load_plan. For a film whose error,
-/// as `render_result` estimates it, is over its target. \throws FileError; ArgumentError if there is no
-/// target, the film is not whole or has too few samples
+/// Writes a plan for RenderJob::load_plan: the number of samples per pixel that all shards are to render next. It is
+/// for a merged film whose error is above the target.
+/// \param film the merged film
+/// \param error its error and target, from `render_result`
+/// \param path the file of the plan
+/// \throws FileError if the file cannot be written
+/// \throws ArgumentError if there is no target, or if the film is not whole or has a pixel with fewer than 8 samples
 void plan_next_round(const Film& film, const ErrorEstimate& error, const std::string& path);
 
 }  // namespace limn

@@ -1,5 +1,5 @@
 /// \file
-/// How to render.
+/// The settings of a render.
 #pragma once
 
 #include <cstdint>
@@ -11,68 +11,76 @@
 
 namespace limn {
 
-/// How far a render has come.
+/// The progress of a render.
 struct Progress {
-    double fraction = 0;  ///< 0 to 1, never decreasing; an estimate where an error or a time was asked for
-    double seconds = 0;   ///< since this run began
+    double fraction = 0;  ///< finished part, 0 to 1, never decreasing; estimated with `error` or `time_limit`
+    double seconds = 0;   ///< time since the run began
 };
 
-/// How radiance is estimated. `path` samples lights and scattering and weighs both by multiple importance sampling;
-/// `naive` follows scattering alone, its slow but simple check. Both are unbiased.
+/// The estimator of radiance. `path` samples lights and scattering and combines them by multiple importance sampling.
+/// `naive` samples scattering alone; it is slow, and serves to check `path`. Both are unbiased.
 enum class Estimator : std::uint8_t { path, naive };
 
-/// Where a pixel's random numbers come from. `sobol`: Owen-scrambled Sobol points, which fill the unit square evenly
-/// from the first to the last sample; `independent`: a counter-based generator. Both are unbiased.
+/// The source of a pixel's random numbers. `sobol` is Owen-scrambled Sobol points, which are evenly distributed at any
+/// number of samples. `independent` is a counter-based random number generator. Both are unbiased.
 enum class SamplerKind : std::uint8_t { sobol, independent };
 
-/// See RenderSettings::max_depth.
+/// The value of RenderSettings::max_depth without a limit: only Russian roulette ends paths.
 inline constexpr int kUnlimitedDepth = std::numeric_limits<int>::max();
-/// See RenderSettings::width and height.
+/// The largest RenderSettings::width and height, in pixels.
 inline constexpr int kMaxSide = 1 << 20;
-/// See RenderSettings::max_samples_per_pixel.
+/// The default of RenderSettings::max_samples_per_pixel.
 inline constexpr int kMostSamples = 1 << 20;
 
-/// A part of a picture: of its tiles of 16x16 pixels one in `count`, evenly spread. The shards of a picture take about
-/// the same time, as long as each has some dozens.
+/// A part of a picture: one of `count` sets of tiles of 16x16 pixels. The tiles of a shard are evenly distributed over
+/// the picture. All shards take about the same time if each has some dozens of tiles.
 struct Shard {
-    int index = 1;  ///< 1 to count
-    int count = 1;  ///< at most the number of tiles
+    int index = 1;  ///< number of this shard, 1 to count
+    int count = 1;  ///< number of shards, at most the number of tiles
 };
 
-/// What `render` needs besides scene and camera.
+/// The settings of a render.
 struct RenderSettings {
-    int width = 400;             ///< in pixels, 1 to 1048576
-    int height = 400;            ///< in pixels, 1 to 1048576
-    int samples_per_pixel = 64;  ///< at least 1; from 8 on the error is estimated; `error` and `time_limit` replace it
-    int max_depth = 10;      ///< ray segments a path, at least 1; kUnlimitedDepth: paths end by Russian roulette alone
-    std::uint64_t seed = 0;  ///< another seed gives independent noise
-    int threads = 0;  ///< 0: as many as the caller's TBB arena has; at most 1024. The picture does not depend on it.
-    bool antialias = true;  ///< box filter over the pixel; false: every sample goes through the pixel's centre
-    Estimator estimator = Estimator::path;     ///< both converge to the same picture
-    SamplerKind sampler = SamplerKind::sobol;  ///< both converge to the same picture
-    /// The relMSE to render to, over 0: the render ends at the first check, from 8 samples a pixel on, at which the
-    /// upper end of the estimate's 95 % interval is at or under it. How many samples that takes does not depend on
-    /// threads or time.
+    int width = 400;   ///< width in pixels, 1 to 1048576
+    int height = 400;  ///< height in pixels, 1 to 1048576
+    /// The number of samples per pixel, at least 1. The error is estimated from 8 on. If `error` or `time_limit` is
+    /// set, this number is ignored.
+    int samples_per_pixel = 64;
+    int max_depth = 10;      ///< largest number of ray segments in a path, at least 1, or kUnlimitedDepth
+    std::uint64_t seed = 0;  ///< seed of the random numbers; another seed gives independent noise
+    /// The number of threads, up to 1024. 0 is as many as the caller's TBB arena has. The picture does not depend on
+    /// it.
+    int threads = 0;
+    bool antialias = true;  ///< true: box filter over the pixel; false: all samples go through the pixel's centre
+    Estimator estimator = Estimator::path;     ///< all values converge to the same picture
+    SamplerKind sampler = SamplerKind::sobol;  ///< all values converge to the same picture
+    /// The target of the relMSE, positive and finite. From 8 samples per pixel on, the render checks its error from
+    /// time to time. It ends at the first check at which ErrorEstimate::ci95_high is at most the target. The number of
+    /// samples at the end does not depend on threads or time.
     std::optional<double> error{};
-    /// Seconds of a run after which it ends with what there is, over 0; but each pixel gets its first 8 samples in any
-    /// case. The picture then depends on the machine.
+    /// The time in seconds after which a run ends, positive and finite. Each pixel gets its first 8 samples even if
+    /// they take longer. The picture depends on the machine.
     std::optional<double> time_limit{};
-    /// With `error` or `time_limit`: the samples, in the mean over pixels, after which the render ends in any case, at
+    /// With `error` or `time_limit`: the mean number of samples per pixel at which the render ends in any case, at
     /// least 1.
     int max_samples_per_pixel = kMostSamples;
-    /// False: after 8 samples in each pixel, pixels in noisy surroundings get more than others, and each gets at least
-    /// a quarter of the mean; the picture stays unbiased. True: all pixels get the same number. Matters only with
-    /// `error` or `time_limit`.
+    /// True gives all pixels the same number of samples. False gives more samples to pixels in noisy surroundings,
+    /// after the first 8 samples of each pixel. Each pixel then gets at least a quarter of the mean number. The picture
+    /// is unbiased in both cases. Without `error` and `time_limit` all pixels get the same number in any case.
     bool uniform = false;
-    /// The pixels to render, of a picture of `width` x `height`, in which they must lie; not empty. By default all.
-    /// With as many samples they are those of the whole picture, bit for bit; where `error` or `time_limit` lets
-    /// samples differ, the pixels of the crop window alone decide how many each gets.
+    /// The crop window: the pixels to render. It must be inside the picture of `width` x `height` and not empty. By
+    /// default all pixels are rendered. A pixel with the same number of samples is the same as in the whole picture,
+    /// bit for bit. If `error` or `time_limit` is set, the numbers of samples depend on the pixels of the crop window
+    /// alone.
     std::optional<PixelBounds> crop{};
-    /// Leaves the background out of what the camera sees, but not out of the light: PixelMaps::alpha says where it was.
+    /// True if the camera does not see the background. The background still lights the scene. PixelMaps::alpha tells
+    /// how much of each pixel is not background.
     bool transparent = false;
-    Shard shard{};  ///< the part to render, of a picture whose error is then unknown; the rest stays black
-    /// Called at the start, at the end, and at most every 50 ms in between, by any thread but never by two at once;
-    /// return false to stop with what has been done.
+    /// The part of the picture to render. The rest stays black, and there is no estimate of the error. With more than
+    /// one shard, neither `error` nor `time_limit` may be set.
+    Shard shard{};
+    /// A function that is called at the start, at the end, and at most every 50 ms in between. Any thread may call it,
+    /// but never two at once. If it returns false, the render ends with the samples that it has.
     std::function<bool(const Progress&)> progress{};
 };
 

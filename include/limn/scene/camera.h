@@ -1,5 +1,5 @@
 /// \file
-/// Cameras and the rays that they make.
+/// Cameras and their rays.
 #pragma once
 
 #include <cstdint>
@@ -11,75 +11,84 @@
 
 namespace limn {
 
-/// How points of the picture become rays.
+/// The mapping from points of the picture to rays.
 enum class Projection : std::uint8_t {
-    perspective,   ///< from the eye through a flat frame
-    orthographic,  ///< along the view, from the plane through the eye that stands across it
-    /// From the eye to all sides: across the picture goes the longitude, 360 degrees, and down it the latitude, 180
-    /// (equirectangular). What is in the middle of its frame is `look_at`, and the poles are along the component of
-    /// `up` that is perpendicular to the view.
+    /// Rays start at the eye and pass through a flat frame.
+    perspective,
+    /// Rays are parallel to the view axis. They start on the plane through the eye that is perpendicular to it.
+    orthographic,
+    /// Rays start at the eye and go in all directions (equirectangular). The longitude runs across the picture, over
+    /// 360 degrees, and the latitude runs down it, over 180 degrees. `look_at` is at the centre. The poles are along
+    /// the component of `up` that is perpendicular to the view axis.
     panorama
 };
 
-/// A thin-lens camera. Angles in degrees, lengths in world units, times in shutter units within [0, 1].
+/// A thin-lens camera. Angles are in degrees and lengths in world units. Times are in shutter units: the motion of
+/// objects runs from time 0 to time 1. The view axis is the line from `look_from` to `look_at`.
 struct Camera {
-    Point3 look_from{0, 0, 1};  ///< the eye, the centre of the lens
-    Point3 look_at{0, 0, 0};    ///< what is in the middle of the picture
-    Vec3 up{0, 1, 0};           ///< what is upward in the picture; of any length, not along the view
-    double vertical_fov = 40;   ///< full angle between the top and the bottom edge of a perspective
-    /// Width over height of the picture's frame; by default that of its pixels. A panorama has none.
+    Point3 look_from{0, 0, 1};  ///< the eye: the centre of the lens
+    Point3 look_at{0, 0, 0};    ///< the point at the centre of the picture; not look_from
+    Vec3 up{0, 1, 0};           ///< direction that is upward in the picture; not zero, not parallel to the view axis
+    double vertical_fov = 40;   ///< full angle between the top and the bottom edge of a perspective, in (0, 180)
+    /// Width over height of the frame. By default it is the ratio of the picture's sides in pixels. A panorama ignores
+    /// it.
     std::optional<double> aspect_ratio{};
-    /// Full angle of the cone that the lens fills, seen from the focus plane: the lens has radius
-    /// focus_distance * tan(aperture_angle / 2). 0: a pinhole, which is all that a panorama may have.
+    /// Full angle of the cone from a point in focus to the edge of the lens, in [0, 180). The radius of the lens is
+    /// focus_distance * tan(aperture_angle / 2). 0 means a pinhole. A panorama must have a pinhole.
     double aperture_angle = 0;
-    /// To the plane in focus, along the view axis; by default |look_at - look_from|.
+    /// Distance from the eye to the plane in focus, along the view axis. By default it is |look_at - look_from|.
     std::optional<double> focus_distance{};
-    double shutter_open = 0;                          ///< a ray's time is uniform between the two
-    double shutter_close = 1;                         ///< not before shutter_open
-    Projection projection = Projection::perspective;  ///< how directions map to the picture
-    /// Of an orthographic picture, in world units; by default what the vertical_fov takes in at look_at.
+    double shutter_open = 0;                          ///< lower bound of the times of rays, which are uniform
+    double shutter_close = 1;                         ///< upper bound: 0 <= shutter_open <= shutter_close <= 1
+    Projection projection = Projection::perspective;  ///< mapping from the picture to rays
+    /// Height of an orthographic picture in world units. By default it is the height that vertical_fov covers at
+    /// look_at. Other projections ignore it.
     std::optional<double> view_height{};
 };
 
-/// A camera for a picture of a given size, ready to make rays. Immutable, thread-safe.
+/// Generates the rays of a camera for a picture of a given size. Immutable, thread-safe.
 class CameraRays {
 public:
-    /// \throws ArgumentError for an impossible camera: eye equal to target, up along the view, an angle outside (0,
-    /// 180) (aperture [0, 180)), an aspect ratio, a height, a focus distance or a size that is not positive, a frame or
-    /// a lens beyond double, a shutter outside [0, 1], a panorama with a lens, anything NaN
+    /// \param width,height size of the picture in pixels
+    ///
+    /// \throws ArgumentError if
+    /// - a value is outside the range that Camera states, or NaN
+    /// - the aspect ratio, the view height, the focus distance or the size of the picture is not positive and finite
+    /// - the frame or the lens is so large that coordinates of rays would overflow
+    /// - a panorama has a lens
     CameraRays(const Camera& camera, int width, int height);
 
-    /// The ray through a point of the picture. Its direction reaches from the lens to the plane at distance 1 from it:
-    /// in a perspective, or with a lens, it has no unit length.
+    /// Returns the ray through a point of the picture, with t in (0, infinity]. The direction of a panorama's ray has
+    /// length 1. In the other projections the component of the direction along the view axis is 1.
     ///
-    /// \param x,y in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
-    /// \param lens_u,lens_v in [0, 1): where on the lens, uniform over its area (Shirley and Chiu's map)
-    /// \param time_u in [0, 1): when in the shutter
+    /// \param x,y point of the picture, in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
+    /// \param lens_u,lens_v in [0, 1): point of the lens, by Shirley and Chiu's map, which keeps areas
+    /// \param time_u in [0, 1): time between shutter_open and shutter_close
     Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
 
-    bool has_lens() const { return view_.lens_radius > 0; }                        ///< whether lens_u and lens_v matter
-    bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< whether time_u matters
+    bool has_lens() const { return view_.lens_radius > 0; }                        ///< true if lens_u and lens_v matter
+    bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< true if time_u matters
 
     /// \cond
-    // What the rays are made of.
+    // The numbers that the rays are computed from.
     struct View {
-        Point3 eye;                          ///< as Camera has it
-        Projection projection;               ///< the same
-        double width, height;                ///< of the picture, in pixels
-        double shutter_open, shutter_close;  ///< as Camera has them
-        Vec3 right, up, forward;             ///< unit
-        double half_width, half_height;      ///< of the frame, which a perspective has at distance 1
+        Point3 eye;                          ///< Camera::look_from
+        Projection projection;               ///< Camera::projection
+        double width, height;                ///< size of the picture, in pixels
+        double shutter_open, shutter_close;  ///< as in Camera
+        Vec3 right, up, forward;             ///< orthonormal
+        double half_width, half_height;      ///< half the size of the frame; that of a perspective is at distance 1
         double lens_radius, focus_distance;  ///< in world units
     };
     /// \endcond
-    const View& view() const { return view_; }  ///< limn's own
+    const View& view() const { return view_; }  ///< the camera in the form that limn's own code uses
 
 private:
     View view_;
 };
 
-/// A pinhole camera of 30 degrees that looks down on a box from the front right (+x, +z) and has the box's bounding
-/// sphere in a picture of the given width over height.
+/// Returns a pinhole camera with a vertical field of view of 30 degrees. It looks down on `box` from the front right
+/// (+x, +z). The bounding sphere of the box fits into a picture of the given width over height.
 ///
 /// \throws ArgumentError if the box is empty or not finite, or the ratio is not positive and finite
 Camera frame_box(const Box& box, double aspect_ratio = 1);

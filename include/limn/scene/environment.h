@@ -1,5 +1,5 @@
 /// \file
-/// Environment maps: images of the light from all directions.
+/// Environment maps: images of the radiance from all directions.
 #pragma once
 
 #include <memory>
@@ -12,30 +12,38 @@
 
 namespace limn {
 
-/// Radiance from infinitely far away, as an equirectangular image has it, of any size and any width over height. The
-/// upper edge of the image is +y, its middle -z, and +x is to the right of that: seen from inside it is not mirrored.
-/// Between the centres of pixels it is interpolated; it goes on round the horizon. The path tracer samples it by its
-/// luminance. Immutable, thread-safe.
+/// Radiance from infinitely far away, given by an equirectangular image of any size and aspect ratio. Immutable,
+/// thread-safe.
 ///
-/// Memory while a compiled scene holds it: the image, 12 bytes a pixel, and 4 bytes a pixel for sampling.
+/// - The upper edge of the image is +y, its centre is -z, and +x is to the right of the centre. Seen from inside, the
+///   image is not mirrored.
+/// - Radiance is interpolated bilinearly between the centres of pixels. The left and the right edge are neighbours.
+/// - The path tracer samples directions in proportion to the luminance.
+/// - A compiled scene needs 16 bytes a pixel: 12 for the image and 4 for sampling.
 class EnvironmentMap {
 public:
-    /// \param image linear radiance
-    /// \param world_from_map turns the map about the origin, as Transform::rotate_y does; it may mirror it too
-    /// \param scale multiplies the radiance; finite, not negative
-    /// \throws ArgumentError if the image is null or empty, has 2^30 pixels or more or one that is negative, infinite
-    /// or NaN, which is named; the matrix does more than turn and mirror; the scale is impossible
+    /// \param image linear radiance, in W / (sr m^2)
+    /// \param world_from_map a rotation, for example Transform::rotate_y, or a rotation with a reflection
+    /// \param scale factor of the radiance; finite, at least 0
+    ///
+    /// \throws ArgumentError if
+    /// - the image is null or empty, or has 2^30 pixels or more
+    /// - a pixel is negative, infinite or NaN; the message names the pixel
+    /// - the matrix is no rotation or reflection, or has a translation
+    /// - the scale is negative or not finite
     explicit EnvironmentMap(std::shared_ptr<const Image> image, const Transform& world_from_map = {}, double scale = 1);
-    /// Takes an image that nothing else shares.
+    /// Makes a map that owns its image. The parameters and errors are as above.
     explicit EnvironmentMap(Image image, const Transform& world_from_map = {}, double scale = 1)
         : EnvironmentMap(std::make_shared<const Image>(std::move(image)), world_from_map, scale) {}
 
-    /// \param direction of any non-zero length, towards where the light comes from
+    /// Returns the radiance from a direction.
+    ///
+    /// \param direction points away from the scene; of any length but zero
     Color radiance(const Vec3& direction) const;
 
     const std::shared_ptr<const Image>& image() const { return image_; }  ///< not null
     const Transform& world_from_map() const { return world_from_map_; }   ///< without translation
-    double scale() const { return scale_; }                               ///< of the radiance
+    double scale() const { return scale_; }                               ///< factor of the radiance
 
 private:
     std::shared_ptr<const Image> image_;

@@ -1,5 +1,5 @@
 /// \file
-/// What is described.
+/// The description of a scene, which compile() takes.
 #pragma once
 
 #include <cstddef>
@@ -17,37 +17,40 @@
 
 namespace limn {
 
-/// Where an object of a scene, an Instance, stands from now on.
+/// A new placement of an object of a scene, for recompile(). The object must be an Instance.
 struct MovedObject {
-    std::size_t object = 0;               ///< its number, as Scene::add returned it
-    Transform world_from_object{};        ///< as of an Instance
-    std::optional<Transform> at_time1{};  ///< of one that moves while the shutter is open
+    std::size_t object = 0;               ///< number of the object, as Scene::add returned it
+    Transform world_from_object{};        ///< placement, as that of an Instance; at time 0 if the object moves
+    std::optional<Transform> at_time1{};  ///< placement at time 1; unset if the object doesn't move
 };
 
-/// A description: objects, lights and a background. Filling it is not thread-safe, reading it is.
+/// A description of a scene: objects, lights and a background. Concurrent reads are safe. `add` is not thread-safe.
 class Scene {
 public:
-    Background background = Background::black();          ///< by default no light but that of lamps
-    std::shared_ptr<const EnvironmentMap> environment{};  ///< in place of the background; null: the background counts
-    std::string name = "scene";                           ///< goes into reports and picture headers
+    Background background = Background::black();          ///< radiance from infinitely far away
+    std::shared_ptr<const EnvironmentMap> environment{};  ///< replaces the background; null: none
+    std::string name = "scene";                           ///< name in reports and picture headers
 
-    /// Returns the object's number, counted from 0. \throws ArgumentError if it is null
-    std::size_t add(std::shared_ptr<const Hittable> object);
-    /// Adds each instance of the model as an object, and its lights. Returns the number of the first object; the others
-    /// follow in order.
-    std::size_t add(const Model& model);
-    /// Adds a light that is no shape, as in `scene.add(PointLight{...})`. It is no object and has no number.
+    /// Adds an object. Returns its number, counted from 0.
     ///
-    /// \throws ArgumentError that names the field, for what limn/scene/lights.h does not allow
+    /// \throws ArgumentError if the object is null
+    std::size_t add(std::shared_ptr<const Hittable> object);
+    /// Adds each instance of the model as an object, and adds its lights. Returns the number of the first object. The
+    /// others follow in order.
+    ///
+    /// \throws ArgumentError if an instance has a singular matrix, or a light has a field outside its range
+    std::size_t add(const Model& model);
+    /// Adds a light that is no shape, as in `scene.add(PointLight{...})`. A light is no object and has no number.
+    ///
+    /// \throws ArgumentError if a field is outside the range that limn/scene/lights.h states; the message names the
+    /// field
     void add(const LightSource& light);
-    const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }  ///< by number
-    const std::vector<LightSource>& lights() const {
-        return lights_;
-    }                    ///< those that are no shapes, as they were added
-    Box bounds() const;  ///< around all objects over the whole shutter
+    const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }  ///< objects by number
+    const std::vector<LightSource>& lights() const { return lights_; }  ///< lights that are no shapes, in order
+    Box bounds() const;  ///< a box around all objects at all times from 0 to 1
 
-    /// Names of materials: of an object that Scene::add took from a model, Model::materials as it was then, otherwise
-    /// null. \pre object < objects().size()
+    /// Returns Model::materials of the model that an object was added with, as they were then. Returns null if the
+    /// object was not added with a model. \pre object < objects().size()
     const std::shared_ptr<const std::vector<std::string>>& material_names(std::size_t object) const {
         return material_names_[object];
     }
@@ -55,7 +58,7 @@ public:
 private:
     std::vector<std::shared_ptr<const Hittable>> objects_;
     std::vector<LightSource> lights_;
-    std::vector<std::shared_ptr<const std::vector<std::string>>> material_names_;  // of each
+    std::vector<std::shared_ptr<const std::vector<std::string>>> material_names_;  // of each object; may be null
 };
 
 }  // namespace limn

@@ -1,5 +1,5 @@
 /// \file
-/// Many described objects, traced fast.
+/// A bounding volume hierarchy over objects.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace limn {
 
-/// A bounding volume hierarchy over objects: the same hits as a HittableList of them, faster. The compiled scene builds
-/// its own hierarchy over all primitives, so this one is for those who trace described objects.
+/// A bounding volume hierarchy over objects. It returns the same hits as a HittableList of the objects, faster. It is
+/// useful only if you call `hit` yourself: compile() builds a hierarchy of its own over all primitives.
 class Bvh final : public Hittable {
 public:
     /// \throws ArgumentError if an object is null

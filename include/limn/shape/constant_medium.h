@@ -1,5 +1,5 @@
 /// \file
-/// Fog, smoke, milk.
+/// A homogeneous medium: fog, smoke, milk.
 #pragma once
 
 #include "limn/shape/hittable.h"
@@ -7,19 +7,22 @@
 
 namespace limn {
 
-/// A homogeneous medium inside a closed boundary, which may have holes and hollows; the eye and lights may be inside,
-/// and media may overlap. Extinction is `density` per world unit of length, the single-scattering albedo is the colour,
-/// the phase function is isotropic. The boundary itself does not bend or reflect light, whatever its material: `hit`
-/// reports its crossing as `index_matched`; the path loop draws the free flight.
+/// A homogeneous medium inside a closed boundary, with an isotropic phase function.
+///
+/// - A point is inside if a ray from it crosses the boundary an odd number of times. Nested closed surfaces therefore
+///   make shells. Two coincident surfaces bound nothing.
+/// - The boundary neither refracts nor reflects light. Its material is ignored and may be null. `hit` returns a hit of
+///   the boundary and sets Hit::index_matched. The renderer samples the free flight inside.
+/// - The camera and lights may be inside. Media may overlap.
+/// - compile() throws ArgumentError if the boundary contains a medium.
 class ConstantMedium final : public Hittable {
 public:
-    /// \param boundary must not contain a medium itself: compile() refuses it. An odd number of crossings ahead is
-    /// inside, so nested closed surfaces make shells, and a surface that is there twice bounds nothing.
-    /// \param density extinction per world unit of length: light goes 1 / density far in the mean
-    /// \param albedo the share of it that scatters, in [0, 1]; a texture is evaluated by position alone
+    /// \param boundary a closed surface
+    /// \param density extinction coefficient per world unit of length, at least 0: the mean free path is 1 / density
+    /// \param albedo single-scattering albedo, in [0, 1], or a texture, which gets the position alone
     ///
-    /// \throws ArgumentError if the boundary or texture is null, the density is negative or not finite, the albedo
-    /// outside [0, 1]
+    /// \throws ArgumentError if the boundary or the texture is null, the density is negative or not finite, or the
+    /// albedo is outside [0, 1]
     ///@{
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, const Color& albedo);
     ConstantMedium(std::shared_ptr<const Hittable> boundary, double density, std::shared_ptr<const Texture> albedo);

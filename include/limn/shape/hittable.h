@@ -13,39 +13,43 @@
 
 namespace limn {
 
-/// Where a ray meets a described object.
+/// The intersection of a ray with a Hittable. Queries of a CompiledScene return RayHit instead.
 struct Hit {
-    double t = kInfinity;                ///< in units of the ray's direction
-    Normal3 normal;                      ///< geometric, outward, unit
-    double u = 0;                        ///< surface parameter; see the shape
-    double v = 0;                        ///< surface parameter; see the shape
+    double t = kInfinity;                ///< ray parameter, in units of the ray's direction
+    Normal3 normal;                      ///< geometric normal, outward, unit
+    double u = 0;                        ///< surface parameter, which the shape defines
+    double v = 0;                        ///< surface parameter, which the shape defines
     const Material* material = nullptr;  ///< not owning; null: black
-    std::uint64_t element = 0;           ///< the index of the primitive within the object
-    Normal3 shading_normal{};            ///< interpolated, unit; zero: same as normal
-    std::optional<Uv> uv{};              ///< texture coordinates where they differ from u, v
+    std::uint64_t element = 0;           ///< index of the primitive within the object
+    Normal3 shading_normal{};            ///< interpolated normal, unit; zero: same as `normal`
+    std::optional<Uv> uv{};              ///< texture coordinates; unset: u and v
     Vec3 position_error{};       ///< bound on the hit point's error along each axis, beyond the rounding of ray.at(t)
-    bool index_matched = false;  ///< the boundary of a medium: light passes straight through
+    bool index_matched = false;  ///< true for the boundary of a medium: light goes straight through
 };
 
-/// What a ray can hit. A subclass needs `bounds` and `hit`; rays then find it through the same BVH as the built-in
-/// shapes. CompiledScene::closest_point and save refuse scenes that have one. Implementations are immutable once added
-/// to a scene, and safe to call from any thread.
+/// The interface of every object that a ray can hit. A subclass overrides `bounds` and `hit`. Rays then find it through
+/// the same BVH as the built-in shapes. CompiledScene::closest_point throws ArgumentError if the scene has such a
+/// shape. Implementations are thread-safe, and immutable once they are added to a scene.
 class Hittable {
 public:
     virtual ~Hittable() = default;
 
-    /// A box around the object over the whole shutter, 0 <= time <= 1. Hits outside it may be missed, so that rounding
-    /// must go outward; sides may be infinite. Constant.
+    /// Returns a box around the object at all times from 0 to 1, always the same. A hit outside the box may be missed,
+    /// so the box must be rounded outward. Its sides may be infinite.
     virtual Box bounds() const = 0;
 
-    /// The nearest hit with t in (t_min, t_max]; of equally near ones the lowest element. Pure: any other interval that
-    /// holds this hit, and no nearer one, gives the same bits. Shapes are closed sets: a tangent, an edge, a vertex is
-    /// a hit. An unusable ray (see is_usable) misses. A shape that intersects other shapes passes them the ray or a
-    /// copy (see Ray::frame).
+    /// Returns the nearest hit with t in (t_min, t_max], or std::nullopt if there is none.
+    ///
+    /// - Of equally near hits it returns the one with the lowest element.
+    /// - The function is pure. Every interval that contains this hit and no nearer one gives the same bits.
+    /// - Shapes are closed sets: a ray hits them at a tangent, an edge or a vertex too.
+    /// - An unusable ray (see is_usable) misses.
+    /// - A shape that intersects other shapes passes them the ray itself or a copy of it (see Ray::frame).
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
-    /// Writes what the object consists of. The default writes one record of a user-defined shape, through which the
-    /// compiled scene calls `hit`. It counts as one element, so that Hit::element is to be 0: lists count on from it.
+    /// Writes the records of the object's primitives, in the order of its elements. The default writes one record of a
+    /// user-defined shape: the compiled scene calls `hit`. Such a shape is a single element, so it must leave
+    /// Hit::element at 0.
     virtual void lower(RecordSink& sink) const;
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// Objects in a row.
+/// Lists of objects.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,16 @@
 
 namespace limn {
 
-/// Objects in a row. Elements are counted through: those of the first object, then those of the second, ...
+/// A list of objects that is an object itself. Its elements are numbered consecutively: those of the first object, then
+/// those of the second, and so on.
 class HittableList final : public Hittable {
 public:
-    HittableList() = default;  ///< empty: never hit
+    HittableList() = default;  ///< makes an empty list, which no ray hits
     /// \throws ArgumentError if an object is null
     explicit HittableList(std::vector<std::shared_ptr<const Hittable>> objects);
-    /// Not thread-safe, and not once the list is in use. \throws ArgumentError if the object is null or the list itself
+    /// Adds an object at the end. Not thread-safe. Must not be called once the list is in a scene or in another object.
+    ///
+    /// \throws ArgumentError if the object is null or the list itself
     void add(std::shared_ptr<const Hittable> object);
 
     Box bounds() const override { return bounds_; }
@@ -28,7 +31,7 @@ private:
     Box bounds_;
 };
 
-/// The number of primitives that `object` lowers to, which is the number of its elements.
+/// Returns the number of elements of `object`: the number of primitives that Hittable::lower writes.
 std::uint64_t count_elements(const Hittable& object);
 
 }  // namespace limn

@@ -1,5 +1,5 @@
 /// \file
-/// Objects placed, turned, scaled, moving.
+/// Instances of objects.
 #pragma once
 
 #include "limn/core/transform.h"
@@ -7,13 +7,17 @@
 
 namespace limn {
 
-/// An object seen through an affine transform, still or moving between two. The matrices are interpolated entry by
-/// entry over the shutter. t, u, v and element are the object's own: the direction is not normalised.
-/// Instances nest. A mirroring transform keeps outside outside.
+/// An object placed by an affine transform. A moving instance has two matrices, which are interpolated entry by entry
+/// from time 0 to time 1.
+///
+/// - Hit::t, Hit::u, Hit::v and Hit::element are those of the object. The direction of the ray isn't normalised in the
+///   space of the object, so t is the same in both spaces.
+/// - The outside of the object stays outside if the transform is a reflection.
+/// - Instances nest. compile() throws ArgumentError if they nest deeper than 16.
 class Instance final : public Hittable {
 public:
-    /// \throws ArgumentError if the object is null, a matrix is not finite, or it is singular at some time of the
-    /// shutter
+    /// \throws ArgumentError if the object is null, a matrix is not finite, or the matrix is singular at some time from
+    /// 0 to 1
     ///@{
     Instance(std::shared_ptr<const Hittable> object, const Transform& world_from_object);
     Instance(std::shared_ptr<const Hittable> object, const Transform& at_time0, const Transform& at_time1);

@@ -8,11 +8,13 @@
 
 namespace limn {
 
-/// A parallelogram: corner + u edge_u + v edge_v, u and v in [0, 1]. The outward normal is edge_u x edge_v. A ray in
-/// the quad's own plane misses.
+/// The parallelogram corner + u edge_u + v edge_v with u and v in [0, 1]. Its outward normal is edge_u x edge_v. A ray
+/// in the plane of the quad misses.
 class Quad final : public Hittable {
 public:
-    /// \throws ArgumentError if anything is not finite, an edge is zero, or the edges are parallel
+    /// \param material may be null in scenes that are queried and not rendered
+    ///
+    /// \throws ArgumentError if a number is not finite, an edge is zero, or the edges are parallel
     Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::shared_ptr<const Material> material);
     Box bounds() const override;
     std::optional<Hit> hit(const Ray& ray) const override;
@@ -25,7 +27,12 @@ private:
 };
 
 class HittableList;
-/// The six quads of an axis-aligned box, normals outward: front (+z), right (+x), back, left, top (+y), bottom.
+
+/// Returns the six quads of an axis-aligned box: front (+z), right (+x), back, left, top (+y), bottom. Their normals
+/// point outward.
+///
+/// \param corner,opposite two opposite corners of the box, in either order
+///
 /// \throws ArgumentError if the box is flat or not finite
 std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& opposite,
                                        const std::shared_ptr<const Material>& material);

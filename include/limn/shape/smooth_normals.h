@@ -1,21 +1,25 @@
 /// \file
-/// Normals for meshes that have none.
+/// Vertex normals for meshes without normals.
 #pragma once
 
 #include "limn/shape/mesh.h"
 
 namespace limn {
 
-/// Gives a mesh normals that are interpolated across edges whose two triangles turn by less than the crease angle, and
-/// break at sharper ones, at borders and where more than two triangles meet. The normal of a corner is the mean of the
-/// triangles around it that it is joined to, weighed by their angles there (Thürmer and Wüthrich, Computing Vertex
-/// Normals from Polygonal Facets, 1998). Vertices are split where their corners differ; those that no triangle uses are
-/// left out. What `data` has as normals is replaced.
+/// Returns the mesh with new vertex normals, which replace those of `data`.
 ///
-/// \param crease_degrees in [0, 180]; 180 smooths everything but borders
+/// - An edge is smooth if exactly two triangles share it and the angle between their normals is below the crease angle.
+///   All other edges are creases.
+/// - The normal of a corner is the mean of the normals of the triangles around it that are connected by smooth edges,
+///   weighted by their angles at the corner (Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets,
+///   1998).
+/// - A vertex is split if its corners have different normals. A vertex that no triangle uses is removed.
 ///
-/// \throws ArgumentError for another angle, a triangle that refers to a vertex that is not there, or `uvs`,
-/// `material_slots` or `faces` of another length than the vertices or triangles that they belong to
+/// \param crease_degrees crease angle, in [0, 180] degrees; 180 smooths every edge of two triangles that aren't folded
+/// onto each other
+///
+/// \throws ArgumentError if the angle is outside [0, 180], a triangle refers to a vertex that doesn't exist, or the
+/// length of `uvs`, `material_slots` or `faces` is neither 0 nor that of the vertices or triangles
 MeshData smooth_normals(const MeshData& data, double crease_degrees);
 
 }  // namespace limn

@@ -6,11 +6,13 @@
 
 namespace limn {
 
-/// A flat triangle in double. u and v are the weights of b and c. The outward normal is (b - a) x (c - a). A ray in the
-/// triangle's own plane misses.
+/// A flat triangle with vertices in double precision. u and v are the barycentric weights of b and c. The outward
+/// normal is (b - a) x (c - a). A ray in the plane of the triangle misses.
 class Triangle final : public Hittable {
 public:
-    /// \throws ArgumentError if a vertex is not finite or the area is exactly zero
+    /// \param material may be null in scenes that are queried and not rendered
+    ///
+    /// \throws ArgumentError if a vertex is not finite, or the area is exactly zero
     Triangle(const Point3& a, const Point3& b, const Point3& c, std::shared_ptr<const Material> material);
     Box bounds() const override;
     std::optional<Hit> hit(const Ray& ray) const override;

@@ -1,5 +1,5 @@
 /// \file
-/// Pictures on surfaces.
+/// Images as textures.
 #pragma once
 
 #include "limn/image/image.h"
@@ -7,17 +7,20 @@
 
 namespace limn {
 
-/// How an ImageTexture reads its image.
+/// Options of an ImageTexture.
 struct ImageTextureOptions {
-    Filter filter = Filter::bilinear;  ///< between texels
-    Wrap wrap = Wrap::repeat;          ///< outside [0, 1]
+    Filter filter = Filter::bilinear;  ///< interpolation between texels
+    Wrap wrap = Wrap::repeat;          ///< lookup at coordinates outside [0, 1]
 };
 
-/// An image over the texture coordinates: u to the right, v upward; (0, 0) is the lower left corner. Texel (i, j from
-/// the top) covers u in [i/W, (i+1)/W), 1-v in [j/H, (j+1)/H); the far edges u = 1 and v = 0 belong to the last column
-/// and row, and `wrap` counts beyond. NaN coordinates read as 0.
+/// An image over the unit square of texture coordinates. u points to the right and v upward. (0, 0) is the lower left
+/// corner. In an image of W x H texels, column i from the left covers u in [i/W, (i+1)/W), and row j from the top
+/// covers 1-v in [j/H, (j+1)/H). The edge u = 1 belongs to the last column, the edge v = 0 to the last row. A NaN
+/// coordinate counts as 0.
 class ImageTexture final : public Texture {
 public:
+    /// \param image linear colours, in [0, 1] as an albedo, at least 0 as a radiance
+    ///
     /// \throws ArgumentError if the image is null or empty
     ///@{
     explicit ImageTexture(Image image, ImageTextureOptions options = {});

@@ -1,12 +1,12 @@
 /// \file
-/// One colour.
+/// The texture of one colour.
 #pragma once
 
 #include "limn/texture/texture.h"
 
 namespace limn {
 
-/// The same colour everywhere.
+/// A texture that has the same colour everywhere.
 class SolidColor final : public Texture {
 public:
     /// \param color in [0, 1] as an albedo, at least 0 as a radiance

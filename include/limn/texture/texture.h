@@ -10,20 +10,23 @@
 
 namespace limn {
 
-/// A colour that varies over a surface or through space. Implementations are immutable and thread-safe. A subclass
-/// needs `value` alone; the built-in ones also say how to pack themselves.
+/// A colour that varies over a surface or in space. Implementations are immutable and thread-safe. A subclass needs to
+/// override `value` alone.
 class Texture {
 public:
     virtual ~Texture() = default;
 
-    /// Pure. The colour at `s.position` (world space) or `s.uv`. Linear BT.709; reflectances in [0, 1], radiances >= 0.
+    /// Returns the linear BT.709 colour at a point, as a function of `s.position` (in world space) or `s.uv`. The
+    /// function is pure. The colour is in [0, 1] as an albedo, and at least 0 as a radiance; limn doesn't clamp it. It
+    /// is finite for every position and uv, NaN included.
     virtual Color value(const Surface& s) const = 0;
 
-    /// The default gives a record of a user-defined texture, through which the compiled scene calls `value`.
+    /// Returns the record from which compile() makes the compiled texture. The default describes a user-defined
+    /// texture: the compiled scene calls `value`.
     virtual TextureRecord lower(RecordSink& sink) const;
 };
 
-/// The id of `texture` in `sink`, lowered the first time; none for null.
+/// Returns the id of `texture` in `sink`, or TextureId::none for null. Calls Texture::lower the first time only.
 TextureId lower_texture(RecordSink& sink, const std::shared_ptr<const Texture>& texture);
 
 }  // namespace limn
