@@ -34,8 +34,8 @@ struct TrianglePredicate {
     // below -e, it misses. Otherwise the filter cannot decide.
     //
     // Let S = wa + wb + wc. A weight w / S is off by at most 5 e / |S|: e from w, 3 e from the terms of S, and less
-    // than e from the two roundings of S. The computed weights add up to 1.Therefore only the differences z_b - z_a and
-    // z_c - z_a contribute to the error of the mean z: at most 2 (5 e / |S|) depth.
+    // than e from the two roundings of S. The computed weights add up to 1. Therefore only the differences z_b - z_a
+    // and z_c - z_a contribute to the error of the mean z: at most 2 (5 e / |S|) depth.
     HWY_INLINE FilterResult<N> filter(const Ray& ray, const Interval<N>& within) const {
         // Shear the vertices and compute the edge values.
         const Vector<N> at_a = ray.axes.permuted(a), at_b = ray.axes.permuted(b), at_c = ray.axes.permuted(c);
