@@ -6,8 +6,8 @@
 
 #include "bench/transport_scenes.h"
 #include "json_output.h"
-#include "limn/core/error.h"
-#include "limn/record_sink.h"
+#include "limn/math/error.h"
+#include "limn/records/record_sink.h"
 
 namespace limn::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "bench/contender.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "module.h"
 
 namespace limn::bench {

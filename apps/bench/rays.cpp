@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bench/scenes.h"
-#include "limn/core/frame.h"
-#include "limn/core/warp.h"
+#include "limn/math/frame.h"
+#include "limn/math/warp.h"
 
 namespace limn::bench {
 namespace {

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <numbers>
 
-#include "limn/core/error.h"
-#include "limn/core/warp.h"
 #include "limn/io/obj.h"
-#include "limn/shape/instance.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
+#include "limn/math/error.h"
+#include "limn/math/warp.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
 
 namespace limn::bench {
 namespace {

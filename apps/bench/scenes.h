@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/scene/camera.h"
 #include "limn/scene/scene.h"
-#include "limn/shape/mesh.h"
+#include "limn/scene/shape/mesh.h"
 
 namespace limn::bench {
 

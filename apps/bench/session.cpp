@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render.h"
 #include "module.h"
 

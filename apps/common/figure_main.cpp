@@ -1,5 +1,5 @@
 #include "figure.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "options.h"
 #include "parse.h"
 #include "program.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::app {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "text_file.h"
 
 namespace limn::app {

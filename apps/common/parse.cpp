@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 
 namespace limn::app {
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "parse.h"
 #include "report.h"
 #include "text_file.h"

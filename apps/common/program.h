@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::app {
 

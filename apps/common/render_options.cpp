@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::app {
 

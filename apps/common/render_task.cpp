@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "interrupt.h"
-#include "limn/core/error.h"
-#include "limn/core/file_lock.h"
-#include "limn/core/files.h"
+#include "limn/math/error.h"
+#include "limn/math/system/file_lock.h"
+#include "limn/math/system/files.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/render/render_job.h"
 #include "picture_output.h"

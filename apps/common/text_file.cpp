@@ -7,8 +7,8 @@
 #include <set>
 #include <system_error>
 
-#include "limn/core/error.h"
-#include "limn/core/files.h"
+#include "limn/math/error.h"
+#include "limn/math/system/files.h"
 
 namespace limn::app {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <charconv>
 
-#include "limn/core/math.h"
+#include "limn/math/math.h"
 #include "text_file.h"
 
 namespace limn::app {

@@ -10,7 +10,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "json_output.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "parse.h"
 #include "program.h"
 #include "progress_bar.h"

@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "json_output.h"
-#include "limn/core/error.h"
 #include "limn/image/compare.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "parse.h"
 #include "program.h"
 #include "text_file.h"

@@ -6,10 +6,10 @@
 
 #include "commands.h"
 #include "json_output.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "limn/render/film.h"
-#include "limn/shape/mesh_edges.h"
+#include "limn/scene/shape/mesh_edges.h"
 #include "model_input.h"
 #include "parse.h"
 #include "program.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render.h"
 #include "options.h"
 #include "program.h"

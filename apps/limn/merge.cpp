@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/film.h"
 #include "limn/render/render_job.h"
 #include "parse.h"

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::app {
 

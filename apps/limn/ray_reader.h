@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 
 namespace limn::app {
 

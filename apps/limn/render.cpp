@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "limn/scene/model_view.h"
 #include "model_input.h"
 #include "parse.h"

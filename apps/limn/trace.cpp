@@ -5,7 +5,7 @@
 
 #include "answer_writer.h"
 #include "commands.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/query/compiled_scene.h"
 #include "model_input.h"
 #include "parse.h"

@@ -6,7 +6,7 @@
 
 #include "bsdf/fresnel-inl.h"
 #include "bsdf/microfacet-inl.h"
-#include "sampling/rows-inl.h"
+#include "math/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::bsdf::HWY_NAMESPACE {

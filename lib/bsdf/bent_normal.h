@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "limn/core/surface.h"
+#include "limn/math/surface.h"
 
 namespace limn::bsdf {
 

@@ -7,7 +7,7 @@
 #define LIMN_BSDF_FRESNEL_INL_H
 #endif
 
-#include "lanes/lanes-inl.h"
+#include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::bsdf::HWY_NAMESPACE {

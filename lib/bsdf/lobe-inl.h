@@ -15,8 +15,8 @@
 #include <type_traits>
 
 #include "bsdf/lobe.h"
-#include "sampling/rows-inl.h"
-#include "sampling/warps-inl.h"
+#include "math/rows-inl.h"
+#include "math/warps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::bsdf::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "bsdf/bent_normal.h"
-#include "limn/records.h"
+#include "limn/records/records.h"
 
 namespace limn::bsdf {
 

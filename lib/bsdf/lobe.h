@@ -1,13 +1,13 @@
 // How materials scatter, for many vertices of paths at a time. A material of limn's own states its lobe's formulas once
-// (lib/material), in terms of lobe-inl.h; those of user-defined materials are called one by one.
+// (lib/scene/material), in terms of lobe-inl.h; those of user-defined materials are called one by one.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "limn/core/surface.h"
-#include "limn/records.h"
-#include "sampling/rows.h"
+#include "limn/math/surface.h"
+#include "limn/records/records.h"
+#include "math/rows.h"
 
 namespace limn::bsdf {
 

@@ -9,8 +9,8 @@
 #define LIMN_BSDF_MICROFACET_INL_H
 #endif
 
-#include "lanes/functions-inl.h"
-#include "limn/core/math.h"
+#include "limn/math/math.h"
+#include "math/functions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::bsdf::HWY_NAMESPACE {

@@ -1,5 +1,5 @@
 #include "bsdf/lobe.h"
-#include "limn/records.h"
+#include "limn/records/records.h"
 
 namespace limn::bsdf {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "bsdf/environment.h"
 #include "limn/image/image.h"
-#include "pattern/environment.h"
 
 namespace limn::flat {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/sphere_uv.h"
 #include "flat/scene.h"
-#include "predicates/hit_error.h"
+#include "geometry/hit_error.h"
+#include "math/sphere_uv.h"
 
 namespace limn::flat {
 

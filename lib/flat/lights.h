@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "limn/core/box.h"
-#include "limn/core/transform.h"
-#include "limn/core/vec.h"
-#include "limn/records.h"
+#include "limn/math/box.h"
+#include "limn/math/transform.h"
+#include "limn/math/vec.h"
+#include "limn/records/records.h"
 
 namespace limn::flat {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "limn/core/vec.h"
-#include "limn/records.h"
+#include "limn/math/vec.h"
+#include "limn/records/records.h"
 
 namespace limn::flat {
 

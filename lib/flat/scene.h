@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "core/huge_pages.h"
 #include "flat/environment.h"
 #include "flat/lights.h"
 #include "flat/list.h"
 #include "flat/tree.h"
-#include "limn/core/box.h"
-#include "limn/core/color.h"
-#include "limn/core/hash128.h"
-#include "limn/core/math.h"
-#include "limn/records.h"
-#include "predicates/mesh_triangle.h"
-#include "predicates/ray_frame.h"
-#include "primitives/registry.h"
+#include "geometry/mesh_triangle.h"
+#include "geometry/ray_frame.h"
+#include "geometry/registry.h"
+#include "limn/math/box.h"
+#include "limn/math/color.h"
+#include "limn/math/hash128.h"
+#include "limn/math/math.h"
+#include "limn/records/records.h"
+#include "math/system/huge_pages.h"
 
 namespace limn::flat {
 
@@ -178,7 +178,7 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
 // return their material with each hit.
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
-// Returns true if the material has an opacity (limn/material/alpha_mask.h).
+// Returns true if the material has an opacity (limn/scene/material/alpha_mask.h).
 inline bool has_holes(const MaterialRecord& material) {
     return material.details && material.details->opacity != TextureId::none;
 }

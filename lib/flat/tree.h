@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "accel/node.h"
-#include "limn/records.h"
-#include "predicates/mesh_triangle.h"
-#include "primitives/registry.h"
+#include "geometry/bvh/node.h"
+#include "geometry/mesh_triangle.h"
+#include "geometry/registry.h"
+#include "limn/records/records.h"
 
 namespace limn::flat {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "limn/core/error.h"
 #include "limn/image/image.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

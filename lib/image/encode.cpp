@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

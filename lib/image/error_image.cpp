@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "image/compare_values.h"
-#include "limn/core/color.h"
 #include "limn/image/compare.h"
+#include "limn/math/color.h"
 
 namespace limn {
 

@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

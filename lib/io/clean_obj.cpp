@@ -5,7 +5,7 @@
 
 #include "io/obj_reader.h"
 #include "io/text_lines.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

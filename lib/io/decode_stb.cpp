@@ -21,7 +21,7 @@
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
 #include "io/picture_checks.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

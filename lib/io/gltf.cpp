@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/ray_frame.h"
 #include "io/bytes.h"
 #include "io/gltf_meshes.h"
 #include "io/text_lines.h"
-#include "limn/core/math.h"
-#include "predicates/ray_frame.h"
+#include "limn/math/math.h"
 
 namespace limn {
 

@@ -4,9 +4,9 @@
 #include <bit>
 #include <filesystem>
 
-#include "core/read_file.h"
 #include "io/bytes.h"
 #include "io/text_lines.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "core/elementary.h"
 #include "io/gltf_pictures.h"
 #include "io/model_textures.h"
-#include "limn/material/alpha_mask.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/metallic_roughness.h"
-#include "limn/material/normal_map.h"
-#include "limn/material/rough_dielectric.h"
-#include "limn/texture/solid.h"
+#include "limn/scene/material/alpha_mask.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/metallic_roughness.h"
+#include "limn/scene/material/normal_map.h"
+#include "limn/scene/material/rough_dielectric.h"
+#include "limn/scene/texture/solid.h"
+#include "math/elementary.h"
 
 namespace limn {
 

@@ -7,7 +7,7 @@
 
 #include "io/gltf_buffers.h"
 #include "limn/io/model.h"
-#include "limn/material/material.h"
+#include "limn/scene/material/material.h"
 
 namespace limn {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/read_file.h"
 #include "io/model_textures.h"
 #include "io/text_lines.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -11,7 +11,7 @@
 #include "io/gltf_buffers.h"
 #include "limn/io/image_io.h"
 #include "limn/io/model.h"
-#include "limn/texture/image_texture.h"
+#include "limn/scene/texture/image_texture.h"
 
 namespace limn {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

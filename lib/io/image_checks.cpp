@@ -4,7 +4,7 @@
 
 #include "io/file_kind.h"
 #include "io/picture_checks.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

@@ -5,12 +5,12 @@
 #include <new>
 #include <type_traits>
 
-#include "core/elementary.h"
-#include "core/read_file.h"
 #include "io/image_checks.h"
 #include "io/image_codec.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
+#include "math/elementary.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -12,7 +12,7 @@
 #include "io/decode_stb.h"
 #include "io/image_checks.h"
 #include "io/image_codec.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

@@ -9,7 +9,7 @@
 #include "io/decode_stb.h"
 #include "io/image_codec.h"
 #include "io/picture_checks.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

@@ -1,10 +1,10 @@
 #include <filesystem>
 
-#include "core/read_file.h"
 #include "io/bytes.h"
 #include "io/file_kind.h"
 #include "io/model_reader.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/nearest_float3.h"
-#include "limn/core/error.h"
-#include "limn/material/lambertian.h"
-#include "limn/shape/smooth_normals.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/shape/smooth_normals.h"
+#include "math/nearest_float3.h"
 
 namespace limn {
 

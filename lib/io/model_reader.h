@@ -4,9 +4,9 @@
 #include <span>
 #include <string_view>
 
+#include "geometry/mesh_triangle.h"
 #include "io/polygon.h"
 #include "limn/io/model.h"
-#include "predicates/mesh_triangle.h"
 
 namespace limn {
 

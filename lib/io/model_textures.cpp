@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "limn/core/vec.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/metallic_roughness.h"
-#include "limn/material/plastic.h"
-#include "limn/material/rough_conductor.h"
+#include "limn/math/vec.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/metallic_roughness.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
 
 namespace limn {
 

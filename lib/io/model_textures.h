@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "limn/image/image.h"
-#include "limn/material/material.h"
+#include "limn/scene/material/material.h"
 
 namespace limn {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limn/core/color.h"
+#include "limn/math/color.h"
 
 namespace limn {
 

@@ -18,7 +18,7 @@ MtlLook look_of(const MtlMaterial& m, const MtlColors& colors);
 // Returns the keywords of a material that limn reads but does not use for a material of this kind.
 std::vector<MtlMaterial::Word> words_without_use(const MtlMaterial& m, MtlLook look);
 
-// Returns the roughness in the convention of limn/material/roughness.h.
+// Returns the roughness in the convention of limn/scene/material/roughness.h.
 double roughness_of(const MtlMaterial& m);
 
 }  // namespace limn

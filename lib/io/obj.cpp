@@ -1,8 +1,8 @@
-#include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/model_reader.h"
 #include "io/obj_reader.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -7,24 +7,24 @@
 #include <tuple>
 #include <utility>
 
-#include "core/read_file.h"
 #include "io/file_kind.h"
 #include "io/model_reader.h"
 #include "io/model_textures.h"
 #include "io/mtl_look.h"
 #include "io/obj_reader.h"
 #include "io/text_lines.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
-#include "limn/material/alpha_mask.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/normal_map.h"
-#include "limn/material/plastic.h"
-#include "limn/material/rough_conductor.h"
-#include "limn/material/rough_dielectric.h"
-#include "limn/texture/image_texture.h"
-#include "limn/texture/solid.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/alpha_mask.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/normal_map.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
+#include "limn/scene/texture/image_texture.h"
+#include "limn/scene/texture/solid.h"
+#include "math/system/read_file.h"
 
 namespace limn {
 

@@ -1,11 +1,11 @@
 #include <unordered_map>
 
-#include "core/nearest_float3.h"
+#include "geometry/mesh_triangle.h"
 #include "io/bytes_hash.h"
 #include "io/model_reader.h"
 #include "io/obj_reader.h"
 #include "io/polygon.h"
-#include "predicates/mesh_triangle.h"
+#include "math/nearest_float3.h"
 
 namespace limn {
 

@@ -7,9 +7,9 @@
 
 #include <sstream>
 
-#include "core/nearest_float3.h"
 #include "io/obj_reader.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/nearest_float3.h"
 
 namespace limn {
 

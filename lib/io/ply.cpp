@@ -4,8 +4,8 @@
 #include "io/model_reader.h"
 #include "io/ply_source.h"
 #include "io/vertex_colors.h"
-#include "limn/core/color.h"
-#include "limn/core/error.h"
+#include "limn/math/color.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <iterator>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

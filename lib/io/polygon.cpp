@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "predicates/mesh_triangle.h"
+#include "geometry/mesh_triangle.h"
 
 namespace limn {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "limn/core/vec.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

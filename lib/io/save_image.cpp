@@ -7,12 +7,12 @@
 #include <new>
 #include <numeric>
 
-#include "core/replace_file.h"
 #include "io/image_codec.h"
 #include "io/text_lines.h"
-#include "limn/core/error.h"
 #include "limn/image/encode.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
+#include "math/system/replace_file.h"
 
 namespace limn {
 

@@ -5,8 +5,8 @@
 #include <unordered_map>
 
 #include "io/bytes_hash.h"
-#include "limn/material/lambertian.h"
-#include "limn/texture/image_texture.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/texture/image_texture.h"
 
 namespace limn {
 

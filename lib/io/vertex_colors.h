@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "limn/material/material.h"
-#include "limn/shape/mesh.h"
+#include "limn/scene/material/material.h"
+#include "limn/scene/shape/mesh.h"
 
 namespace limn {
 

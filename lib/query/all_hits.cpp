@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
+#include "math/float_environment.h"
 #include "query/filters.h"
 #include "query/results.h"
 

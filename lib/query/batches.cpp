@@ -3,8 +3,8 @@
 #include <atomic>
 #include <vector>
 
-#include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
+#include "math/float_environment.h"
 #include "query/filters.h"
 #include "query/results.h"
 #include "query/threads.h"

@@ -1,9 +1,9 @@
 // Implements CompiledScene::closest_point and signed_distance.
 #include <cmath>
 
-#include "core/float_environment.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/query/compiled_scene.h"
+#include "math/float_environment.h"
 #include "query/results.h"
 #include "trace/closest_point.h"
 

@@ -4,14 +4,14 @@
 #include <array>
 #include <atomic>
 
-#include "compile/compile.h"
-#include "core/float_environment.h"
+#include "flat/compile.h"
+#include "math/float_environment.h"
 #include "query/filters.h"
 #include "query/results.h"
 #include "query/surface_at.h"
 #include "query/threads.h"
-#include "shade/albedo.h"
-#include "shade/shading.h"
+#include "shading/albedo.h"
+#include "shading/shading.h"
 #include "trace/traverse.h"
 
 namespace limn {

@@ -1,10 +1,10 @@
 // Implements crossings, count_intersections, winding_number, locate and contains of CompiledScene. All of them follow
-// from the passages of a ray through surfaces (predicates/passage.h).
+// from the passages of a ray through surfaces (geometry/passage.h).
 #include <cmath>
 #include <vector>
 
-#include "core/float_environment.h"
 #include "limn/query/compiled_scene.h"
+#include "math/float_environment.h"
 #include "query/filters.h"
 #include "query/results.h"
 

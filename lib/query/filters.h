@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/query/queries.h"
 #include "trace/traverse.h"
 

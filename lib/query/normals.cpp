@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/float_environment.h"
+#include "math/float_environment.h"
 #include "query/surface_at.h"
 #include "query/threads.h"
 

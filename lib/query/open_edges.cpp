@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/float_environment.h"
 #include "flat/scene.h"
 #include "limn/query/compiled_scene.h"
+#include "math/float_environment.h"
 
 namespace limn {
 

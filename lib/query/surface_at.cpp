@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "predicates/hit_error.h"
-#include "predicates/mesh_triangle.h"
+#include "geometry/hit_error.h"
+#include "geometry/mesh_triangle.h"
 
 namespace limn::query {
 

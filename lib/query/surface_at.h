@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flat/scene.h"
-#include "limn/core/ray.h"
-#include "limn/core/surface.h"
+#include "limn/math/ray.h"
+#include "limn/math/surface.h"
 #include "trace/traverse.h"
 
 namespace limn::query {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include "accel/parallel.h"
-#include "limn/core/error.h"
+#include "geometry/bvh/parallel.h"
+#include "limn/math/error.h"
 
 namespace limn::query {
 

@@ -1,9 +1,9 @@
-#include "limn/record_sink.h"
+#include "limn/records/record_sink.h"
 
 #include <limits>
 #include <utility>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

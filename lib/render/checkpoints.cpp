@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render_job.h"
 
 namespace limn {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/elementary.h"
+#include "math/elementary.h"
 
 namespace limn::transport {
 

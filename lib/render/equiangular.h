@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "flat/scene.h"
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 #include "render/media.h"
 
 namespace limn::transport {

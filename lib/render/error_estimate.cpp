@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "core/elementary.h"
+#include "math/elementary.h"
 #include "render/parallel.h"
 #include "render/pixel_errors.h"
 #include "render/window.h"

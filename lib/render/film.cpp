@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/checksum.h"
-#include "core/read_file.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/system/checksum.h"
+#include "math/system/read_file.h"
 #include "render/film_fields.h"
 
 namespace limn::transport {

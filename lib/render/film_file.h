@@ -1,5 +1,5 @@
-// Files of films. A film is a chunk file (core/chunk_file.h) with two versions: that of the format and kSampleVersion.
-// Its chunks are
+// Files of films. A film is a chunk file (math/system/chunk_file.h) with two versions: that of the format and
+// kSampleVersion. Its chunks are
 // - the header: the content (FilmContent), the FilmInfo and the numbers of the film's tiles,
 // - each tile, in ascending order,
 // - the plan: a SamplePlan without its rates, and the seconds,
@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "core/chunk_file.h"
 #include "limn/render/film.h"
+#include "math/system/chunk_file.h"
 
 namespace limn::transport {
 

@@ -1,5 +1,5 @@
 // The result of a film: its picture, the estimated error and the report.
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render.h"
 #include "render/error_estimate.h"
 #include "render/job_info.h"

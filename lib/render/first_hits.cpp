@@ -4,16 +4,16 @@
 #include <memory>
 #include <optional>
 
-#include "core/spawn.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/spawn.h"
 #include "query/results.h"
 #include "query/surface_at.h"
 #include "render/camera_samples.h"
 #include "render/holes.h"
 #include "render/job_info.h"
 #include "render/parallel.h"
-#include "shade/albedo.h"
-#include "shade/shading.h"
+#include "shading/albedo.h"
+#include "shading/shading.h"
 #include "trace/traverse.h"
 
 namespace limn {

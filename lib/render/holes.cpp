@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "shade/shading.h"
+#include "shading/shading.h"
 
 namespace limn::transport {
 

@@ -1,10 +1,10 @@
-// Surfaces with holes: materials with an opacity (limn/material/alpha_mask.h).
+// Surfaces with holes: materials with an opacity (limn/scene/material/alpha_mask.h).
 #pragma once
 
 #include <vector>
 
 #include "flat/scene.h"
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 #include "query/surface_at.h"
 #include "trace/traverse.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/checksum.h"
 #include "flat/scene.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
+#include "math/system/checksum.h"
 #include "render/film_file.h"
 
 namespace limn::transport {

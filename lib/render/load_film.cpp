@@ -3,7 +3,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/film.h"
 #include "render/film_fields.h"
 #include "render/film_file.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/elementary.h"
+#include "math/elementary.h"
 
 namespace limn::transport {
 

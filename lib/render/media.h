@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 #include "trace/traverse.h"
 
 namespace limn::transport {

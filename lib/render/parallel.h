@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "core/float_environment.h"
+#include "math/float_environment.h"
 #include "query/threads.h"
 
 namespace limn::transport {

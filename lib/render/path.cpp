@@ -5,10 +5,10 @@
 #include <limits>
 #include <optional>
 
-#include "core/spawn.h"
-#include "limn/core/warp.h"
+#include "limn/math/warp.h"
 #include "limn/scene/background.h"
-#include "shade/shading.h"
+#include "math/spawn.h"
+#include "shading/shading.h"
 
 namespace limn::transport {
 

@@ -8,15 +8,15 @@
 
 #include "bsdf/lobe.h"
 #include "flat/scene.h"
-#include "lights/lights.h"
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 #include "limn/render/settings.h"
 #include "query/surface_at.h"
 #include "render/equiangular.h"
 #include "render/holes.h"
 #include "render/media.h"
 #include "render/sampler.h"
-#include "shade/stages.h"
+#include "shading/lights.h"
+#include "shading/stages.h"
 #include "trace/traverse.h"
 
 namespace limn::transport {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/elementary.h"
 #include "image/compare_values.h"
+#include "math/elementary.h"
 #include "render/parallel.h"
 #include "render/window.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <mutex>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "render/error_estimate.h"
 #include "render/film_file.h"
 #include "render/job_info.h"

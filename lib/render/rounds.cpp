@@ -1,7 +1,7 @@
 // Renders to a target error by several machines. In each round they render their shards; then the films are merged and
 // the error is checked.
-#include "core/require.h"
 #include "limn/render/render_job.h"
+#include "math/require.h"
 #include "render/error_estimate.h"
 #include "render/film_file.h"
 #include "render/sample_rates.h"

@@ -8,7 +8,7 @@
 
 #include "limn/render/film.h"
 #include "limn/render/settings.h"
-#include "sampling/sobol.h"
+#include "math/sobol.h"
 
 namespace limn::transport {
 

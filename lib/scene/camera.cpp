@@ -8,10 +8,10 @@
 #include <cmath>
 #include <string>
 
-#include "core/elementary.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "sampling/warps-inl.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
+#include "math/elementary.h"
+#include "math/warps-inl.h"
 #include "scene/camera_rays.h"
 
 HWY_BEFORE_NAMESPACE();

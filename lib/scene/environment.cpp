@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "core/require.h"
-#include "pattern/environment.h"
+#include "bsdf/environment.h"
+#include "math/require.h"
 
 namespace limn {
 

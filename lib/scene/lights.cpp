@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/elementary.h"
-#include "core/require.h"
-#include "limn/core/math.h"
+#include "limn/math/math.h"
+#include "math/elementary.h"
+#include "math/require.h"
 
 namespace limn {
 

@@ -1,7 +1,7 @@
 // Converts light sources to records.
 #pragma once
 
-#include "limn/records.h"
+#include "limn/records/records.h"
 #include "limn/scene/lights.h"
 
 namespace limn {

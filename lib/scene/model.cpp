@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn {
 

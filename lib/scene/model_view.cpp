@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/elementary.h"
-#include "limn/core/error.h"
-#include "limn/core/frame.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/lambertian.h"
-#include "limn/shape/disk.h"
-#include "limn/shape/quad.h"
+#include "limn/math/error.h"
+#include "limn/math/frame.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/shape/disk.h"
+#include "limn/scene/shape/quad.h"
+#include "math/elementary.h"
 
 namespace limn {
 

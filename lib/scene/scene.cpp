@@ -1,7 +1,7 @@
 #include "limn/scene/scene.h"
 
-#include "limn/core/error.h"
-#include "limn/shape/instance.h"
+#include "limn/math/error.h"
+#include "limn/scene/shape/instance.h"
 #include "scene/lights.h"
 
 namespace limn {

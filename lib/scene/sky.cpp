@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "core/elementary.h"
-#include "core/require.h"
-#include "limn/core/math.h"
-#include "sampling/equirectangular-inl.h"
+#include "limn/math/math.h"
+#include "math/elementary.h"
+#include "math/equirectangular-inl.h"
+#include "math/require.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn {

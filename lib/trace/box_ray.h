@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "flat/scene.h"
-#include "predicates/filter.h"
-#include "predicates/ray_frame.h"
+#include "geometry/filter.h"
+#include "geometry/ray_frame.h"
 
 namespace limn::trace {
 

@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 
-#include "accel/slab.h"
-#include "accel/wide_bvh.h"
-#include "core/scaled_matrix.h"
-#include "limn/core/error.h"
+#include "geometry/bvh/slab.h"
+#include "geometry/bvh/wide_bvh.h"
+#include "limn/math/error.h"
+#include "math/scaled_matrix.h"
 
 namespace limn::trace {
 

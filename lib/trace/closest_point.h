@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flat/scene.h"
-#include "predicates/closest_point.h"
+#include "geometry/closest_point.h"
 
 namespace limn::trace {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "flat/tree.h"
-#include "lanes/lanes-inl.h"
+#include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {

@@ -8,9 +8,9 @@
 
 #include <bit>
 
-#include "predicates/coordinate.h"
-#include "predicates/planar_float-inl.h"
-#include "predicates/sphere_float-inl.h"
+#include "geometry/coordinate.h"
+#include "geometry/planar_float-inl.h"
+#include "geometry/sphere_float-inl.h"
 #include "trace/box_ray.h"
 #include "trace/lanes-inl.h"
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "flat/list.h"
-#include "predicates/sphere_float-inl.h"
+#include "geometry/sphere_float-inl.h"
 #include "trace/report-inl.h"
 #include "trace/traverse.h"
 

@@ -7,7 +7,7 @@
 #define LIMN_TRACE_LIST_PACKET_INL_H
 #endif
 
-#include "predicates/sphere_side.h"
+#include "geometry/sphere_side.h"
 #include "trace/box_ray.h"
 #include "trace/deferred_hits-inl.h"
 #include "trace/list-inl.h"

@@ -6,7 +6,7 @@
 #define LIMN_TRACE_LIST_RAY_INL_H
 #endif
 
-#include "predicates/sphere_side.h"
+#include "geometry/sphere_side.h"
 #include "trace/list-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -11,9 +11,9 @@
 #include <bit>
 #include <cstddef>
 
-#include "accel/wide_bvh.h"
 #include "flat/scene.h"
-#include "lanes/compress-inl.h"
+#include "geometry/bvh/wide_bvh.h"
+#include "math/compress-inl.h"
 #include "trace/box_ray.h"
 #include "trace/leaf-inl.h"
 

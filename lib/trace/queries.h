@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "predicates/filter.h"
+#include "geometry/filter.h"
 #include "trace/traverse.h"
 
 namespace limn::trace {
@@ -55,7 +55,7 @@ struct Every {
     }
 };
 
-// Passages of the moved ray (predicates/passage.h). What has no such rule, disks and user-defined shapes, counts as it
+// Passages of the moved ray (geometry/passage.h). What has no such rule, disks and user-defined shapes, counts as it
 // does for hits.
 struct Passages : PassageCount {
     static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = true, kFewKinds = true;

@@ -6,7 +6,7 @@
 #define LIMN_TRACE_REPORT_INL_H
 #endif
 
-#include "predicates/passage-inl.h"
+#include "geometry/passage-inl.h"
 #include "trace/shapes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

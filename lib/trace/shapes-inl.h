@@ -10,11 +10,11 @@
 #include <bit>
 #include <functional>
 
-#include "core/sphere_uv.h"
 #include "flat/scene.h"
-#include "predicates/quad-inl.h"
-#include "predicates/sphere-inl.h"
-#include "predicates/triangle-inl.h"
+#include "geometry/quad-inl.h"
+#include "geometry/sphere-inl.h"
+#include "geometry/triangle-inl.h"
+#include "math/sphere_uv.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {

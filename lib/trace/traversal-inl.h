@@ -14,7 +14,7 @@
 #include <functional>
 #include <optional>
 
-#include "predicates/sphere_side.h"
+#include "geometry/sphere_side.h"
 #include "trace/box_ray-inl.h"
 #include "trace/deferred_hits-inl.h"
 #include "trace/node-inl.h"

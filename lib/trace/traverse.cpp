@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "accel/slab.h"
+#include "geometry/bvh/slab.h"
 #include "trace/searches-inl.h"
 
 #if HWY_TARGETS & ~LIMN_SEARCH_TARGETS

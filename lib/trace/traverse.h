@@ -1,5 +1,5 @@
 // Rays against the compiled scene, exactly: whatever the SIMD kernels find or leave undecided is decided by the
-// definitions that the described shapes use too, lib/predicates.
+// definitions that the described shapes use too, lib/geometry.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flat/scene.h"
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 
 namespace limn::trace {
 
@@ -46,7 +46,7 @@ void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32
 // Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`; of boundaries of media too,
 // which are flagged. \pre is_usable(ray)
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
-// What the moved ray (predicates/passage.h) passes through of the boundary of a medium, in no particular order,
+// What the moved ray (geometry/passage.h) passes through of the boundary of a medium, in no particular order,
 // replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
@@ -68,7 +68,7 @@ Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out);
 
-// What the moved ray (predicates/passage.h) passes through, boundaries of media too.
+// What the moved ray (geometry/passage.h) passes through, boundaries of media too.
 struct PassageCount {
     std::uint64_t count = 0;
     std::int64_t outward = 0;                     // of which go outward, less those that go inward

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/color.h"
-#include "limn/core/transform.h"
-#include "limn/core/vec.h"
+#include "limn/math/color.h"
+#include "limn/math/transform.h"
+#include "limn/math/vec.h"
 
 namespace limn::python {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "bindings.h"
-#include "limn/core/color.h"
+#include "limn/math/color.h"
 
 namespace limn::python {
 

@@ -1,14 +1,14 @@
 // Bindings of the materials. Those with microfacets are in microfacets.cpp.
-#include "limn/material/material.h"
+#include "limn/scene/material/material.h"
 
-#include "limn/material/alpha_mask.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/isotropic.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/metal.h"
-#include "limn/material/normal_map.h"
-#include "limn/material/oren_nayar.h"
+#include "limn/scene/material/alpha_mask.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/isotropic.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/material/normal_map.h"
+#include "limn/scene/material/oren_nayar.h"
 
 #include <nanobind/stl/shared_ptr.h>
 

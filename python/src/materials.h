@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "arguments.h"
-#include "limn/texture/texture.h"
+#include "limn/scene/texture/texture.h"
 
 namespace limn::python {
 

@@ -1,5 +1,5 @@
 // Bindings of triangle meshes, which are made from arrays.
-#include "limn/shape/mesh.h"
+#include "limn/scene/shape/mesh.h"
 
 #include <nanobind/stl/shared_ptr.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "bindings.h"
-#include "limn/core/error.h"
-#include "limn/shape/smooth_normals.h"
+#include "limn/math/error.h"
+#include "limn/scene/shape/smooth_normals.h"
 #include "shapes.h"
 
 namespace limn::python {

@@ -1,9 +1,9 @@
 // Bindings of the materials with microfacets: rough metal, rough glass, plastic, and the mixture of metal and plastic.
-#include "limn/material/metallic_roughness.h"
-#include "limn/material/plastic.h"
-#include "limn/material/rough_conductor.h"
-#include "limn/material/rough_dielectric.h"
-#include "limn/texture/solid.h"
+#include "limn/scene/material/metallic_roughness.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
+#include "limn/scene/texture/solid.h"
 #include "materials.h"
 
 namespace limn::python {

@@ -2,7 +2,7 @@
 #include <nanobind/nanobind.h>
 
 #include "bindings.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render.h"
 #include "queries.h"
 

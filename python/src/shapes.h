@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "arguments.h"
-#include "limn/core/box.h"
-#include "limn/material/material.h"
-#include "limn/shape/mesh.h"
+#include "limn/math/box.h"
+#include "limn/scene/material/material.h"
+#include "limn/scene/shape/mesh.h"
 
 namespace limn::python {
 

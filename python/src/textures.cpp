@@ -1,5 +1,5 @@
 // Bindings of the textures.
-#include "limn/texture/texture.h"
+#include "limn/scene/texture/texture.h"
 
 #include <nanobind/stl/shared_ptr.h>
 
@@ -10,10 +10,10 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "images.h"
-#include "limn/texture/checker.h"
-#include "limn/texture/image_texture.h"
-#include "limn/texture/perlin.h"
-#include "limn/texture/solid.h"
+#include "limn/scene/texture/checker.h"
+#include "limn/scene/texture/image_texture.h"
+#include "limn/scene/texture/perlin.h"
+#include "limn/scene/texture/solid.h"
 
 namespace limn::python {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "accuracy/embree_protocol.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 extern char** environ;
 

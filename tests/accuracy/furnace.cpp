@@ -3,13 +3,13 @@
 #include "accuracy/bodies.h"
 #include "accuracy/groups.h"
 #include "accuracy/ray_row.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/isotropic.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/metal.h"
 #include "limn/render/render.h"
-#include "limn/shape/constant_medium.h"
-#include "limn/shape/sphere.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/isotropic.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/shape/constant_medium.h"
+#include "limn/scene/shape/sphere.h"
 
 namespace limn::accuracy {
 

@@ -4,10 +4,10 @@
 #include "accuracy/bodies.h"
 #include "accuracy/groups.h"
 #include "accuracy/ray_row.h"
-#include "limn/shape/instance.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
+#include "limn/scene/shape/triangle.h"
 
 namespace limn::accuracy {
 

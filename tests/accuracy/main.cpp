@@ -6,7 +6,7 @@
 
 #include "accuracy/embree.h"
 #include "accuracy/groups.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace {
 

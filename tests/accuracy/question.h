@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "limn/core/box.h"
-#include "limn/core/ray.h"
-#include "limn/core/transform.h"
-#include "limn/shape/mesh.h"
+#include "limn/math/box.h"
+#include "limn/math/ray.h"
+#include "limn/math/transform.h"
+#include "limn/scene/shape/mesh.h"
 #include "support/random_geometry.h"
 
 namespace limn::accuracy {

@@ -1,10 +1,10 @@
 // Rays against boxes. limn's own test may say yes to a box that a ray just passes by, never no to one that it meets:
 // only false misses are faults, for a box that is missed loses what is inside.
-#include "accel/slab.h"
 #include "accuracy/bodies.h"
 #include "accuracy/groups.h"
 #include "accuracy/ray_row.h"
 #include "accuracy/textbook.h"
+#include "geometry/bvh/slab.h"
 
 namespace limn::accuracy {
 

@@ -1,10 +1,10 @@
 #include "accuracy/subject.h"
 
 #include "accuracy/textbook.h"
-#include "limn/shape/hittable_list.h"
-#include "limn/shape/instance.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
+#include "limn/scene/shape/hittable_list.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
 
 namespace limn::accuracy {
 

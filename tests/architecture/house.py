@@ -55,52 +55,38 @@ def read_tree(root, folders):
 
 
 def room_of(path):
-    """"shape" for include/limn/shape/x.h and lib/shape/x.cpp. records.h and record_sink.h are rooms of one header, with
-    their sources in lib/records. Empty for the umbrella and outside both folders."""
-    inside = re.match(r"(?:include/limn|lib)/(.*)", path)
-    if not inside:
-        return ""
-    stem = Path(inside[1]).name.partition(".")[0]
-    if stem in ("records", "record_sink"):
-        return stem
-    return inside[1].partition("/")[0] if "/" in inside[1] else ""
+    """Returns "scene" for include/limn/scene/shape/x.h and lib/scene/x.cpp, and "" for the umbrella and other files."""
+    inside = re.match(r"(?:include/limn|lib)/(\w+)/", path)
+    return inside[1] if inside else ""
+
+
+def folder_of(path):
+    """Returns the room and the folder in it, as "scene/shape" for lib/scene/shape/x.cpp and "scene" for lib/scene/x.cpp."""
+    return re.sub(r"^(include/limn|lib)/", "", path.rpartition("/")[0])
 
 
 class Floors:
     """The table of layers: which room may include which."""
 
     def __init__(self, table):
-        self.rooms, self.anyone, self.sources = [], {}, {}
+        self.arrows = {}
         for line in table.splitlines():
-            modifier = re.search(r"\s*\(sources may use ([^)]*)\)", line)
-            if modifier:
-                line = line[:modifier.start()] + line[modifier.end():]
-            for chain in re.split(r"\s{2,}", re.sub(r"\s*->\s*", "->", line)):
-                if "->" in chain:
-                    self.add_chain([re.findall(r"[^,\s]+", link) for link in chain.split("->")],
-                                   re.findall(r"[^,\s]+", modifier[1]) if modifier else [])
-        visited = set()
-        for room in sorted(self.rooms):
-            self.refuse_cycles(room, visited, [])
+            room, below = line.split("->")
+            self.arrows[room.strip()] = below.split()
+        self.heights = {}
+        for room in self.arrows:
+            self.height(room, [])
 
-    def add_chain(self, links, sources_may_use):
-        for upper, rooms in enumerate(links):
-            for room in rooms:
-                self.rooms.append(room)
-                for lower in links[upper + 1:]:
-                    self.anyone.setdefault(room, set()).update(lower)
-                if upper + 1 < len(links):
-                    self.sources.setdefault(room, set()).update(sources_may_use)
-
-    def refuse_cycles(self, room, visited, path):
+    def height(self, room, path):
+        """Returns the number of the room's floor: 1 for a room that includes no other."""
         if room in path:
             raise ValueError("the floors have a cycle: " + " ".join([*path[path.index(room):], room]))
-        if room in visited:
-            return
-        visited.add(room)
-        for target in sorted(self.anyone.get(room, ())) + sorted(self.sources.get(room, ())):
-            self.refuse_cycles(target, visited, [*path, room])
+        if room not in self.heights:
+            below = self.arrows.get(room, [])
+            self.heights[room] = 1 + max((self.height(other, [*path, room]) for other in below), default=0)
+        return self.heights[room]
 
-    def allows(self, room, target, is_source):
-        return (room == target or target in self.anyone.get(room, ())
-                or is_source and target in self.sources.get(room, ()))
+    def __str__(self):
+        arrows, floors = sum(map(len, self.arrows.values())), max(self.heights.values())
+        rows = [f"{self.heights[room]}  {room:9}-> {' '.join(below)}" for room, below in self.arrows.items()]
+        return "\n".join([f"{len(self.arrows)} rooms, {arrows} arrows, {floors} floors", *rows])

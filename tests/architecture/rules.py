@@ -2,7 +2,7 @@
 
 import re
 
-from house import room_of
+from house import folder_of, room_of
 
 
 def at(file, line, what):
@@ -29,11 +29,11 @@ LIBRARIES = {
     "OpenImageIO": (r"OpenImageIO/.*", r"\b(OIIO|OpenImageIO)\b", r"lib/io/.*\.cpp"),
     "stb": (r"(stb/)?stb_.*", r"\bstbiw?_\w+", r"lib/io/.*\.cpp"),
     "tinyobjloader": (r"tiny_obj_.*", r"\btinyobj\b", r"lib/io/.*\.cpp"),
-    "oneTBB": (r"(tbb|oneapi)/.*", r"\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::", r"lib/(render|compile|accel)/.*"),
+    "oneTBB": (r"(tbb|oneapi)/.*", r"\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::", r"lib/(render|flat|geometry/bvh)/.*"),
     "Random123": (r"Random123/.*", r"\br123\b", r"lib/render/.*"),
-    "xxHash": (r"xxhash\.h", r"\bXXH\w+", r"lib/core/checksum\.cpp"),
+    "xxHash": (r"xxhash\.h", r"\bXXH\w+", r"lib/math/system/checksum\.cpp"),
     "Highway": (r"hwy/.*", r"\bhwy\b",
-                r"lib/((bsdf|lanes|lights|material|predicates|sampling|scene|shade|trace)/.*|query/normals\.cpp)"),
+                r"lib/((bsdf|geometry|math|scene|shading|trace)/.*|query/normals\.cpp)"),
     "fmt": (r"fmt/.*", r"\bfmt\s*::", r"apps/.*"),
     "CLI11": (r"CLI/.*", r"\bCLI\s*::", r"apps/.*"),
     "nlohmann-json": (r"nlohmann/.*", r"\bnlohmann\b", r"lib/io/gltf.*"),
@@ -48,27 +48,48 @@ def is_std_or_posix(file, include):
     """std headers have neither a dot nor a slash; writing files safely and huge pages need POSIX."""
     return bool(re.fullmatch(r"[a-z0-9_]+", include.path)
                 or re.fullmatch(r"(unistd|fcntl|sys/\w+)\.h", include.path)
-                and re.fullmatch(r"lib/(core/(file_lock|huge_pages|replace_file)|io/image_checks)\.cpp", file.path))
+                and re.fullmatch(r"lib/(math/system/(file_lock|huge_pages|replace_file)|io/image_checks)\.cpp", file.path))
 
 
 def check_floors(tree, floors):
-    """Every include from one room to another is an arrow of the table."""
-    paths = paths_of(tree)
+    """Every include from one room to another is an arrow of the table, and every arrow is used."""
+    paths, used = paths_of(tree), set()
     for file in tree:
         room = room_of(file.path)
         if not room:
             continue
-        if room not in floors.rooms:
+        if room not in floors.arrows:
             yield at(file, 1, f"the floors do not know the room {room}")
+            continue
         for include in file.includes:
             target = ("include/" if include.path.startswith("limn/") else "lib/") + include.path
             if include.angle or target not in paths:
                 continue
             other = room_of(target)
+            used.add((room, other))
             if not other:
                 yield at(file, include.line, "a room includes the umbrella")
-            elif not floors.allows(room, other, not file.path.endswith(".h")):
+            elif room != other and other not in floors.arrows[room]:
                 yield at(file, include.line, f"{room} -> {other} is no arrow of the floors")
+    for room, below in floors.arrows.items():
+        yield from (f"floors.txt: no file of {room} includes one of {other}" for other in below
+                    if (room, other) not in used)
+
+
+# In the room of the description each folder may include those after it.
+DESCRIPTION = ["scene", "scene/shape", "scene/material", "scene/texture"]
+
+
+def check_description(tree):
+    """Textures know no material, materials no shape, and shapes no scene."""
+    for file in tree:
+        folder = folder_of(file.path)
+        if folder not in DESCRIPTION:
+            continue
+        for include in file.includes:
+            other = folder_of("lib/" + include.path.removeprefix("limn/"))
+            if other in DESCRIPTION[:DESCRIPTION.index(folder)]:
+                yield at(file, include.line, f"{folder} includes {other}")
 
 
 def check_quoted_includes(tree):
@@ -144,10 +165,10 @@ def check_virtuals(tree):
 
 
 def check_flat(tree):
-    """lib/flat has no virtual function and no pointer to a described object."""
+    """The tables of lib/flat have no virtual function and no pointer to a described object."""
     kinds = r"(Hittable|Material|Texture)\b"
     for file in tree:
-        if file.path.startswith("lib/flat/"):
+        if re.fullmatch(r"lib/flat/(environment|lights|list|scene|tree)\.h", file.path):
             yield from find_all(file, r"(?P<found>\bvirtual\b)", "dispatch in the flat scene")
             yield from find_all(file, rf"(?P<found>\b{kinds}(\s*const\b)?\s*[*&]|_ptr\s*<\s*(const\s+)?(limn::)?{kinds})",
                                 "a described object in the flat scene")
@@ -182,7 +203,7 @@ def check_elementary(tree):
     function = r"(?P<found>\bstd::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log2?|log10|log1p|pow|cbrt)\b(?!::))"
     for file in of_lib(tree):
         if not re.fullmatch(r"lib/image/(compare|encode|error_image)\.cpp", file.path):
-            yield from find_all(file, function, "core/elementary.h has the same bits everywhere")
+            yield from find_all(file, function, "math/elementary.h has the same bits everywhere")
 
 
 def check_lengths(tree):

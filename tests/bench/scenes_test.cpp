@@ -7,7 +7,7 @@
 #include "bench/session.h"
 #include "bench/truth.h"
 #include "catch.h"
-#include "limn/shape/mesh_edges.h"
+#include "limn/scene/shape/mesh_edges.h"
 
 namespace limn::test {
 namespace {

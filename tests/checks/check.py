@@ -34,13 +34,13 @@ TARGETS = ("SCALAR", "EMU128", "SSE4", "AVX2", "AVX3", "NEON")
 # Of these builds the digests alone are compared.
 OTHER_BUILDS = (("g++", "-O0"), ("g++", "-O3 -march=native"), ("g++", "-O3 -march=native -flto=auto"),
                 ("clang++-19", "-O0"), ("clang++-19", "-O3 -march=native"))
-CORE = ("test_digest", "test_compile", "test_hard")  # programs whose code differs by instruction set
+CORE = ("test_digest", "test_flat", "test_hard")  # programs whose code differs by instruction set
 REPORT = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer|runtime error:|"
                     r"==\d+== (?:Invalid|Conditional|Use of|Syscall param|Mismatched|Source and destination)")
 # Valgrind is some 40 times slower, computes long double in 64 bits, and knows no AVX-512. These programs cover the
 # kernels' reads and writes, and files; the cases whose truth is of long double are left out.
 MEMCHECK = {
-    "test_core": "~Elementary: all functions*", "test_accel": "~[large]", "test_compile": "~[large]",
+    "test_math": "~Elementary: all functions*", "test_geometry": "~[large]", "test_flat": "~[large]",
     "test_digest": "Digest: scenes of some kinds*", "test_image": "", "test_io": "~[large]~[.writer]",
     "test_material": "~Dielectric: the cosine of the refracted*", "test_shape": "", "test_texture": "",
     "test_render": "[lobes],[determinism],[film],Sobol*,Light choice*"}

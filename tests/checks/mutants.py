@@ -31,9 +31,9 @@ HANGS = 300  # seconds after which a test counts as failed
 OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DLIMN_BUILD_TESTS=ON",
            "-DLIMN_DISABLED_TARGETS=HWY_SSSE3|HWY_AVX3_DL|HWY_SSE4|HWY_AVX3", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
 # The rooms without a test program of their own name.
-TESTED_BY = {"predicates": ["core"], "primitives": ["core", "shape"], "lanes": ["core"], "sampling": ["core"],
-             "records": ["compile"], "flat": ["compile"], "trace": ["compile"], "query": ["compile"],
-             "lights": ["compile"], "shade": ["material"], "bsdf": ["material"], "pattern": ["texture"]}
+TESTED_BY = {"geometry": ["math", "geometry", "shape"], "records": ["flat"], "bsdf": ["material", "texture"],
+             "scene": ["scene", "texture", "material", "shape"], "trace": ["flat"], "query": ["flat"],
+             "shading": ["material", "flat"]}
 
 
 def run(*command, seconds=None):

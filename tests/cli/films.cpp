@@ -12,8 +12,8 @@
 
 #include "catch.h"
 #include "house.h"
-#include "limn/core/file_lock.h"
 #include "limn/io/image_io.h"
+#include "limn/math/system/file_lock.h"
 #include "process.h"
 #include "support/folder.h"
 #include "support/text.h"

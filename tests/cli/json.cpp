@@ -3,7 +3,7 @@
 
 #include "catch.h"
 #include "json_output.h"
-#include "limn/core/math.h"
+#include "limn/math/math.h"
 
 namespace limn::app::json_test {
 namespace {

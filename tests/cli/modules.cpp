@@ -3,8 +3,8 @@
 
 #include "catch.h"
 #include "house.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "process.h"
 #include "support/folder.h"
 

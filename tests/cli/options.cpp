@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "process.h"
 #include "property.h"
 #include "render_options.h"

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "stderr.h"
 #include "text_file.h"
 

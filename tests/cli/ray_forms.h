@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 
 namespace limn::test {
 

@@ -2,7 +2,7 @@
 #include "text_file.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "process.h"
 #include "support/folder.h"
 

@@ -3,7 +3,7 @@
 
 #include "catch.h"
 #include "figure_data.h"
-#include "limn/record_sink.h"
+#include "limn/records/record_sink.h"
 #include "support.h"
 
 namespace limn::test_contents {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/read_file.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/film.h"
+#include "math/system/read_file.h"
 #include "render/film_file.h"
 #include "scratch_file.h"
 #include "support/film_bytes.h"

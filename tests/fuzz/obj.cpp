@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "limn/core/error.h"
 #include "limn/io/obj.h"
+#include "limn/math/error.h"
 #include "scratch_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

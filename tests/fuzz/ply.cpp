@@ -3,7 +3,7 @@
 
 #include "io/bytes.h"
 #include "io/model_reader.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "scratch_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

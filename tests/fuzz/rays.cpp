@@ -1,7 +1,7 @@
 // Whatever the bytes of rays are, as text and as numbers, reading them gives rays or a FileError, and ends.
 #include <cstdint>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "ray_reader.h"
 #include "scratch_file.h"
 

@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "hard/placed.h"
 #include "hard/special_values.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::bad_values_test {
 

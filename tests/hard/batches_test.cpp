@@ -1,6 +1,6 @@
 // Batches on threads, against single queries.
 #include "hard/query_meshes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::batches_test {
 

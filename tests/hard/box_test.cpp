@@ -3,9 +3,9 @@
 // small boxes far from the origin.
 #include <array>
 
-#include "accel/slab.h"
+#include "geometry/bvh/slab.h"
 #include "hard/hard.h"
-#include "limn/shape/bvh.h"
+#include "limn/scene/shape/bvh.h"
 #include "support/random_geometry.h"
 
 namespace limn::box_test {

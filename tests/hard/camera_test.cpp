@@ -2,7 +2,7 @@
 // picture.
 #include "limn/scene/camera.h"
 #include "hard/hard.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "support/random_geometry.h"
 #include "support/real.h"
 

@@ -1,6 +1,6 @@
 // The nearest points of surfaces, against all triangles in 113 bits.
 #include "hard/query_meshes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::closest_point_test {
 

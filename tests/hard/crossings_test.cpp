@@ -1,6 +1,6 @@
 // Passages through closed surfaces and winding numbers, against those of points a little beside.
 #include "hard/query_meshes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::crossings_test {
 

@@ -1,7 +1,7 @@
-// One number for each elementary function, the same in every build and whatever the C library: core/elementary.h.
+// One number for each elementary function, the same in every build and whatever the C library: math/elementary.h.
 #include "catch.h"
-#include "core/checksum.h"
-#include "core/elementary.h"
+#include "math/elementary.h"
+#include "math/system/checksum.h"
 #include "support/text.h"
 
 namespace limn::elementary_digest_test {

@@ -1,8 +1,8 @@
 // No light is made and none is lost: furnaces whose every path returns the same, so that a pixel is exact, and random
 // ones beside them. Those of ordinary size are in tests/render/furnace_test.cpp.
 #include "hard/hard.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
 #include "render/single_ray.h"
 
 namespace limn::energy_test {

@@ -10,8 +10,8 @@
 #include "catch.h"
 #include "hard/corpus.h"
 #include "hard/hard.h"
-#include "limn/material/lambertian.h"
 #include "limn/render/render.h"
+#include "limn/scene/material/lambertian.h"
 
 namespace limn::environment_test {
 

@@ -2,9 +2,9 @@
 #include "limn/render/film.h"
 
 #include "hard/hard.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/texture/perlin.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/perlin.h"
 #include "support/pictures.h"
 
 namespace limn::film_test {

@@ -1,7 +1,7 @@
 // Rays that pass primitives over, against all hits with those taken out; and batches on threads, against single
 // queries.
 #include "hard/query_meshes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::filters_test {
 

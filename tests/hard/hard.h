@@ -17,7 +17,7 @@
 
 #include "catch.h"
 #include "limn/query/compiled_scene.h"
-#include "limn/shape/hittable_list.h"
+#include "limn/scene/shape/hittable_list.h"
 #include "support/exact_truth.h"
 #include "support/tally.h"
 

@@ -1,10 +1,10 @@
 // Instances: the exact image of the shape under the stored matrices, however deep, skewed, mirrored or far.
 #include "catch.h"
+#include "geometry/ray_frame.h"
 #include "hard/placed.h"
-#include "limn/core/error.h"
-#include "limn/material/dielectric.h"
+#include "limn/math/error.h"
 #include "limn/render/render.h"
-#include "predicates/ray_frame.h"
+#include "limn/scene/material/dielectric.h"
 
 namespace limn::instance_test {
 

@@ -3,8 +3,8 @@
 // through instances, and on a ground that is a huge sphere.
 #include "hard/leaving.h"
 #include "catch.h"
-#include "limn/material/lambertian.h"
 #include "limn/render/render.h"
+#include "limn/scene/material/lambertian.h"
 
 namespace limn::leaving_test {
 

@@ -1,9 +1,9 @@
 // Lobes and the bases they stand on, at the ends of what numbers, normals, angles and indices can be.
 #include "bsdf/fresnel-inl.h"
 #include "hard/hard.h"
-#include "limn/core/frame.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/lambertian.h"
+#include "limn/math/frame.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/lambertian.h"
 #include "support/chi_square.h"
 #include "support/random_geometry.h"
 #include "support/real.h"

@@ -1,8 +1,8 @@
 // Media against lengths inside their boundaries that are known in closed form, at every size and place.
 #include "render/media.h"
 #include "hard/hard.h"
-#include "limn/core/error.h"
-#include "limn/shape/constant_medium.h"
+#include "limn/math/error.h"
+#include "limn/scene/shape/constant_medium.h"
 #include "support/pictures.h"
 
 namespace limn::media_test {

@@ -1,6 +1,6 @@
 // Meshes: nothing escapes through vertices and edges, flat triangles among good ones, float32 from end to end.
 #include "hard/exact_mesh.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::mesh_test {
 

@@ -1,8 +1,8 @@
 // One number for the pictures of a scene, the same in every build, on every instruction set, and whatever code the C
 // library picks for the processor. A change of it is a change of samples: film_file.h has their version.
 #include "catch.h"
-#include "core/checksum.h"
 #include "limn/limn.h"
+#include "math/system/checksum.h"
 #include "support/meshes.h"
 #include "support/text.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hard/hard.h"
-#include "limn/shape/instance.h"
+#include "limn/scene/shape/instance.h"
 #include "support/scene_zoo.h"
 
 namespace limn::test {

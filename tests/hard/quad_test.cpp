@@ -1,7 +1,7 @@
 // Quads: thin, nearly folded, flat boxes far from the origin, and the boxes made of six.
 #include "hard/hard.h"
 #include "hard/shapes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::quad_test {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hard/exact_mesh.h"
-#include "limn/shape/constant_medium.h"
-#include "limn/shape/disk.h"
+#include "limn/scene/shape/constant_medium.h"
+#include "limn/scene/shape/disk.h"
 
 namespace limn::test {
 

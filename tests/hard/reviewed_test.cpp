@@ -3,14 +3,14 @@
 #include <memory>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/query/compiled_scene.h"
-#include "limn/shape/bvh.h"
-#include "limn/shape/hittable_list.h"
-#include "limn/shape/instance.h"
-#include "limn/shape/mesh.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/bvh.h"
+#include "limn/scene/shape/hittable_list.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/shape/mesh.h"
+#include "limn/scene/shape/sphere.h"
+#include "limn/scene/shape/triangle.h"
 
 namespace limn::reviewed_test {
 

@@ -1,14 +1,14 @@
 // Samplers at the ends of their range, against their densities. Those of warps, lobes and lamps of ordinary shape are
-// in tests/core, tests/material and tests/render.
+// in tests/math, tests/material and tests/render.
 #include <array>
 
 #include "flat/scene.h"
 #include "hard/hard.h"
-#include "limn/core/frame.h"
-#include "limn/material/metal.h"
+#include "limn/math/frame.h"
 #include "limn/scene/camera.h"
-#include "limn/texture/checker.h"
-#include "limn/texture/solid.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/checker.h"
+#include "limn/scene/texture/solid.h"
 #include "render/media.h"
 #include "render/sampler.h"
 #include "support/chi_square.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "limn/core/math.h"
+#include "limn/math/math.h"
 
 namespace limn::test {
 

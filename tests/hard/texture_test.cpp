@@ -1,11 +1,11 @@
 // Textures wherever they are asked.
 #include <bit>
 
+#include "bsdf/checker.h"
+#include "bsdf/image_lookup.h"
+#include "bsdf/perlin.h"
 #include "hard/hard.h"
-#include "limn/core/color.h"
-#include "pattern/checker.h"
-#include "pattern/image_lookup.h"
-#include "pattern/perlin.h"
+#include "limn/math/color.h"
 #include "support/random_geometry.h"
 #include "support/real.h"
 

@@ -1,7 +1,7 @@
 // Triangles in double: slivers, grazing rays, rays aimed at edges and vertices, of every size.
 #include "hard/hard.h"
 #include "hard/shapes.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::triangle_test {
 

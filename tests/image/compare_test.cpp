@@ -5,8 +5,8 @@
 #include <random>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
 #include "property.h"
 
 namespace limn::compare_test {

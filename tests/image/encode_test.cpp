@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 
 namespace limn::encode_test {
 

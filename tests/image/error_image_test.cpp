@@ -4,9 +4,9 @@
 #include <random>
 
 #include "catch.h"
-#include "limn/core/color.h"
-#include "limn/core/error.h"
 #include "limn/image/compare.h"
+#include "limn/math/color.h"
+#include "limn/math/error.h"
 
 namespace limn::error_image_test {
 

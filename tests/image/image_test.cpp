@@ -5,7 +5,7 @@
 #include <string>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "property.h"
 
 namespace limn::image_test {

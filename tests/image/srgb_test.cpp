@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/color.h"
+#include "limn/math/color.h"
 #include "property.h"
 
 namespace limn::srgb_test {

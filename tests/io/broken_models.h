@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/model.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::test {

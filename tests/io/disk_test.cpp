@@ -1,5 +1,5 @@
 // What a picture owes to the disk. This program's own versions of some functions count their calls, and can do harm.
-#include "core/replace_file.h"
+#include "math/system/replace_file.h"
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -10,8 +10,8 @@
 #include <cstdio>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::disk_test {

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "broken_models.h"
-#include "limn/core/color.h"
 #include "limn/image/image.h"
 #include "limn/io/image_io.h"
 #include "limn/io/model.h"
+#include "limn/math/color.h"
 #include "support/folder.h"
 
 namespace limn::test {

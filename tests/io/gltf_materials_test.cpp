@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "gltf_files.h"
-#include "limn/core/vec.h"
-#include "limn/material/plastic.h"
-#include "limn/material/rough_conductor.h"
+#include "limn/math/vec.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
 #include "lowered_material.h"
 
 namespace limn::gltf_materials_test {

@@ -1,8 +1,8 @@
 // Pictures with alpha, with further channels, and parts of larger ones.
 #include "catch.h"
 #include "io/image_codec.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "make_png.h"
 #include "support/folder.h"
 

@@ -6,8 +6,8 @@
 
 #include "catch.h"
 #include "judge_image.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "make_png.h"
 #include "support/folder.h"
 

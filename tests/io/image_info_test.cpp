@@ -1,8 +1,8 @@
 // What the header of a picture says.
 #include "catch.h"
 #include "formats.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "make_png.h"
 #include "support/folder.h"
 

@@ -8,8 +8,8 @@
 
 #include "catch.h"
 #include "formats.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::image_refusals_test {

@@ -7,8 +7,8 @@
 #include "catch.h"
 #include "formats.h"
 #include "io/picture_checks.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::image_round_trip_test {

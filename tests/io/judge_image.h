@@ -5,8 +5,8 @@
 #include <string>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::test {

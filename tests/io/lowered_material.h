@@ -2,8 +2,8 @@
 #pragma once
 
 #include "limn/image/image.h"
-#include "limn/material/material.h"
-#include "limn/record_sink.h"
+#include "limn/records/record_sink.h"
+#include "limn/scene/material/material.h"
 #include "limn/scene/model.h"
 
 namespace limn::test {

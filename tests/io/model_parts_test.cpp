@@ -1,7 +1,7 @@
 // Names of an OBJ's objects and groups, and models out of memory.
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/model.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::model_parts_test {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/vec.h"
 #include "limn/io/image_io.h"
 #include "limn/io/obj.h"
+#include "limn/math/vec.h"
 #include "lowered_material.h"
 #include "support/folder.h"
 

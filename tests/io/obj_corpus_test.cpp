@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/obj.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::obj_corpus_test {

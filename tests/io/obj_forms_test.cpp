@@ -3,10 +3,10 @@
 
 #include "catch.h"
 #include "formats.h"
+#include "geometry/mesh_triangle.h"
 #include "io/text_lines.h"
-#include "limn/core/error.h"
 #include "limn/io/obj.h"
-#include "predicates/mesh_triangle.h"
+#include "limn/math/error.h"
 #include "support/folder.h"
 
 namespace limn::obj_forms_test {

@@ -6,11 +6,11 @@
 
 #include "catch.h"
 #include "formats.h"
+#include "geometry/mesh_triangle.h"
 #include "io/obj_reader.h"
 #include "io/text_lines.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "predicates/mesh_triangle.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
 
 namespace limn::obj_large_test {
 

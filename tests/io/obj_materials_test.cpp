@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/io/image_io.h"
 #include "limn/io/obj.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/lambertian.h"
-#include "limn/record_sink.h"
+#include "limn/math/error.h"
+#include "limn/records/record_sink.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/lambertian.h"
 #include "lowered_material.h"
 #include "support/folder.h"
 

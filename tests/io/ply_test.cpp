@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "broken_models.h"
-#include "limn/core/surface.h"
-#include "limn/material/lambertian.h"
+#include "limn/math/surface.h"
+#include "limn/scene/material/lambertian.h"
 
 namespace limn::ply_test {
 

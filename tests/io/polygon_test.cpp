@@ -6,8 +6,8 @@
 #include <set>
 
 #include "catch.h"
-#include "limn/core/math.h"
-#include "predicates/mesh_triangle.h"
+#include "geometry/mesh_triangle.h"
+#include "limn/math/math.h"
 
 namespace limn::polygon_test {
 

@@ -1,5 +1,5 @@
 // Files of any kind appear whole or not at all, whatever happens to the process or the disk.
-#include "core/replace_file.h"
+#include "math/system/replace_file.h"
 
 #include <sched.h>
 #include <signal.h>
@@ -17,9 +17,9 @@
 
 #include "catch.h"
 #include "formats.h"
-#include "limn/core/error.h"
-#include "limn/core/files.h"
 #include "limn/io/image_io.h"
+#include "limn/math/error.h"
+#include "limn/math/system/files.h"
 #include "support/folder.h"
 
 namespace limn::replace_file_test {

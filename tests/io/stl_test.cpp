@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "broken_models.h"
-#include "limn/material/lambertian.h"
-#include "limn/shape/mesh_edges.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/shape/mesh_edges.h"
 
 namespace limn::stl_test {
 

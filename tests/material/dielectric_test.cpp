@@ -1,10 +1,10 @@
-#include "limn/material/dielectric.h"
+#include "limn/scene/material/dielectric.h"
 
 #include <cmath>
 
 #include "bsdf/fresnel-inl.h"
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 
 namespace limn::dielectric_test {

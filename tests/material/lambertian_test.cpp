@@ -1,11 +1,11 @@
-#include "limn/material/lambertian.h"
+#include "limn/scene/material/lambertian.h"
 
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/material/isotropic.h"
-#include "limn/texture/checker.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/isotropic.h"
+#include "limn/scene/texture/checker.h"
 #include "material/lobe.h"
 
 namespace limn::lambertian_test {

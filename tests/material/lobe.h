@@ -7,9 +7,9 @@
 #include <random>
 
 #include "catch.h"
-#include "limn/core/warp.h"
-#include "limn/material/material.h"
-#include "limn/material/roughness.h"
+#include "limn/math/warp.h"
+#include "limn/scene/material/material.h"
+#include "limn/scene/material/roughness.h"
 #include "support/chi_square.h"
 
 namespace limn::test {

@@ -1,16 +1,16 @@
-#include "limn/material/material.h"
+#include "limn/scene/material/material.h"
 
 #include <cmath>
 #include <vector>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/isotropic.h"
-#include "limn/material/lambertian.h"
-#include "limn/material/metal.h"
-#include "limn/texture/solid.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/isotropic.h"
+#include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/solid.h"
 #include "material/lobe.h"
 
 namespace limn::material_test {

@@ -1,9 +1,9 @@
-#include "limn/material/metal.h"
+#include "limn/scene/material/metal.h"
 
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 
 namespace limn::metal_test {

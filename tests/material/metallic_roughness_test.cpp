@@ -1,11 +1,11 @@
-#include "limn/material/metallic_roughness.h"
+#include "limn/scene/material/metallic_roughness.h"
 
 #include <cmath>
 
 #include "bsdf/albedo_table.h"
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/limn.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 #include "material/microfacets.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "limn/core/math.h"
+#include "limn/math/math.h"
 #include "material/lobe.h"
 
 namespace limn::test {

@@ -1,11 +1,11 @@
-#include "limn/material/normal_map.h"
+#include "limn/scene/material/normal_map.h"
 
 #include <cmath>
 
 #include "bsdf/lobe.h"
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/limn.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 #include "material/microfacets.h"
 

@@ -1,4 +1,4 @@
-#include "limn/material/oren_nayar.h"
+#include "limn/scene/material/oren_nayar.h"
 
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/limn.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 
 namespace limn::oren_nayar_test {

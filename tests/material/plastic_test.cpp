@@ -1,10 +1,10 @@
-#include "limn/material/plastic.h"
+#include "limn/scene/material/plastic.h"
 
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/limn.h"
+#include "limn/math/error.h"
 #include "material/lobe.h"
 #include "material/microfacets.h"
 

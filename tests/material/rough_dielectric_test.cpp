@@ -1,10 +1,10 @@
-#include "limn/material/rough_dielectric.h"
+#include "limn/scene/material/rough_dielectric.h"
 
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/material/dielectric.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/dielectric.h"
 #include "material/lobe.h"
 #include "material/microfacets.h"
 

@@ -1,9 +1,9 @@
 // Holes in surfaces: what passes them, to the eye and to lamps.
-#include "limn/material/alpha_mask.h"
+#include "limn/scene/material/alpha_mask.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/limn.h"
+#include "limn/math/error.h"
 #include "support/pictures.h"
 
 namespace limn::alpha_mask_test {

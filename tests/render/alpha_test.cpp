@@ -1,7 +1,7 @@
 // Pictures without their background.
 #include "catch.h"
-#include "limn/material/dielectric.h"
 #include "limn/render/render_job.h"
+#include "limn/scene/material/dielectric.h"
 #include "support/folder.h"
 #include "support/pictures.h"
 

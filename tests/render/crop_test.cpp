@@ -1,6 +1,6 @@
 // Crop windows: their pixels are those of the whole picture.
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/render_job.h"
 #include "support/folder.h"
 #include "support/pictures.h"

@@ -1,7 +1,7 @@
 // max_depth counts ray segments: what the last one meets still counts, nothing after it.
 #include "catch.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
 #include "support/pictures.h"
 
 namespace limn::depth_test {

@@ -1,8 +1,8 @@
 // Pixels depend on scene, camera and settings alone, and different seeds, pixels and samples are independent.
 #include "catch.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/texture/perlin.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/perlin.h"
 #include "render/path.h"
 #include "support/pictures.h"
 

@@ -2,8 +2,8 @@
 #include "limn/scene/environment.h"
 
 #include "limn/image/compare.h"
-#include "limn/material/metal.h"
-#include "limn/material/oren_nayar.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/material/oren_nayar.h"
 #include "render/single_ray.h"
 #include "support/chi_square.h"
 #include "support/single_shading.h"

@@ -1,11 +1,11 @@
 // Sampling lights finds what scattering alone finds: by the means of pictures and of single rays over many seeds.
 #include <cstdlib>
 
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/shape/disk.h"
-#include "limn/texture/checker.h"
-#include "limn/texture/image_texture.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/shape/disk.h"
+#include "limn/scene/texture/checker.h"
+#include "limn/scene/texture/image_texture.h"
 #include "render/single_ray.h"
 
 namespace limn::estimators_test {

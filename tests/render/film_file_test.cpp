@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "property.h"
 #include "support/film_bytes.h"
 #include "support/folder.h"

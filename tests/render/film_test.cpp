@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "property.h"
 #include "support/random_geometry.h"
 

@@ -2,12 +2,12 @@
 #include "limn/render/first_hits.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/material/alpha_mask.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/material/normal_map.h"
-#include "limn/texture/solid.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/alpha_mask.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/material/normal_map.h"
+#include "limn/scene/texture/solid.h"
 #include "support/pictures.h"
 
 namespace limn::first_hits_test {

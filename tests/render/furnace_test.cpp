@@ -1,16 +1,16 @@
 // Furnaces: in a uniform field of radiance 1 whatever absorbs nothing is invisible. Those whose every path is exact, of
 // every size and shape, are in tests/hard/energy_test.cpp.
 #include "catch.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/material/metallic_roughness.h"
-#include "limn/material/normal_map.h"
-#include "limn/material/oren_nayar.h"
-#include "limn/material/plastic.h"
-#include "limn/material/rough_conductor.h"
-#include "limn/material/rough_dielectric.h"
 #include "limn/scene/environment.h"
-#include "limn/texture/image_texture.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/material/metallic_roughness.h"
+#include "limn/scene/material/normal_map.h"
+#include "limn/scene/material/oren_nayar.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
+#include "limn/scene/texture/image_texture.h"
 #include "support/pictures.h"
 
 namespace limn::furnace_test {

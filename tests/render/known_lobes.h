@@ -1,7 +1,7 @@
 // The lobes of limn's own materials.
 #pragma once
 
-#include "limn/records.h"
+#include "limn/records/records.h"
 
 // X(namespace of the lobe) for each material that scatters.
 #define LIMN_FOR_EACH_LOBE(X) \

@@ -1,5 +1,5 @@
 // Directions towards lights: that they lead where they say, and with which density.
-#include "limn/texture/checker.h"
+#include "limn/scene/texture/checker.h"
 #include "property.h"
 #include "support/chi_square.h"
 #include "support/pictures.h"

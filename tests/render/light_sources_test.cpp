@@ -5,7 +5,7 @@
 #include <set>
 
 #include "limn/scene/model.h"
-#include "limn/shape/disk.h"
+#include "limn/scene/shape/disk.h"
 #include "render/single_ray.h"
 #include "support/single_shading.h"
 

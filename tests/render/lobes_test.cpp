@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "catch.h"
-#include "core/spawn.h"
 #include "known_lobes.h"
 #include "limn/limn.h"
+#include "math/sobol.h"
+#include "math/spawn.h"
 #include "render/sampler.h"
-#include "sampling/sobol.h"
-#include "shade/stages.h"
+#include "shading/stages.h"
 #include "support/random_geometry.h"
 #include "support/single_shading.h"
 #include "trace/targets.h"

@@ -1,6 +1,6 @@
 // Where along a ray a medium is: through nested instances, and where surfaces of its boundary touch.
 #include "catch.h"
-#include "limn/shape/constant_medium.h"
+#include "limn/scene/shape/constant_medium.h"
 #include "render/media.h"
 #include "support/pictures.h"
 

@@ -1,6 +1,6 @@
 // Transmittance exp(-sigma l) through media of every shape, from outside and inside.
 #include "catch.h"
-#include "limn/texture/checker.h"
+#include "limn/scene/texture/checker.h"
 #include "support/pictures.h"
 
 namespace limn::media_test {

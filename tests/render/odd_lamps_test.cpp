@@ -1,9 +1,9 @@
 // Lamps and media at the edges of what scenes hold, each once wrong.
 #include "catch.h"
-#include "limn/shape/constant_medium.h"
-#include "limn/shape/instance.h"
-#include "limn/texture/checker.h"
-#include "limn/texture/solid.h"
+#include "limn/scene/shape/constant_medium.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/texture/checker.h"
+#include "limn/scene/texture/solid.h"
 #include "support/pictures.h"
 
 namespace limn::odd_lamps_test {

@@ -1,7 +1,7 @@
 // Single rays through the path tracer: the radiance that comes back along them, against integrals.
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/texture/image_texture.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/image_texture.h"
 #include "property.h"
 #include "render/single_ray.h"
 #include "support/solid_angle.h"

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/tagged.h"
-#include "limn/material/dielectric.h"
-#include "limn/material/metal.h"
-#include "limn/texture/perlin.h"
+#include "limn/math/error.h"
+#include "limn/math/tagged.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/texture/perlin.h"
 #include "support/folder.h"
 #include "support/pictures.h"
 #include "support/same_render.h"

@@ -1,5 +1,5 @@
 // Russian roulette, which ends unlimited paths, changes no mean.
-#include "limn/material/dielectric.h"
+#include "limn/scene/material/dielectric.h"
 #include "render/single_ray.h"
 #include "support/solid_angle.h"
 

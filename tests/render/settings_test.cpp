@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "support/pictures.h"
 
 namespace limn::settings_test {

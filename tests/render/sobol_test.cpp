@@ -1,13 +1,13 @@
 // Owen-scrambled Sobol points: against Boost's sequence, against the definition of a net, and by how fast sums
 // converge.
-#include "sampling/sobol-inl.h"
+#include "math/sobol-inl.h"
 
 #include <boost/random/sobol.hpp>
 #include <functional>
 #include <set>
 
 #include "catch.h"
-#include "limn/core/surface.h"
+#include "limn/math/surface.h"
 #include "render/sampler.h"
 #include "support/random_geometry.h"
 

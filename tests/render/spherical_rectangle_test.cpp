@@ -1,6 +1,6 @@
 // The rectangle on the sphere of directions: its area there, and that samples divide it as they should.
-#include "limn/core/frame.h"
-#include "limn/core/math.h"
+#include "limn/math/frame.h"
+#include "limn/math/math.h"
 #include "property.h"
 #include "support/random_geometry.h"
 #include "support/single_shading.h"

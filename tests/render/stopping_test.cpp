@@ -1,7 +1,7 @@
 // What ends a render: samples, error, time.
 #include "catch.h"
-#include "limn/core/error.h"
 #include "limn/image/compare.h"
+#include "limn/math/error.h"
 #include "support/pictures.h"
 
 namespace limn::stopping_test {

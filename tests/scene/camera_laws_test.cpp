@@ -1,6 +1,6 @@
 // What holds for every camera: which pixel a ray belongs to, and what moving, scaling and mirroring change.
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/scene/camera.h"
 #include "property.h"
 #include "support/grid.h"

@@ -1,7 +1,7 @@
 #include "limn/scene/camera.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "support/random_geometry.h"
 
 namespace limn::camera_test {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/scene/sky.h"
 #include "support/random_geometry.h"
 

@@ -2,8 +2,8 @@
 #include "limn/scene/model.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/material/lambertian.h"
+#include "limn/math/error.h"
+#include "limn/scene/material/lambertian.h"
 #include "limn/scene/scene.h"
 #include "support/meshes.h"
 

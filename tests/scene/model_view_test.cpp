@@ -2,9 +2,9 @@
 #include "limn/scene/model_view.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/record_sink.h"
-#include "limn/shape/quad.h"
+#include "limn/math/error.h"
+#include "limn/records/record_sink.h"
+#include "limn/scene/shape/quad.h"
 #include "support/meshes.h"
 #include "support/solid_angle.h"
 

@@ -1,8 +1,8 @@
 #include "limn/scene/scene.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/shape/sphere.h"
+#include "limn/math/error.h"
+#include "limn/scene/shape/sphere.h"
 
 namespace limn::scene_test {
 

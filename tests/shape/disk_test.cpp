@@ -2,9 +2,9 @@
 
 #include "catch.h"
 #include "flat/scene.h"
+#include "geometry/disk-inl.h"
+#include "geometry/exact.h"
 #include "limn/limn.h"
-#include "predicates/disk-inl.h"
-#include "predicates/exact.h"
 #include "support/pictures.h"
 #include "support/random_geometry.h"
 #include "support/real.h"

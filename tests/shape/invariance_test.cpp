@@ -1,8 +1,8 @@
 // What a shape's hits may not depend on: where the scene stands, how large it is, how its axes are called, which way
 // the ray is walked. On numbers of few bits (support/grid.h) most of these laws hold to the bit.
 #include "catch.h"
-#include "limn/shape/instance.h"
-#include "predicates/filter.h"
+#include "geometry/filter.h"
+#include "limn/scene/shape/instance.h"
 #include "property.h"
 #include "support/cases.h"
 

@@ -1,4 +1,4 @@
-#include "limn/shape/mesh_edges.h"
+#include "limn/scene/shape/mesh_edges.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,9 @@
 // What a mesh interpolates over its triangles, and how exactly each shape knows its hits.
 #include "catch.h"
-#include "limn/shape/mesh.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/mesh.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
+#include "limn/scene/shape/triangle.h"
 
 namespace limn::mesh_shading_test {
 

@@ -1,8 +1,8 @@
-#include "limn/shape/quad.h"
+#include "limn/scene/shape/quad.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/shape/hittable_list.h"
+#include "limn/math/error.h"
+#include "limn/scene/shape/hittable_list.h"
 #include "support/random_geometry.h"
 #include "support/real.h"
 

@@ -1,9 +1,9 @@
 // Normals by a crease angle.
-#include "limn/shape/smooth_normals.h"
+#include "limn/scene/shape/smooth_normals.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "predicates/mesh_triangle.h"
+#include "geometry/mesh_triangle.h"
+#include "limn/math/error.h"
 #include "support/meshes.h"
 
 namespace limn::smooth_normals_test {

@@ -1,7 +1,7 @@
-#include "limn/shape/sphere.h"
+#include "limn/scene/shape/sphere.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "support/random_geometry.h"
 #include "support/real.h"
 

@@ -1,7 +1,7 @@
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/triangle.h"
 
 #include "catch.h"
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "support/random_geometry.h"
 
 namespace limn::triangle_test {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "limn/shape/mesh.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/mesh.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
+#include "limn/scene/shape/triangle.h"
 #include "support/grid.h"
 #include "support/meshes.h"
 

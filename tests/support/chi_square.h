@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "limn/core/frame.h"
-#include "limn/core/math.h"
+#include "limn/math/frame.h"
+#include "limn/math/math.h"
 
 namespace limn::test {
 
@@ -26,7 +26,7 @@ inline double sidak_level(int tests) { return 1 - std::pow(1 - 0.01, 1.0 / tests
 /// Draws from each sampler: ten million in the long form.
 inline const int kDraws = std::getenv("LIMN_FULL") ? 10'000'000 : 1'000'000;
 
-/// What the p-value of each of the suite's tests of a sampler has to exceed: of tests/core 10, tests/material 132,
+/// What the p-value of each of the suite's tests of a sampler has to exceed: of tests/math 10, tests/material 132,
 /// tests/render 8, tests/hard 15.
 inline const double kSamplerLevel = sidak_level(10 + 132 + 8 + 15);
 

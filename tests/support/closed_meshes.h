@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "limn/core/math.h"
-#include "limn/core/ray.h"
+#include "limn/math/math.h"
+#include "limn/math/ray.h"
 #include "support/meshes.h"
 #include "support/random_geometry.h"
 

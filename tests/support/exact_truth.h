@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "limn/core/ray.h"
-#include "limn/core/transform.h"
+#include "limn/math/ray.h"
+#include "limn/math/transform.h"
 #include "support/real.h"
 
 namespace limn::test {

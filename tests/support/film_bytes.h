@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "core/checksum.h"
+#include "math/system/checksum.h"
 
 namespace limn::test {
 

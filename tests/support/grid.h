@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "limn/core/vec.h"
+#include "limn/math/vec.h"
 
 namespace limn::test {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "limn/core/vec.h"
-#include "limn/shape/mesh.h"
+#include "limn/math/vec.h"
+#include "limn/scene/shape/mesh.h"
 
 namespace limn::test {
 

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "catch.h"
-#include "limn/material/diffuse_light.h"
-#include "limn/material/isotropic.h"
-#include "limn/material/lambertian.h"
 #include "limn/render/render.h"
+#include "limn/scene/material/diffuse_light.h"
+#include "limn/scene/material/isotropic.h"
+#include "limn/scene/material/lambertian.h"
 #include "support/scene_zoo.h"
 
 namespace limn::test {

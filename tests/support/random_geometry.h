@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "limn/core/box.h"
-#include "limn/core/ray.h"
+#include "limn/math/box.h"
+#include "limn/math/ray.h"
 
 namespace limn::test {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "limn/core/transform.h"
-#include "limn/core/vec.h"
+#include "limn/math/transform.h"
+#include "limn/math/vec.h"
 
 namespace limn::test {
 

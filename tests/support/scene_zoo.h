@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "limn/material/lambertian.h"
+#include "limn/scene/material/lambertian.h"
 #include "limn/scene/scene.h"
-#include "limn/shape/bvh.h"
-#include "limn/shape/constant_medium.h"
-#include "limn/shape/hittable_list.h"
-#include "limn/shape/instance.h"
-#include "limn/shape/mesh.h"
-#include "limn/shape/quad.h"
-#include "limn/shape/sphere.h"
-#include "limn/shape/triangle.h"
+#include "limn/scene/shape/bvh.h"
+#include "limn/scene/shape/constant_medium.h"
+#include "limn/scene/shape/hittable_list.h"
+#include "limn/scene/shape/instance.h"
+#include "limn/scene/shape/mesh.h"
+#include "limn/scene/shape/quad.h"
+#include "limn/scene/shape/sphere.h"
+#include "limn/scene/shape/triangle.h"
 #include "support/meshes.h"
 #include "support/random_geometry.h"
 

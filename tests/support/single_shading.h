@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "lights/choice.h"
-#include "lights/lights.h"
-#include "lights/points.h"
-#include "sampling/heuristic-inl.h"
-#include "sampling/spherical-inl.h"
-#include "shade/shading.h"
+#include "math/heuristic-inl.h"
+#include "math/spherical-inl.h"
+#include "shading/light_choice.h"
+#include "shading/light_points.h"
+#include "shading/lights.h"
+#include "shading/shading.h"
 
 namespace limn::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "limn/core/vec.h"
+#include "limn/math/vec.h"
 
 namespace limn::test {
 

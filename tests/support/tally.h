@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "limn/core/ray.h"
+#include "limn/math/ray.h"
 
 namespace limn::test {
 

@@ -1,14 +1,14 @@
-#include "limn/texture/checker.h"
+#include "limn/scene/texture/checker.h"
 
 #include <cmath>
 #include <cstdint>
 #include <random>
 
+#include "bsdf/checker.h"
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "limn/texture/solid.h"
-#include "pattern/checker.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
+#include "limn/scene/texture/solid.h"
 #include "property.h"
 
 namespace limn::checker_test {

@@ -1,13 +1,13 @@
-#include "limn/texture/image_texture.h"
+#include "limn/scene/texture/image_texture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "bsdf/image_lookup.h"
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "pattern/image_lookup.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
 #include "property.h"
 
 namespace limn::image_texture_test {

@@ -1,14 +1,14 @@
-#include "limn/texture/perlin.h"
+#include "limn/scene/texture/perlin.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 
+#include "bsdf/perlin.h"
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "pattern/perlin.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
 
 namespace limn::perlin_test {
 

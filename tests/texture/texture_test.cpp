@@ -1,14 +1,14 @@
-#include "limn/texture/texture.h"
+#include "limn/scene/texture/texture.h"
 
 #include <cmath>
 
 #include "catch.h"
-#include "limn/core/error.h"
-#include "limn/core/math.h"
-#include "limn/texture/checker.h"
-#include "limn/texture/image_texture.h"
-#include "limn/texture/perlin.h"
-#include "limn/texture/solid.h"
+#include "limn/math/error.h"
+#include "limn/math/math.h"
+#include "limn/scene/texture/checker.h"
+#include "limn/scene/texture/image_texture.h"
+#include "limn/scene/texture/perlin.h"
+#include "limn/scene/texture/solid.h"
 
 namespace limn::texture_test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/color.h"
+#include "limn/math/color.h"
 
 namespace limn {
 

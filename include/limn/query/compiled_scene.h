@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "limn/core/hash128.h"
-#include "limn/core/ray.h"
-#include "limn/core/surface.h"
+#include "limn/math/hash128.h"
+#include "limn/math/ray.h"
+#include "limn/math/surface.h"
 #include "limn/query/queries.h"
 #include "limn/scene/scene.h"
 
@@ -187,7 +187,7 @@ public:
     const std::string& features() const;
     const std::string& name() const;  ///< returns Scene::name
     /// Returns the digest of everything in the scene that its pictures depend on. It does not depend on the machine or
-    /// the build that compiled the scene. User-defined objects enter it by their tags (limn/core/tagged.h).
+    /// the build that compiled the scene. User-defined objects enter it by their tags (limn/math/tagged.h).
     const Hash128& digest() const;
     bool has_untagged() const;  ///< returns true if a user-defined object has no tag
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "limn/core/math.h"
-#include "limn/core/vec.h"
+#include "limn/math/math.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

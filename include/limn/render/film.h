@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/color.h"
-#include "limn/core/hash128.h"
 #include "limn/image/image.h"
+#include "limn/math/color.h"
+#include "limn/math/hash128.h"
 #include "limn/render/settings.h"
 #include "limn/scene/camera.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/error.h"
+#include "limn/math/error.h"
 #include "limn/render/film.h"
 #include "limn/render/render.h"
 

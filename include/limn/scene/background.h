@@ -2,8 +2,8 @@
 /// The radiance that arrives from around a scene.
 #pragma once
 
-#include "limn/core/color.h"
-#include "limn/core/vec.h"
+#include "limn/math/color.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "limn/core/box.h"
-#include "limn/core/ray.h"
-#include "limn/core/vec.h"
+#include "limn/math/box.h"
+#include "limn/math/ray.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

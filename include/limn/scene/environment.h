@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "limn/core/color.h"
-#include "limn/core/transform.h"
-#include "limn/core/vec.h"
 #include "limn/image/image.h"
+#include "limn/math/color.h"
+#include "limn/math/transform.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

@@ -8,8 +8,8 @@
 
 #include <variant>
 
-#include "limn/core/color.h"
-#include "limn/core/vec.h"
+#include "limn/math/color.h"
+#include "limn/math/vec.h"
 
 namespace limn {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/transform.h"
+#include "limn/math/transform.h"
 #include "limn/scene/camera.h"
-#include "limn/shape/mesh.h"
+#include "limn/scene/shape/mesh.h"
 
 namespace limn {
 

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "limn/core/transform.h"
+#include "limn/math/transform.h"
 #include "limn/scene/background.h"
 #include "limn/scene/environment.h"
 #include "limn/scene/lights.h"
 #include "limn/scene/model.h"
-#include "limn/shape/hittable.h"
+#include "limn/scene/shape/hittable.h"
 
 namespace limn {
 

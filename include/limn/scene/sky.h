@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "limn/core/color.h"
-#include "limn/core/vec.h"
+#include "limn/math/color.h"
+#include "limn/math/vec.h"
 #include "limn/scene/environment.h"
 #include "limn/scene/lights.h"
 

@@ -1,6 +1,6 @@
 // Asks two rays what they hit.
 #include <limn/query/compiled_scene.h>
-#include <limn/shape/sphere.h>
+#include <limn/scene/shape/sphere.h>
 
 int main() {
     limn::Scene scene;

@@ -1,0 +1,92 @@
+#include "limn/scene/material/metal.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "scene/material/metal.cpp"
+#include <hwy/foreach_target.h>
+
+#include "bsdf/lobe-inl.h"
+#include "scene/material/albedo.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace limn::metal::HWY_NAMESPACE {
+
+using namespace bsdf::HWY_NAMESPACE;
+
+// A mirror, blurred by a displacement drawn uniformly in a ball; the parameter is its radius. No Fresnel term. What
+// ends below the geometric surface is absorbed.
+struct Fuzzy {
+    // A displacement below half a unit in the last place of a unit vector is none.
+    template <class N>
+    static HWY_INLINE Mask<N> is_mirror(const LobeInput<N>& s) {
+        return s.parameter < kRoundoff;
+    }
+    // Density per solid angle of w = unit(m + fuzz x), x uniform in the unit ball, m the unit mirror direction. The
+    // points m + fuzz x fill a ball around m with density 3 / (4 pi fuzz^3). Those that end up as w lie on the
+    // half-line s w, inside the ball for s1 < s < s2, where |s w - m| = fuzz, and a solid angle dw cuts the volume s^2
+    // ds dw out there:
+    //     pdf(w) = 3 / (4 pi fuzz^3) integral of s^2 ds = (s2^3 - s1^3) / (4 pi fuzz^3).
+    // With c = dot(w, m) the roots are c -+ h, h^2 = fuzz^2 - (1 - c^2), both >= 0 for c > 0 as fuzz <= 1, and
+    // s2^3 - s1^3 = 2 h (3 c^2 + h^2). For c <= 0 the half-line misses the ball. 1 - c^2 = |w x m|^2 does not cancel.
+    template <class N>
+    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>& in) {
+        const N fuzz = s.parameter;
+        const Vector<N> m = mirror(s.out, s.shading_normal);
+        const N c = dot(in, m), height = dot(in, s.normal);
+        const N h_squared = fuzz * fuzz - length_squared(cross(in, m));
+        const Mask<N> mirrors = is_mirror(s), reached = (c > 0.0) & (h_squared > 0.0) & (height > 0.0) & !mirrors;
+        const N pdf = sqrt(h_squared) * (3.0 * c * c + h_squared) / (2 * kPi * fuzz * fuzz * fuzz);
+        const N drawn = select(reached, pdf, 0.0);
+        return {drawn * s.albedo, drawn};
+    }
+    template <class N>
+    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+        const Vector<N> m = mirror(s.out, s.shading_normal);
+        const Vector<N> moved = normalize(m + s.parameter * uniform_ball(random.x, random.y, random.z));
+        const Vector<N> in = select(is_mirror(s), m, moved);
+        const Mask<N> above = dot(in, s.normal) > 0.0;  // not NaN: fuzz 1 can reach the zero vector
+        return {in, weight_where(above, s.albedo), value(s, in).pdf};
+    }
+};
+
+LIMN_LOBE_STAGES(Fuzzy)
+
+}  // namespace limn::metal::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace limn {
+
+namespace metal {
+
+LIMN_LOBE(.one_sided = true, .numbers = 3)
+
+}  // namespace metal
+
+namespace formulas = metal::HWY_NAMESPACE;
+
+Metal::Metal(const Color& albedo, double fuzz)
+    : albedo_(checked_albedo(albedo, "Metal")), fuzz_(checked_share(fuzz, "Metal: fuzz")) {}
+
+Metal::Metal(std::shared_ptr<const Texture> albedo, double fuzz)
+    : albedo_(checked_albedo(std::move(albedo), "Metal")), fuzz_(checked_share(fuzz, "Metal: fuzz")) {}
+
+std::optional<ScatterSample> Metal::sample(const Surface& s, const Vec3& out, const Random3& random) const {
+    return formulas::sample_one<formulas::Fuzzy>(formulas::input_of(s, out, albedo_->value(s), fuzz_), random);
+}
+
+ScatterValue Metal::value(const Surface& s, const Vec3& out, const Vec3& in) const {
+    return formulas::value_one<formulas::Fuzzy>(formulas::input_of(s, out, albedo_->value(s), fuzz_), in);
+}
+
+MaterialRecord Metal::lower(RecordSink& sink) const {
+    MaterialRecord record;
+    record.kind = "metal";
+    record.lobe = &metal::kLobe;
+    record.texture = lower_texture(sink, albedo_);
+    record.parameter = fuzz_;
+    record.specular = fuzz_ == 0;
+    return record;
+}
+
+}  // namespace limn
+#endif
