@@ -1,7 +1,6 @@
 // Prints the time that a render or a set of rays takes. against.py links it with the libraries of two commits.
 //     against                                   lists the scenes: "samples NAME" or "rays NAME"
-//     against samples|instructions NAME SPP     renders 100x100 or, for callgrind, 16x16 pixels with SPP samples each
-//     against rays NAME SPP                     traces rays of each kind and ignores SPP
+//     against samples|instructions|rays NAME SPP  renders 100x100 or 16x16 pixels, or traces rays of each kind
 #include <cstdio>
 #include <functional>
 #include <map>

@@ -1,5 +1,4 @@
-"""Measures the scenes of this tree with its own library and with that of another commit. A ratio over 1 says that this
-tree is faster."""
+"""Measures this tree's scenes with its own library and with another commit's. A ratio over 1: this tree is faster."""
 
 import re
 import subprocess
@@ -43,16 +42,16 @@ def build(source, folder):
 
 
 def numbers(program, what, name, spp):
-    """Returns the times or the number of instructions by name. There are none if the program can't make the scene."""
+    """Returns the times or the count by name, or nothing if the program can't make the scene."""
+    print(f"against: {what} of {name}", file=sys.stderr, flush=True)
     done = run(*(CALLGRIND if what == "instructions" else ()), program, what, name, spp, check=False)
-    if done.returncode == 0 and what == "instructions":
+    if what == "instructions" and done.returncode == 0:
         return {what: int(re.search(r"Collected : (\d+)", done.stderr)[1])}
     return {key: float(value) for key, value in map(str.split, done.stdout.splitlines())} if not done.returncode else {}
 
 
 def measure(programs, kind, name):
     """Returns for each time or count the list of its ratios, one for each round."""
-    print(f"against: {name}", file=sys.stderr, flush=True)
     ratios, spp = {}, max(4, round(1.6 / numbers(programs[0], kind, name, 4).get("samples", 1)))  # about 0.4 s
     for what, count in [(kind, spp)] * 9 + [("instructions", 4)] * (kind == "samples"):
         ours, theirs = (numbers(program, what, name, count) for program in programs)
@@ -68,10 +67,12 @@ def main():
     if not (there / "source").exists():
         run("git", "-C", ROOT, "worktree", "add", "--force", "--detach", there / "source", commit)
     programs, failed = zip(build(ROOT, ROOT / "build/against/this"), build(there / "source", there))
-    known = {name: kind for kind, name in map(str.split, run(programs[0]).stdout.splitlines())}
-    if unknown := [name for name in sys.argv[2:] if name not in known]:
-        sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(known)}")
-    found = {name: measure(programs, known[name], name) for name in sys.argv[2:] or known}
+    known = [line.split() for line in run(programs[0]).stdout.splitlines()]
+    names = dict.fromkeys(name for _, name in known)
+    if unknown := [name for name in sys.argv[2:] if name not in names]:
+        sys.exit(f"against: there is no scene {', '.join(unknown)}; there are {', '.join(names)}")
+    chosen = [(kind, name) for kind, name in known if name in (sys.argv[2:] or names)]
+    found = {f"{name}, {kind}": measure(programs, kind, name) for kind, name in chosen}
     rows = [[name, what, spread(quartiles(each[what]), 3)] for name, each in found.items() for what in sorted(each)]
     for kind in sorted({what.rpartition(",")[2] for each in found.values() for what in each}):
         medians = [median(ratios) for each in found.values() for what, ratios in each.items() if what.endswith(kind)]

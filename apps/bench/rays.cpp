@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "bench/scenes.h"
-#include "limn/math/frame.h"
-#include "limn/math/warp.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 namespace {

@@ -6,12 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "limn/io/obj.h"
-#include "limn/math/error.h"
-#include "limn/math/warp.h"
-#include "limn/scene/shape/instance.h"
-#include "limn/scene/shape/quad.h"
-#include "limn/scene/shape/sphere.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 namespace {

@@ -9,11 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "limn/math/ray.h"
-#include "limn/query/compiled_scene.h"
-#include "limn/scene/camera.h"
-#include "limn/scene/scene.h"
-#include "limn/scene/shape/mesh.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 
