@@ -99,7 +99,7 @@ public:
     /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
     /// is unspecified. A point with a coordinate that isn't finite counts as outside.
     /// \param point in world space
-    /// \param time of moving objects, in shutter units, 0 to 1
+    /// \param time the time, see Ray::time
     PointLocation locate(const Point3& point, double time = 0) const;
     /// Returns PointLocation::is_inside of `locate`: true if the point is inside or exactly on a surface.
     bool contains(const Point3& point, double time = 0) const;

@@ -40,9 +40,10 @@ public:
     /// Sets the environment map and replaces an earlier one.
     void environment(const EnvironmentRecord& record) { records_.environment = record; }
 
-    /// Adds a shape to the current BLAS, which is the scene itself except inside `blas`. The ids in the record must
-    /// come from this sink. The arrays of a mesh must be valid as long as `owner`. A user-defined shape must live as
-    /// long as the compiled scene. That scene keeps alive the objects of the Scene and the objects given to `blas`.
+    /// Adds a shape to the current BLAS: the one that `blas` fills, or the scene itself if `blas` is not running. The
+    /// ids in the record must come from this sink. The arrays of a mesh must be valid as long as `owner`. A
+    /// user-defined shape must live as long as the compiled scene. The compiled scene keeps alive the objects of the
+    /// Scene and the objects given to `blas`.
     ///
     /// \throws ArgumentError if there are too many primitives
     ///@{
@@ -81,8 +82,9 @@ public:
     /// Records the tag of a user-defined object. A null pointer records that an object has no tag.
     void identify(const Tagged* object);
 
-    /// Marks the begin or the end of the description of an object that contains others. The object calls `enter(this)`
-    /// before it describes them and `leave(this)` afterwards, so that cycles are found.
+    /// Mark the beginning and the end of the description of an object that contains others. The object calls
+    /// `enter(this)` before it describes the others and `leave(this)` afterwards. An object that contains itself is
+    /// found that way.
     ///
     /// \throws ArgumentError if the object contains itself: it was entered and not left
     ///@{
