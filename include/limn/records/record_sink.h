@@ -40,10 +40,9 @@ public:
     /// Sets the environment map and replaces an earlier one.
     void environment(const EnvironmentRecord& record) { records_.environment = record; }
 
-    /// Adds a shape to the current BLAS: the one that `blas` fills, or the scene itself if `blas` is not running. The
-    /// ids in the record must come from this sink. The arrays of a mesh must be valid as long as `owner`. A
-    /// user-defined shape must live as long as the compiled scene. The compiled scene keeps alive the objects of the
-    /// Scene and the objects given to `blas`.
+    /// Adds a shape to the current BLAS, which is the scene itself except inside `blas`. The ids in the record must
+    /// come from this sink. The arrays of a mesh must be valid as long as `owner`. A user-defined shape must live as
+    /// long as the compiled scene, which keeps alive the objects of the Scene and the objects given to `blas`.
     ///
     /// \throws ArgumentError if there are too many primitives
     ///@{
@@ -73,8 +72,8 @@ public:
         (records_.*table).push_back(record);
     }
 
-    /// Returns the BLAS of an object that instances or media refer to. Calls `fill` the first time only. Shapes that
-    /// `fill` adds belong to that BLAS. The records keep the object alive.
+    /// Returns the BLAS of an object that instances or media refer to. Calls `fill` the first time only. While `fill`
+    /// runs, this is the current BLAS, to which shapes are added. The records keep the object alive.
     ///
     /// \throws ArgumentError if an object contains itself, or there are too many BLASes
     BlasId blas(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
