@@ -214,8 +214,8 @@ CompiledScene compile(const Scene& scene);
 /// instanced objects are kept. The tree over all objects, the lights and the media are built again. So it is fast if
 /// moving objects and large static meshes are Instances.
 /// \pre no render or query of `scene` is running
-/// \throws ArgumentError if an object does not exist, is no Instance, is an Instance without primitives or is moved
-/// twice, or if its matrices are not allowed for an Instance; `scene` is then unchanged
+/// \throws ArgumentError if an object does not exist, isn't an Instance, is an Instance without primitives or is moved
+/// twice, or if its matrices are invalid for an Instance; `scene` is then unchanged
 CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn

@@ -18,7 +18,7 @@ inline constexpr std::uint64_t kNoPrimitive = ~std::uint64_t{0};  ///< a number 
 struct RayHit {
     double t = kInfinity;      ///< in units of the ray's direction; kInfinity for a miss
     std::uint32_t object = 0;  ///< number of the object, in the order of Scene::add
-    /// The number of the primitive within the object: of the triangle in a mesh, of the shape in a list.
+    /// The number of the primitive within the object, for example of the triangle in a mesh or of the shape in a list.
     std::uint64_t element = 0;
     /// Parameters of the point on the primitive.
     ///

@@ -256,7 +256,7 @@ private:
     double seconds_ = 0;
 };
 
-/// Returns true if the file begins as a film does. Returns false if it is no regular file.
+/// Returns true if the file begins as a film does. Returns false if it isn't a regular file.
 bool is_film_file(const std::string& path);
 
 }  // namespace limn
