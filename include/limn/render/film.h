@@ -100,8 +100,8 @@ public:
     Film(const FilmInfo& info, std::vector<std::uint32_t> tiles);
 
     /// Reads a film.
-    /// \throws FileError if the file is missing, damaged, truncated or no film, or if it is from a version of limn that
-    /// has another format or other samples
+    /// \throws FileError if the file is missing, damaged, truncated or isn't a film, or if it is from a version of limn
+    /// that has another format or other samples
     static Film load(const std::string& path);
     /// Reads films whose tiles together make the whole picture, and returns the whole film. The order of the files does
     /// not matter. The function needs the memory of one film.
