@@ -34,13 +34,14 @@ Figure lamps() {
     return figure;
 }
 
-// Returns a figure of three balls with Fresnel's equations, and with a mirror instead of fuzzy metal.
+// Returns the figure with another scene of three balls: the glass reflects by Fresnel's equations, and the metal is a
+// smooth mirror.
 Figure with_mirror(Figure figure) {
     figure.scene = figures::three_balls(glass(), std::make_shared<Metal>(Color{.8, .6, .2}, 0));
     return figure;
 }
 
-// Returns figure 1 without motion, without fuzz, and with Fresnel's equations.
+// Returns figure 1 without motion and with smooth metal. Its glass reflects by Fresnel's equations.
 Figure still_spheres() {
     auto balls = figures::read_bouncing_spheres(figures::data_file("bounce_spheres.csv"));
     for (figures::BouncingSphere& ball : balls) {
@@ -52,7 +53,7 @@ Figure still_spheres() {
     return figure;
 }
 
-// Returns a ball with hills, a mesh of 69312 triangles.
+// Returns a ball with hills: a mesh of 69312 triangles.
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
     MeshData data = make_scene("sphere", 0.035).mesh->data();
     for (Float3& v : data.vertices) v = to_float3(center + radius * Vec3{v.x, v.y, v.z});
@@ -122,7 +123,7 @@ Figure rough_glass() {
     return figure;
 }
 
-// Returns the glTF model of the gallery, which has normal maps, alpha and rough metal.
+// Returns the gallery's glTF model. The model has normal maps, alpha and rough metal.
 Figure still_life() {
     const Model model = gallery::load("still_life.glb");
     Scene scene;
@@ -131,8 +132,8 @@ Figure still_life() {
     return figure_of(std::move(scene), model.cameras.front().camera);
 }
 
-// Returns a floor with a small bright lamp. A screen shadows the floor, so that it gets light only by a fuzzy mirror.
-// The samples with this light are rare and bright.
+// Returns a floor with a small bright lamp. A screen shadows the floor, which the lamp lights only by way of a fuzzy
+// mirror. Samples that find the lamp through the mirror are rare and bright.
 Figure fireflies() {
     Scene scene;
     scene.background = Background::constant({.05, .06, .08});
