@@ -18,6 +18,13 @@ namespace limn {
 /// at a roughness of 1.
 class RoughDielectric final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N index;             ///< index of refraction inside over that outside
+        N alpha_x, alpha_y;  ///< squares of the roughnesses; both 0: a Dielectric
+    };
+
     /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
     /// normal; below 1 for a bubble
     /// \param roughness see Roughness
@@ -29,8 +36,7 @@ public:
     MaterialRecord lower(RecordSink& sink) const override;
 
 private:
-    double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // null: a Dielectric
+    Parameters<double> parameters_;
 };
 
 }  // namespace limn
