@@ -114,7 +114,7 @@ struct MaterialRecord {
     std::string_view kind = "";              ///< "lambertian", "diffuse-light", ...; of static lifetime
     const bsdf::Lobe* lobe = nullptr;        ///< functions that scatter; null: the surface absorbs all light
     TextureId albedo = TextureId::none;      ///< albedo, reflectance or base colour; none: white
-    TextureId factors = TextureId::none;     ///< factors of parameters; the material says of which; none: white
+    TextureId factors = TextureId::none;     ///< colour that multiplies parameters of the lobe; none: white
     TextureId emission = TextureId::none;    ///< emitted radiance; none: the surface doesn't emit
     TextureId normal_map = TextureId::none;  ///< texture that bends the shading normal, see NormalMap; none: not bent
     TextureId opacity = TextureId::none;     ///< texture whose red is the opacity, see AlphaMask; none: opaque
@@ -123,12 +123,9 @@ struct MaterialRecord {
     bool uses_tangents = false;              ///< true if the material uses Surface::dp_du and Surface::dp_dv
     double opacity_cutoff = 0;               ///< above 0: opaque if opacity >= opacity_cutoff, else fully transparent
     LobeParameters parameters{};             ///< parameters of the lobe
-    /// Directional albedos of the lobe's microfacets; the second table is that of the coat of a MetallicRoughness. Null
-    /// if the lobe uses no such table.
-    ///@{
-    std::shared_ptr<const bsdf::AlbedoTable> albedo_table{}, coat_albedo_table{};
-    ///@}
-    const Material* object = nullptr;        ///< user-defined: the material; not owning
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table{};       ///< albedos of its microfacets; null: not used
+    std::shared_ptr<const bsdf::AlbedoTable> coat_albedo_table{};  ///< albedos of a MetallicRoughness's coat
+    const Material* object = nullptr;                              ///< user-defined: the material; not owning
     const MaterialThunks* thunks = nullptr;  ///< user-defined: functions that call `object`; of static lifetime
 };
 

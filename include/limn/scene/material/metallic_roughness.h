@@ -21,8 +21,9 @@ public:
     /// The parameters of the lobe. N is double, or a vector of doubles.
     template <class N>
     struct Parameters {
-        N index;                ///< index of refraction of the coat over that of the outside
-        N metallic, roughness;  ///< factors of the texture's blue and green
+        N index;      ///< index of refraction of the coat over that of the outside
+        N metallic;   ///< share of the metal, or the factor of the texture's blue
+        N roughness;  ///< roughness, or the factor of the texture's green
     };
 
     /// Makes a material of constant metallic and roughness. A roughness below 0.001 counts as 0.001, so no

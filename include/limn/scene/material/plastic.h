@@ -17,8 +17,9 @@ public:
     /// The parameters of the lobe. N is double, or a vector of doubles.
     template <class N>
     struct Parameters {
-        N index;             ///< index of refraction of the coat over that of the outside
-        N alpha_x, alpha_y;  ///< squares of the coat's roughnesses; both 0: smooth
+        N index;    ///< index of refraction of the coat over that of the outside
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: smooth
+        N alpha_y;  ///< square of the roughness perpendicular to it
     };
 
     /// \param albedo share of the light entering the coat that leaves it again, in [0, 1], or a texture

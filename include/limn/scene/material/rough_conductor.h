@@ -26,11 +26,12 @@ public:
     /// The parameters of the lobe. N is double, or a vector of doubles.
     template <class N>
     struct Parameters {
-        /// components of the edge tint
+        /// A component of the edge tint.
         ///@{
         N edge_tint_r, edge_tint_g, edge_tint_b;
         ///@}
-        N alpha_x, alpha_y;  ///< squares of the roughnesses; both 0: smooth
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: smooth
+        N alpha_y;  ///< square of the roughness perpendicular to it
     };
 
     /// Makes a conductor of the given reflectance at normal incidence. The edge tint controls how the reflectance rises

@@ -21,8 +21,9 @@ public:
     /// The parameters of the lobe. N is double, or a vector of doubles.
     template <class N>
     struct Parameters {
-        N index;             ///< index of refraction inside over that outside
-        N alpha_x, alpha_y;  ///< squares of the roughnesses; both 0: a Dielectric
+        N index;    ///< index of refraction inside over that outside
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: the surface is a Dielectric
+        N alpha_y;  ///< square of the roughness perpendicular to it
     };
 
     /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
