@@ -23,14 +23,14 @@ struct Fuzzy {
     static HWY_INLINE Mask<N> is_mirror(const Input<N>& s) {
         return s.parameters.fuzz < kRoundoff;
     }
-    // The pdf is that of w = unit(m + fuzz x) per solid angle. m is the unit mirror direction, and x is uniform in the
-    // unit ball. The points m + fuzz x fill a ball around m with density 3 / (4 pi fuzz^3). The points with the
-    // direction w are on the half-line s w. It is inside the ball for s1 < s < s2, where |s w - m| = fuzz. A solid
-    // angle dw cuts the volume s^2 ds dw out there. Therefore
+    // The pdf is that of the direction w of m + fuzz x, per solid angle. m is the unit mirror direction, and x is
+    // uniform in the unit ball. The points m + fuzz x fill a ball around m with density 3 / (4 pi fuzz^3). Those with
+    // the direction w are on the half-line s w, s > 0. It is inside the ball for s1 < s < s2, where |s w - m| = fuzz.
+    // The solid angle dw contains the volume s^2 ds dw at s. Therefore
     //     pdf(w) = 3 / (4 pi fuzz^3) integral of s^2 ds = (s2^3 - s1^3) / (4 pi fuzz^3).
     // Let c = dot(w, m). If c <= 0, the half-line misses the ball. Otherwise the roots are c - h and c + h, where
     // h^2 = fuzz^2 - (1 - c^2). Both are >= 0, since fuzz <= 1, and s2^3 - s1^3 = 2 h (3 c^2 + h^2). The code computes
-    // 1 - c^2 as |w x m|^2, which does not cancel.
+    // 1 - c^2 as |w x m|^2, in which nothing cancels.
     template <class N>
     static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>& in) {
         const N fuzz = s.parameters.fuzz;

@@ -23,8 +23,8 @@ using Input = LobeInput<N, OrenNayar::Parameters>;
 struct RoughDiffuse {
     static constexpr double kLoss = 0.5 - 2 / (3 * kPi), kMeanGain = 2.0 / 3 - 28 / (15 * kPi);
 
-    // Returns E for this cosine: the albedo of single scattering by facets that reflect all light. a = 1 / (1 + kLoss
-    // r).
+    // Returns E for this cosine, the albedo of single scattering by facets that reflect all light.
+    // \param a 1 / (1 + kLoss r)
     template <class N>
     static HWY_INLINE N directional_albedo(N cosine, N a, N r) {
         const N sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -42,8 +42,7 @@ struct RoughDiffuse {
         const N single = a * (1.0 + r * across / select(across > 0.0, max(cos_i, cos_o), 1.0));
         const N mean = a * (1.0 + kMeanGain * r);
         const N lost = (1.0 - directional_albedo(cos_o, a, r)) * (1.0 - directional_albedo(cos_i, a, r));
-        // At r = 0 both are 0. The lower bound 1e-7 has an effect below r = 5e-7 alone, where the quotient is less than
-        // 0.4 r.
+        // At r = 0 both are 0. The bound 1e-7 matters below r = 5e-7 alone, where the quotient is less than 0.4 r.
         const N multiple = lost / max(1.0 - mean, 1e-7);
         const auto of = [&](N rho) HWY_ATTR {
             return rho * single + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * multiple;

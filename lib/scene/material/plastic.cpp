@@ -35,8 +35,7 @@ struct Vertex : Facets<Input<N>> {
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0);
         const Vector<N> m = normalize(out + in);
         const N cosine_pdf = cosine_hemisphere_pdf(max(in.z, 0.0));
-        // Light enters through the coat and leaves through it. The base scatters light again that the coat reflects
-        // back.
+        // Light enters and leaves through the coat. What the coat reflects back down, the base scatters again.
         const N through = spread_evenly(1.0 - coat, 1.0 - this->albedo(in), this->mean_albedo(), cosine_pdf);
         const N shine = select(smooth, 0.0,
                                reflectance_exact(dot(out, m), s.parameters.index) * surface.scattered_once(out, in, m));
