@@ -74,7 +74,7 @@ public:
                 Json boundary = no_shapes();
                 add_shapes(m.boundary, place, boundary);
                 all["media"].push_back(
-                    {{"boundary", boundary}, {"density", m.density}, {"albedo", texture(phase.texture)}});
+                    {{"boundary", boundary}, {"density", m.density}, {"albedo", texture(phase.albedo)}});
             }
         }
     }
