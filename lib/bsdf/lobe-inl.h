@@ -9,7 +9,7 @@
 //     };
 //     LIMN_LOBE_STAGES(Formulas)
 //
-// and once, in the namespace around it, LIMN_LOBE. N is one double, or a vector of doubles with one vertex in each
+// and LIMN_LOBE once, in the namespace limn. N is one double, or a vector of doubles with one vertex in each
 // lane. The include guard is per target, as Highway requires.
 #if defined(LIMN_BSDF_LOBE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_BSDF_LOBE_INL_H
@@ -169,21 +169,25 @@ HWY_AFTER_NAMESPACE();
         bsdf::HWY_NAMESPACE::value_all<Formulas, Input<Doubles>>(v, in);                             \
     }
 
-// Defines the lobe, kLobe. The arguments are the fields of Lobe before `parameters`.
+// Defines name::kLobe, the lobe of a material, and `formulas`, the namespace of its formulas for one vertex. The
+// arguments after `name` are the fields of Lobe before `parameters`.
 #undef LIMN_LOBE
-#define LIMN_LOBE(...)                                                                                      \
-    HWY_EXPORT(sample);                                                                                     \
-    HWY_EXPORT(value);                                                                                      \
-    extern constexpr bsdf::Lobe kLobe{__VA_ARGS__, .parameters = HWY_NAMESPACE::Input<double>::kParameters, \
-                                      .sample =                                                             \
-                                          [](bsdf::Vertices& v) {                                           \
-                                              HWY_DYNAMIC_DISPATCH(sample)                                  \
-                                              (v);                                                          \
-                                          },                                                                \
-                                      .value =                                                              \
-                                          [](bsdf::Vertices& v, const bsdf::Rows3& in) {                    \
-                                              HWY_DYNAMIC_DISPATCH(value)                                   \
-                                              (v, in);                                                      \
-                                          }};
+#define LIMN_LOBE(name, ...)                                                                         \
+    namespace name {                                                                                 \
+    HWY_EXPORT(sample);                                                                              \
+    HWY_EXPORT(value);                                                                               \
+    constexpr bsdf::Lobe kLobe{__VA_ARGS__, .parameters = HWY_NAMESPACE::Input<double>::kParameters, \
+                               .sample =                                                             \
+                                   [](bsdf::Vertices& v) {                                           \
+                                       HWY_DYNAMIC_DISPATCH(sample)                                  \
+                                       (v);                                                          \
+                                   },                                                                \
+                               .value =                                                              \
+                                   [](bsdf::Vertices& v, const bsdf::Rows3& in) {                    \
+                                       HWY_DYNAMIC_DISPATCH(value)                                   \
+                                       (v, in);                                                      \
+                                   }};                                                               \
+    }                                                                                                \
+    namespace formulas = name::HWY_NAMESPACE;
 
 #endif

@@ -51,13 +51,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace dielectric {
-
-LIMN_LOBE(.one_sided = false, .numbers = 1)
-
-}  // namespace dielectric
-
-namespace formulas = dielectric::HWY_NAMESPACE;
+LIMN_LOBE(dielectric, .one_sided = false, .numbers = 1)
 
 Dielectric::Dielectric(double index, Fresnel fresnel) : parameters_{index, fresnel == Fresnel::exact ? 1.0 : 0.0} {
     require(std::isfinite(index) && index > 0, "Dielectric: index must be positive and finite");

@@ -36,13 +36,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace isotropic {
-
-LIMN_LOBE(.one_sided = false, .numbers = 2)
-
-}  // namespace isotropic
-
-namespace formulas = isotropic::HWY_NAMESPACE;
+LIMN_LOBE(isotropic, .one_sided = false, .numbers = 2)
 
 Isotropic::Isotropic(const Color& albedo) : albedo_(checked_albedo(albedo, "Isotropic")) {}
 

@@ -47,13 +47,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace lambertian {
-
-LIMN_LOBE(.one_sided = true, .numbers = 2)
-
-}  // namespace lambertian
-
-namespace formulas = lambertian::HWY_NAMESPACE;
+LIMN_LOBE(lambertian, .one_sided = true, .numbers = 2)
 
 Lambertian::Lambertian(const Color& albedo) : albedo_(checked_albedo(albedo, "Lambertian")) {}
 

@@ -60,13 +60,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace metal {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3)
-
-}  // namespace metal
-
-namespace formulas = metal::HWY_NAMESPACE;
+LIMN_LOBE(metal, .one_sided = true, .numbers = 3)
 
 Metal::Metal(const Color& albedo, double fuzz) : Metal(checked_albedo(albedo, "Metal"), fuzz) {}
 

@@ -104,13 +104,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace metallic_roughness {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3, .microfacets = true)
-
-}  // namespace metallic_roughness
-
-namespace formulas = metallic_roughness::HWY_NAMESPACE;
+LIMN_LOBE(metallic_roughness, .one_sided = true, .numbers = 3, .microfacets = true)
 
 namespace {
 

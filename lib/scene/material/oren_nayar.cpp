@@ -68,13 +68,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace oren_nayar {
-
-LIMN_LOBE(.one_sided = true, .numbers = 2)
-
-}  // namespace oren_nayar
-
-namespace formulas = oren_nayar::HWY_NAMESPACE;
+LIMN_LOBE(oren_nayar, .one_sided = true, .numbers = 2)
 
 OrenNayar::OrenNayar(const Color& albedo, double roughness)
     : OrenNayar(checked_albedo(albedo, "OrenNayar"), roughness) {}

@@ -77,13 +77,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace plastic {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3, .microfacets = true)
-
-}  // namespace plastic
-
-namespace formulas = plastic::HWY_NAMESPACE;
+LIMN_LOBE(plastic, .one_sided = true, .numbers = 3, .microfacets = true)
 
 namespace {
 

@@ -85,13 +85,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace rough_conductor {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3, .microfacets = true)
-
-}  // namespace rough_conductor
-
-namespace formulas = rough_conductor::HWY_NAMESPACE;
+LIMN_LOBE(rough_conductor, .one_sided = true, .numbers = 3, .microfacets = true)
 
 namespace {
 

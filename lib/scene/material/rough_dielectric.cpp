@@ -83,13 +83,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace rough_dielectric {
-
-LIMN_LOBE(.one_sided = false, .numbers = 3, .microfacets = true)
-
-}  // namespace rough_dielectric
-
-namespace formulas = rough_dielectric::HWY_NAMESPACE;
+LIMN_LOBE(rough_dielectric, .one_sided = false, .numbers = 3, .microfacets = true)
 
 RoughDielectric::RoughDielectric(double index, const Roughness& roughness) {
     require(std::isfinite(index) && index > 0, "RoughDielectric: index must be positive and finite");
