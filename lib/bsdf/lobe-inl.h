@@ -1,4 +1,4 @@
-// What the formulas of a lobe are written in terms of. The source of a material has, in its namespace per target,
+// The types and functions that formulas of lobes use. The source of a material has, in its namespace per target,
 //
 //     template <class N>
 //     using Input = LobeInput<N, Parameters>;  // Parameters: the struct of the material, or nothing if it has none
@@ -35,8 +35,8 @@ using namespace sampling::HWY_NAMESPACE;
 template <class N>
 struct NoParameters {};
 
-// What a lobe is given: the fields of Vertices, with `incoming` replaced by the unit direction `out` towards the
-// viewer, and the parameters by name.
+// The input of a lobe. It has the fields of Vertices, but the unit direction `out` towards the viewer in place of
+// `incoming`, and the parameters by name.
 template <class N, template <class> class ParametersOf = NoParameters>
 struct LobeInput {
     using Number = N;

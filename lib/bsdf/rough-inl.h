@@ -1,5 +1,5 @@
-// What lobes of microfacets have in common, except for the microsurface itself (microfacet-inl.h). The include guard is
-// per target, as Highway requires.
+// The parts that lobes of microfacets share, except for the microsurface itself (microfacet-inl.h). The include guard
+// is per target, as Highway requires.
 #if defined(LIMN_BSDF_ROUGH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_BSDF_ROUGH_INL_H
 #undef LIMN_BSDF_ROUGH_INL_H

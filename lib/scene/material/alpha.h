@@ -1,4 +1,4 @@
-// What materials with microfacets have in common.
+// Functions for materials with microfacets.
 #pragma once
 
 #include <memory>
