@@ -54,7 +54,7 @@ struct Vertices {
 
 // The functions of a lobe. They are called by the functions sample() and value() below.
 struct Lobe {
-    bool one_sided;              // true if the value is zero unless both directions are above the geometric surface
+    bool one_sided;              // true if the value is zero for directions on different sides of the geometric surface
     std::size_t numbers;         // how many uniform numbers `sample` uses
     bool microfacets = false;    // true if the lobe uses Vertices::dp_du, `factors` and the albedo tables
     std::size_t parameters = 0;  // how many of MaterialRecord::parameters the lobe uses

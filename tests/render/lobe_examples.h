@@ -6,18 +6,16 @@
 
 namespace limn::test {
 
-inline const Color kAlbedo{0.75, 0.5, 0.125};
-
 /// Returns at least one material of each lobe. tests/architecture demands one of each class that defines a lobe.
 inline std::vector<MaterialPtr> lobe_examples() {
     const auto checker = std::make_shared<Checker>(0.7, Color{0.9, 0.6, 0.3}, Color{0.1, 0.2, 0.3});
-    const Color other{0.2, 0.9, 1};
+    const Color color{0.75, 0.5, 0.125}, other{0.2, 0.9, 1};
     const Roughness uneven{.2, .9};
-    return {std::make_shared<Lambertian>(kAlbedo),
+    return {std::make_shared<Lambertian>(color),
             std::make_shared<Lambertian>(checker),
-            std::make_shared<Isotropic>(kAlbedo),
+            std::make_shared<Isotropic>(color),
             std::make_shared<Isotropic>(checker),
-            std::make_shared<Metal>(kAlbedo, 0),
+            std::make_shared<Metal>(color, 0),
             std::make_shared<Metal>(checker, 0.4),
             std::make_shared<Metal>(checker, 1),
             std::make_shared<Metal>(other, 0.1),
@@ -31,10 +29,10 @@ inline std::vector<MaterialPtr> lobe_examples() {
             std::make_shared<RoughConductor>(Color{1, .5, 0}, uneven, Color{.2, .7, 1}),
             std::make_shared<RoughDielectric>(1.5, 0.4),
             std::make_shared<RoughDielectric>(0.7, uneven),
-            std::make_shared<Plastic>(kAlbedo, 0.1),
+            std::make_shared<Plastic>(color, 0.1),
             std::make_shared<Plastic>(checker, 0, 1.3),
             std::make_shared<Plastic>(checker, uneven, 1.5, checker),
-            std::make_shared<MetallicRoughness>(kAlbedo, 0.9, 0.7, 1.3),
+            std::make_shared<MetallicRoughness>(color, 0.9, 0.7, 1.3),
             std::make_shared<MetallicRoughness>(checker, checker)};
 }
 

@@ -73,6 +73,8 @@ Surface random_surface(Random& random, bool inside) {
     return s;
 }
 
+const Color kAlbedo{0.75, 0.5, 0.125};
+
 // Materials of one lobe in a scene of their own.
 struct Compiled {
     CompiledScene scene;
