@@ -75,7 +75,7 @@ public:
     explicit LightCollector(flat::Scene& scene) : scene_(scene) {
         for (const MaterialRecord& m : scene.materials) {
             const bool is_sampled = m.emission != TextureId::none && !is_user_defined(scene, m.emission) &&
-                                    (!flat::has_holes(m) || !is_user_defined(scene, m.details->opacity));
+                                    (!flat::has_holes(m) || !is_user_defined(scene, m.opacity));
             brightness_.push_back(is_sampled ? typical_brightness(scene, m.emission) : 0);
         }
         emits_ = blases_that_reach(scene, [&](const PrimitiveRange& range) { return any_emits(range); });

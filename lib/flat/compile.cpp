@@ -69,7 +69,7 @@ void gather_features(flat::Scene& s) {
     }
     for (const MaterialRecord& m : s.materials) {
         f.user_defined_materials |= m.kind == kUserDefinedMaterial;
-        f.tangents |= m.kind == kUserDefinedMaterial || (m.details && m.details->tangents);
+        f.tangents |= m.uses_tangents;
     }
     f.texture_coordinates |= f.user_defined_textures || f.user_defined_materials || f.user_defined_shapes;
     const bool has_map = s.environment.image != nullptr;

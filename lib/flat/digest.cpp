@@ -64,10 +64,8 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
     });
     sum.table(r.materials, [&](const MaterialRecord& m) {
         sum.text(std::string(m.kind));
-        sum.add(m.fresnel, m.texture, m.emission, m.sides, m.parameter, m.details != nullptr);
-        if (!m.details) return;
-        for (const double number : m.details->numbers) sum.add(number);
-        sum.add(m.details->texture, m.details->normal_map, m.details->opacity, m.details->opacity_cutoff);
+        for (const double number : m.parameters.numbers) sum.add(number);
+        sum.add(m.albedo, m.factors, m.emission, m.sides, m.normal_map, m.opacity, m.opacity_cutoff);
     });
 }
 

@@ -179,9 +179,7 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
 // Returns true if the material has an opacity (limn/scene/material/alpha_mask.h).
-inline bool has_holes(const MaterialRecord& material) {
-    return material.details && material.details->opacity != TextureId::none;
-}
+inline bool has_holes(const MaterialRecord& material) { return material.opacity != TextureId::none; }
 
 // Returns the vertices of a triangle of a mesh, exactly as described.
 // \pre if the mesh has no arrays, the triangle is in the tree

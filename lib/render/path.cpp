@@ -81,7 +81,7 @@ void PathTracer::begin(std::span<Path> paths) {
     paths_ = paths;
     // What user-defined code that threw left behind.
     emitters_.count = shadows_.count = 0;
-    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.folds = 0;
+    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.tangent_facets = 0;
     shade::Segments& s = *next_;
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
@@ -315,7 +315,7 @@ void PathTracer::shade(Queue& queue) {
     if (std::any_of(queue.wants_light, queue.wants_light + count, [](double odds) { return odds > 0; }))
         sample_lights(queue);
     if (!queue.for_light_alone) scatter(queue);
-    queue.vertices.count = 0, queue.vertices.folds = 0;
+    queue.vertices.count = queue.vertices.tangent_facets = 0;
 }
 
 void PathTracer::sample_lights(Queue& queue) {

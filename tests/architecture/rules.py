@@ -187,6 +187,16 @@ def check_pointers(tree):
                             "objects are read as what they are, or as bytes")
 
 
+def check_lobes(tree):
+    """The materials that tests/render compares have every lobe."""
+    examples = "".join(file.code for file in tree if file.path == "tests/render/lobe_examples.h")
+    for file in tree:
+        if file.path.startswith("lib/scene/material/") and "LIMN_LOBE(" in file.code:
+            name = re.search(r"\bMaterialRecord (\w+)::lower\b", file.code)[1]
+            if f"<{name}>(" not in examples:
+                yield at(file, 1, f"{name} is not in tests/render/lobe_examples.h")
+
+
 def check_clocks(tree):
     """Nothing that renders asks for the date, of its clock or of a file: it may go back. What takes time is told by
     std::chrono::steady_clock."""
