@@ -20,22 +20,15 @@ bool is_specular(const flat::Scene& scene, const MaterialRef& material);
 bool can_emit(const flat::Scene& scene, const MaterialRef& material);
 Color emitted(const flat::Scene& scene, const Surface& s);
 
-// Of a direction of any length. \pre there is an environment
-Color environment_radiance(const flat::Scene& scene, const Vec3& direction);
-
-// Of a sun's disc.
-Color sun_radiance(const LightRecord& sun);
-// Whether the disc covers a direction of any length.
-bool sun_covers(const LightRecord& sun, const Vec3& direction);
-
 // As a normal map bends it. \param incoming direction of the ray that came here
 Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);
 
 // How much of the light it stops, by the opacity of its material.
 double opacity(const flat::Scene& scene, const Surface& s);
 
-// A sample of a light.
+// Returns the texture coordinates of sample i. \pre its light is a surface
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
+// Returns the radiance of sample i towards the receiver.
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 
 // Sets what the lobe needs of vertex i. \param incoming direction of the ray that came here, of any length

@@ -20,7 +20,7 @@ namespace limn::lobes_test {
 using namespace test;
 using bsdf::Vertices;
 using flat::Light;
-using flat::LightKind;
+using flat::PlanarShape;
 using sampling::kShaded, sampling::Row, sampling::Rows3;
 using transport::Sampler;
 
@@ -39,24 +39,43 @@ void on_every_target(const Check& check) {
 }
 
 Light random_light(Random& random) {
-    Light light;
     const double size = random.log_uniform(1e-3, 30);
-    light.kind = std::array{LightKind::triangle, LightKind::parallelogram, LightKind::rectangle, LightKind::sphere,
-                            LightKind::patch}[random.index(5)];
-    light.origin = Point3{} + random.in_cube(3);
-    if (light.kind == LightKind::sphere) {
-        light.radius = size;
-        return light;
+    const std::array shapes{PlanarShape::triangle, PlanarShape::parallelogram, PlanarShape::rectangle,
+                            PlanarShape::part};
+    const std::size_t kind = random.index(5);
+    if (kind == shapes.size()) {
+        flat::SphereLight sphere;
+        sphere.center = Point3{} + random.in_cube(3);
+        sphere.radius = size;
+        return sphere;
     }
-    if (light.kind == LightKind::triangle) light.primitive = PrimitiveKind::triangle, light.share = 0.5;
-    if (light.kind == LightKind::patch) light.primitive = PrimitiveKind::disk, light.share = kPi / 4;
+    flat::PlanarLight light;
+    light.shape = shapes[kind];
+    light.corner = Point3{} + random.in_cube(3);
+    light.primitive = PrimitiveKind::quad;
+    if (light.shape == PlanarShape::triangle) light.primitive = PrimitiveKind::triangle, light.share = 0.5;
+    if (light.shape == PlanarShape::part) light.primitive = PrimitiveKind::disk, light.share = kPi / 4;
     light.edge_u = size * random.unit();
     light.edge_v = size * random.unit();
-    if (light.kind == LightKind::rectangle || light.kind == LightKind::patch)
+    if (light.shape == PlanarShape::rectangle || light.shape == PlanarShape::part)
         light.edge_v = random.log_uniform(0.1, 10) * cross(light.edge_u, random.unit());
     const double error = random.uniform(0, 1e-13);
     light.position_error = {error, error, error};
     return light;
+}
+
+// Returns a surface or a light that is none, near or distant. `environment` is one of them.
+Light random_light(Random& random, const flat::EnvironmentLight& environment) {
+    const Point3 position = Point3{} + random.in_cube(3);
+    const Vec3 direction = random.unit();
+    switch (random.index(8)) {
+        case 0: return flat::PointLight{position, {}};
+        case 1: return flat::SpotLight{position, direction, {}};
+        case 2: return flat::DirectionalLight{direction, {}};
+        case 3: return flat::SunLight{direction, {}, random.log_uniform(1e-6, 1)};
+        case 4: return environment;
+        default: return random_light(random);
+    }
 }
 
 Surface random_surface(Random& random, bool inside) {
@@ -260,6 +279,10 @@ TEST_CASE("Lobes: rays leave in lanes from where they leave alone, bit for bit, 
 
 TEST_CASE("Lobes: many receivers draw the light that each draws alone, on every instruction set",
           "[render][lights][determinism][lobes]") {
+    Scene lit;
+    lit.environment = std::make_shared<EnvironmentMap>(Image(4, 2, {1, 2, 3}), Transform::rotate_y(20));
+    const CompiledScene compiled = compile(lit);
+    const flat::EnvironmentLight environment{compiled.flat().environment.get()};
     std::vector<double> first;
     on_every_target([&] {
         Random random(6);
@@ -271,7 +294,7 @@ TEST_CASE("Lobes: many receivers draw the light that each draws alone, on every 
             Rows3 position, normal;
             Row time = {}, numbers[3] = {};
             for (std::size_t i = 0; i < kShaded; ++i) {
-                lights[i] = i > 0 && random.chance(0.3) ? lights[i - 1] : random_light(random);
+                lights[i] = i > 0 && random.chance(0.3) ? lights[i - 1] : random_light(random, environment);
                 if (round % 8 == 0) lights[i] = lights[0];
                 samples->light[i] = &lights[i];
                 position.set(i, random.in_cube(2));
@@ -281,17 +304,22 @@ TEST_CASE("Lobes: many receivers draw the light that each draws alone, on every 
             const std::size_t count = 1 + random.index(kShaded);
             const lights::Receivers receivers{count, position, normal, time};
             lights::sample_points(receivers, *samples);
+            Rows3 places;
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool distant = samples->end[i] == kInfinity;
+                places.set(i, distant ? samples->direction.get<Vec3>(i) : samples->position.get<Vec3>(i));
+            }
             Row pdf;
-            lights::find_point_pdf(receivers, samples->light, samples->position, pdf);
+            lights::find_point_pdf(receivers, samples->light, places, pdf);
             for (std::size_t i = 0; i < count; ++i) {
                 const auto alone = sample_point(lights[i], position.get<Point3>(i), numbers[1][i], numbers[2][i]);
                 wrong += alone.has_value() != (samples->pdf[i] > 0);
                 if (!alone) continue;
-                const Point3 at = samples->position.get<Point3>(i);
+                const Point3 at = samples->position.get<Point3>(i), place = places.get<Point3>(i);
                 wrong += alone->pdf != samples->pdf[i] || alone->direction != samples->direction.get<Vec3>(i) ||
                          alone->point.position != at || alone->point.normal != samples->normal.get<Normal3>(i);
-                wrong += pdf_point(lights[i], position.get<Point3>(i), at) != pdf[i];
-                for (const double x : {alone->pdf, pdf[i], at.x, at.y, at.z}) all.push_back(x);
+                wrong += pdf_point(lights[i], position.get<Point3>(i), place) != pdf[i];
+                for (const double x : {alone->pdf, pdf[i], place.x, place.y, place.z}) all.push_back(x);
             }
         }
         CHECK(wrong == 0);
