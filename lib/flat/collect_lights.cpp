@@ -13,8 +13,8 @@ namespace limn::compiler {
 
 namespace {
 
-// Returns true if a texture, or a part of it, is user-defined. Such a texture cannot be sampled, because it may need what
-// is only known of a traced hit.
+// Returns true if a texture, or a part of it, is user-defined. Such a texture cannot be sampled, because it may need
+// what is only known of a traced hit.
 bool is_user_defined(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     return t.kind == TextureKind::user_defined ||
@@ -246,9 +246,9 @@ private:
         return light;
     }
 
-    // Returns the bounds of a planar light in moving instances. A product of matrices that are each linear in time takes
-    // a point to the convex hull of its positions for all combinations of the matrices at time 0 and 1, because the
-    // Bernstein form of the product has no negative weights.
+    // Returns the bounds of a planar light in moving instances. A product of matrices that are each linear in time
+    // takes a point to the convex hull of its positions for all combinations of the matrices at time 0 and 1, because
+    // the Bernstein form of the product has no negative weights.
     flat::LightBounds bounds_of_moving(const PrimitiveRange& range, std::uint64_t element, const Seen& seen,
                                        double radiance) const {
         flat::LightBounds bounds;

@@ -60,10 +60,10 @@ struct LightTable {
     std::vector<std::uint32_t> instances;  // rows of Scene::instances
     std::vector<LightRef> refs;            // by rank
     std::vector<double> strength_before;   // by rank, sums of the strengths before it, from 0 to 1; one more at the end
-    std::vector<std::uint32_t> guide;      // [k]: the last rank with strength_before <= k / size(), for k = 0 ... size()
-    std::vector<LightNode> nodes;          // none for a single light
-    std::vector<LightNumber> by_number;    // ascending
-    double strength = 0;                   // sum of the strengths of the tree's lights before they were divided by it
+    std::vector<std::uint32_t> guide;    // [k]: the last rank with strength_before <= k / size(), for k = 0 ... size()
+    std::vector<LightNode> nodes;        // none for a single light
+    std::vector<LightNumber> by_number;  // ascending
+    double strength = 0;                 // sum of the strengths of the tree's lights before they were divided by it
     std::vector<DistantLight> distant;
 
     std::size_t size() const { return refs.size(); }  // number of lights in the tree

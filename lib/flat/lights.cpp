@@ -21,7 +21,9 @@ Color radiance_without_extent(const Color& irradiance) { return irradiance / kNo
 
 // Returns the radiance of a disc of angular radius r: it gives a perpendicular plane the irradiance pi radiance
 // sin(r)^2.
-Color disc_radiance(const SunLight& sun) { return sun.irradiance / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos)); }
+Color disc_radiance(const SunLight& sun) {
+    return sun.irradiance / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos));
+}
 
 }  // namespace
 
@@ -83,18 +85,18 @@ LightBounds SphereLight::bounds(double radiance) const {
 
 // ---- points --------------------------------------------------------------------------------------------------------
 
-PointLight light_from(const limn::PointLight& source) { return {source.position, source.intensity}; }
+LightBounds LightAtPoint::bounds() const { return without_normals(box(), max_component(intensity)); }
 
-LightBounds PointLight::bounds() const { return without_normals(box(), max_component(intensity)); }
+PointLight light_from(const limn::PointLight& source) { return {{source.position, source.intensity}}; }
 
 Color PointLight::sampled_radiance(const Vec3&, const Uv&) const { return radiance_without_extent(intensity); }
 
 SpotLight light_from(const limn::SpotLight& source) {
-    return {source.position, normalize(source.direction), source.intensity, cosine(radians(source.inner_cone_angle)),
+    return {{source.position, source.intensity},
+            normalize(source.direction),
+            cosine(radians(source.inner_cone_angle)),
             cosine(radians(source.outer_cone_angle))};
 }
-
-LightBounds SpotLight::bounds() const { return without_normals(box(), max_component(intensity)); }
 
 // The square makes the edge of the cone soft: KHR_lights_punctual, section "Inner and outer cone angles".
 Color SpotLight::sampled_radiance(const Vec3& direction, const Uv&) const {

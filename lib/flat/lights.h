@@ -53,25 +53,26 @@ struct Cone {
 struct LightBounds {
     Box box;  // while the shutter is open
     Cone cone;
-    double strength = 0;  // sum of radiance * area; the area of a sphere is that of its disc, pi r^2. The intensity of
-                          // a point
+    // Sum of radiance * area. The area of a sphere is that of its disc, pi r^2. A light at a point has its intensity.
+    double strength = 0;
 };
 
-// What is known of a distant light when one is chosen.
+// The properties of a distant light by which it is chosen.
 struct DistantBounds {
-    double irradiance = 0;  // of a plane perpendicular to the light's direction; the mean over all planes if the light
-                            // arrives from all directions
-    Vec3 towards;           // unit vector towards the light; zero if the light arrives from all directions
+    double irradiance = 0;   // of a plane perpendicular to the direction of the light. If the light arrives from all
+                             // directions, the mean over all planes
+    Vec3 towards;            // unit vector towards the light; zero if the light arrives from all directions
     double sine_radius = 0;  // sine of the angular radius; 1 if the light arrives from all directions
 };
 
-// What all surfaces that are lights have in common.
+// The fields that all surfaces have.
 struct SurfaceLight {
     Vec3 position_error;       // bounds the rounding error of points that are computed on the light
     std::uint64_t number = 0;  // number of the primitive in the scene
     MaterialId material = MaterialId::none;
-    std::int8_t side = 0;   // side that shines: 1 is the outside, -1 the inside, 0 both. The outside of a planar light
-                            // is the side that cross(edge_u, edge_v) points to
+    // The side that shines: 1 is the outside, -1 the inside, 0 both. The outside of a planar light is the side that
+    // cross(edge_u, edge_v) points to.
+    std::int8_t side = 0;
     bool textured = false;  // true if the radiance is not the same everywhere
 };
 
@@ -102,28 +103,28 @@ struct SphereLight : SurfaceLight {
     LightBounds bounds(double radiance) const;
 };
 
-// A point that emits the same intensity in all directions.
-struct PointLight {
+// A light without extent at a point.
+struct LightAtPoint {
     Point3 position;
-    Color intensity;
+    Color intensity;  // the largest of all directions
 
-    auto fields() const { return std::tie(position, intensity); }
     Box box() const { return {position, position}; }
     LightBounds bounds() const;
+};
+
+// A point that emits the same intensity in all directions.
+struct PointLight : LightAtPoint {
+    auto fields() const { return std::tie(position, intensity); }
     Color sampled_radiance(const Vec3& direction, const Uv& uv) const;
 };
 
 // A point that emits into a cone.
-struct SpotLight {
-    Point3 position;
-    Vec3 axis;  // unit vector away from the light
-    Color intensity;
+struct SpotLight : LightAtPoint {
+    Vec3 axis;             // unit vector away from the light
     double cos_inner = 1;  // cosine of the angle up to which the intensity is full
     double cos_outer = 0;  // cosine of the angle from which on the intensity is 0
 
-    auto fields() const { return std::tie(position, axis, intensity, cos_inner, cos_outer); }
-    Box box() const { return {position, position}; }
-    LightBounds bounds() const;
+    auto fields() const { return std::tie(position, intensity, axis, cos_inner, cos_outer); }
     Color sampled_radiance(const Vec3& direction, const Uv& uv) const;
 };
 

@@ -13,7 +13,8 @@ namespace limn::compiler {
 // The digest of a scene covers everything that its pictures depend on. It is the same for every compiler, instruction
 // set and number of threads.
 
-// Returns the digest of a description without the matrices of its instances. \param records those of the scene's objects
+// Returns the digest of a description without the matrices of its instances. \param records those of the scene's
+// objects
 Hash128 digest_of_unmoved(const SceneRecords& records, const limn::Scene& scene);
 
 // Returns the digest of `unmoved_digest` and the matrices of the scene's instances.

@@ -19,8 +19,7 @@ HWY_INLINE Doubles gather(const std::vector<double>& table, Doubles at) {
     return hn::GatherIndex(Doubles::Tag(), table.data(), hn::ConvertTo(hn::Rebind<std::int64_t, Doubles::Tag>(), at.v));
 }
 HWY_INLINE Doubles gather(const std::vector<std::int32_t>& table, Doubles at) {
-    return hn::PromoteTo(Doubles::Tag(),
-                         hn::GatherIndex(Indices(), table.data(), hn::DemoteTo(Indices(), at.v)));
+    return hn::PromoteTo(Doubles::Tag(), hn::GatherIndex(Indices(), table.data(), hn::DemoteTo(Indices(), at.v)));
 }
 
 // Returns the last of `count` indices for which is_before() holds, or 0 if there is none. \pre is_before() holds for no

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "shading/environment_light-inl.h"
 #include "shading/light_lanes-inl.h"
@@ -14,12 +15,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::lights::HWY_NAMESPACE {
 
-// Lights at a point: point lights and spot lights.
 template <class Kind>
-struct PointInLanes {
+requires std::is_base_of_v<flat::LightAtPoint, Kind>
+struct InLanes<Kind> {
     Vector<Doubles> position;
 
-    HWY_INLINE explicit PointInLanes(const LightsOf<Kind>& of) : position(of(&Kind::position)) {}
+    HWY_INLINE explicit InLanes(const LightsOf<Kind>& of) : position(of(&Kind::position)) {}
 
     HWY_INLINE LightPoints sample(const Vector<Doubles>& from, Doubles, Doubles) const {
         const Vector<Doubles> way = position - from;
@@ -29,14 +30,6 @@ struct PointInLanes {
         s.pdf = length_squared(way) * (1 / flat::kNoSolidAngle);
         return s;
     }
-};
-template <>
-struct InLanes<flat::PointLight> : PointInLanes<flat::PointLight> {
-    using PointInLanes::PointInLanes;
-};
-template <>
-struct InLanes<flat::SpotLight> : PointInLanes<flat::SpotLight> {
-    using PointInLanes::PointInLanes;
 };
 
 template <>
@@ -139,8 +132,8 @@ void sample_points(const Receivers& receivers, LightSamples& samples) {
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
         const SortedLights sorted(samples.light + i, receivers.count - i);
         const Doubles u = load<Doubles>(samples.numbers[1] + i), v = load<Doubles>(samples.numbers[2] + i);
-        const LightPoints points = sample_kinds(std::make_index_sequence<kKinds>(), sorted,
-                                                load3<Doubles>(receivers.position, i), u, v);
+        const LightPoints points =
+            sample_kinds(std::make_index_sequence<kKinds>(), sorted, load3<Doubles>(receivers.position, i), u, v);
         store3(points.position, samples.position, i);
         store3(points.position_error, samples.position_error, i);
         store3(points.normal, samples.normal, i);

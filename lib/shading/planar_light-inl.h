@@ -20,8 +20,8 @@ inline constexpr double kSmallSolidAngle = 1e-5;
 // Lights that are farther than three of their radii are sampled per area, which costs less and is as good there: the
 // pdf per solid angle is proportional to the cube of the distance, because the height over the plane is the same for
 // all points of the light. So it varies by ((1 + 1/3) / (1 - 1/3))^3 = 8 at the very most, usually by far less.
-// Measured on figures 12 and 15: 1.5 to 4 radii are the same within 3 %. Never sampling per area takes a sixth more time
-// per error on figure 15.
+// Measured on figures 12 and 15: 1.5 to 4 radii are the same within 3 %. Never sampling per area takes a sixth more
+// time per error on figure 15.
 inline constexpr double kFarSquared = 3.0 * 3.0;
 
 template <>
@@ -71,7 +71,7 @@ struct InLanes<flat::PlanarLight> {
 private:
     // How receivers see the lights.
     struct Seen {
-        Doubles solid_angle;      // 0 if the light is sampled per area
+        Doubles solid_angle;     // 0 if the light is sampled per area
         Weights<Doubles> point;  // if the light is sampled per area, the random numbers
     };
 
@@ -105,8 +105,8 @@ private:
     HWY_INLINE Mask<Doubles> is_far(const Vector<Doubles>& from) const {
         const Vector<Doubles> diagonal = edge_u + edge_v, other = edge_u - edge_v;
         const Doubles half2 = max(length_squared(diagonal), length_squared(other)) / 4.0;
-        // The largest distance from a triangle's centroid is two thirds of a median, less than two thirds of the longest
-        // side.
+        // The largest distance from a triangle's centroid is two thirds of a median, less than two thirds of the
+        // longest side.
         const Doubles side2 = max(max(length_squared(edge_u), length_squared(edge_v)), length_squared(other));
         const Doubles radius2 = select(triangle, (4.0 / 9.0) * side2, half2);
         const Vector<Doubles> center = corner + select(triangle, diagonal / 3.0, 0.5 * diagonal);

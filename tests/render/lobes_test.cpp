@@ -69,8 +69,8 @@ Light random_light(Random& random, const flat::EnvironmentLight& environment) {
     const Point3 position = Point3{} + random.in_cube(3);
     const Vec3 direction = random.unit();
     switch (random.index(8)) {
-        case 0: return flat::PointLight{position, {}};
-        case 1: return flat::SpotLight{position, direction, {}};
+        case 0: return flat::PointLight{{position, {}}};
+        case 1: return flat::SpotLight{{position, {}}, direction};
         case 2: return flat::DirectionalLight{direction, {}};
         case 3: return flat::SunLight{direction, {}, random.log_uniform(1e-6, 1)};
         case 4: return environment;

@@ -1,7 +1,7 @@
 /// \file
 /// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials and
-/// textures of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A program needs
-/// records only if a class of its own overrides `lower`.
+/// textures of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A program
+/// needs records only if a class of its own overrides `lower`.
 ///
 /// Raw pointers and spans in a record don't own what they point to. The code that writes the record gives the owner to
 /// RecordSink::keep.
