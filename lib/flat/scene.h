@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "flat/environment.h"
-#include "flat/lights.h"
+#include "flat/light_table.h"
 #include "flat/list.h"
 #include "flat/tree.h"
 #include "geometry/mesh_triangle.h"
@@ -130,9 +130,9 @@ struct Scene {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    std::vector<LightRecord> light_sources;
-    Color background_bottom, background_top;  // used if there is no environment map
-    Environment environment;
+    std::vector<LightSource> light_sources;
+    Color background_bottom, background_top;         // used if there is no environment map
+    std::unique_ptr<const Environment> environment;  // null if the scene has no map
 
     // Scene::material_names of each object, or null.
     std::vector<std::shared_ptr<const std::vector<std::string>>> material_names;

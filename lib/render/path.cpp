@@ -187,7 +187,8 @@ void PathTracer::escape(std::size_t row, const Color& throughput) {
         path.clear = (throughput.r + throughput.g + throughput.b) / 3;
         return;
     }
-    if (scene_.environment.image == nullptr) [[likely]] {  // unsaid, compilers take null for rare
+    // Compilers assume that a null pointer is rare; here it is the usual case.
+    if (scene_.environment == nullptr) [[likely]] {
         const Background background{scene_.background_bottom, scene_.background_top};
         path.radiance += throughput * background.radiance(ray_list_[row].direction);
     }
@@ -199,14 +200,8 @@ void PathTracer::add_distant_emission(std::size_t row, const Color& throughput) 
     const Vec3& direction = ray_list_[row].direction;
     const std::vector<flat::DistantLight>& distant = scene_.lights.distant;
     for (std::size_t k = 0; k < distant.size(); ++k) {
-        const flat::Light& light = distant[k].light;
-        const std::uint64_t number = flat::kFirstDistant + k;
-        if (light.kind == flat::LightKind::environment)
-            add_emission(row, throughput * shade::environment_radiance(scene_, direction), number, direction);
-        if (light.kind != flat::LightKind::sun) continue;
-        const LightRecord& sun = scene_.light_sources[light.number];
-        if (shade::sun_covers(sun, direction))
-            add_emission(row, throughput * shade::sun_radiance(sun), number, direction);
+        const Color radiance = flat::seen_radiance(distant[k].light, direction);
+        add_emission(row, throughput * radiance, flat::kFirstDistant + k, direction);
     }
 }
 

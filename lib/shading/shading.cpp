@@ -1,10 +1,11 @@
 #include "shading/shading.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "bsdf/bent_normal.h"
 #include "bsdf/checker.h"
-#include "bsdf/environment.h"
 #include "bsdf/image_lookup.h"
 #include "bsdf/perlin.h"
 #include "math/sphere_uv.h"
@@ -35,27 +36,19 @@ Color value_or_white(const flat::Scene& scene, TextureId id, const Surface& s) {
     return id == TextureId::none ? Color{1, 1, 1} : texture_value(scene, id, s);
 }
 
-// Returns the share of a spot light's intensity in a direction. The square makes the edge soft: KHR_lights_punctual,
-// section "Inner and outer cone angles".
-double spot_factor(const LightRecord& spot, const Vec3& from_receiver) {
-    const double cosine = -dot(from_receiver, spot.direction);
-    if (cosine >= spot.cos_inner) return 1;
-    const double part = std::max(0.0, (cosine - spot.cos_outer) / (spot.cos_inner - spot.cos_outer));
-    return part * part;
-}
-
-// Returns the radiance of a light that isn't a shape. A light without extent is treated as if it filled kNoSolidAngle
-// as seen from a distance of 1. The pdf per solid angle of a point on it grows with the distance.
-Color radiance_of_source(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i) {
-    const flat::Light& light = *samples.light[i];
-    const flat::Environment& map = scene.environment;
-    if (light.kind == flat::LightKind::environment)
-        return pattern::map_radiance(*map.image, map.scale, {samples.u[i], samples.v[i]});
-    const LightRecord& source = scene.light_sources[light.number];
-    if (light.kind == flat::LightKind::sun) return sun_radiance(source);
-    const Color irradiance = source.color / flat::kNoSolidAngle;
-    if (light.kind != flat::LightKind::spot) return irradiance;
-    return spot_factor(source, samples.direction.get<Vec3>(i)) * irradiance;
+// Returns the radiance of a sample of a surface.
+Color surface_radiance(const flat::Scene& scene, const flat::SurfaceLight& light, const lights::LightSamples& samples,
+                       std::size_t i) {
+    const MaterialRecord& material = scene.materials[static_cast<std::size_t>(light.material)];
+    if (!light.textured && !flat::has_holes(material))
+        return scene.textures[static_cast<std::size_t>(material.emission)].color;
+    Surface s;
+    s.position = samples.position.get<Point3>(i);
+    s.position_error = samples.position_error.get<Vec3>(i);
+    s.normal = s.shading_normal = samples.normal.get<Normal3>(i);
+    s.uv = texture_coordinates_of(scene, samples, i);
+    s.material.id = static_cast<std::uint32_t>(light.material);
+    return opacity(scene, s) * texture_value(scene, material.emission, s);
 }
 
 // Sets the fields of vertex i. The shading normal of `s` is already bent.
@@ -124,40 +117,23 @@ Color emitted(const flat::Scene& scene, const Surface& s) {
 
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i) {
     const flat::Light& light = *samples.light[i];
-    if (light.kind == flat::LightKind::sphere)
-        return sphere_uv((samples.position.get<Point3>(i) - light.origin) / light.radius);
-    const flat::Place place = flat::locate(scene, light.number);
+    if (const auto* sphere = std::get_if<flat::SphereLight>(&light))
+        return sphere_uv((samples.position.get<Point3>(i) - sphere->center) / sphere->radius);
+    const flat::Place place = flat::locate(scene, std::get<flat::PlanarLight>(light).number);
     const PrimitiveRange& range = scene.ranges[place.range];
     if (range.kind != PrimitiveKind::mesh) return {samples.u[i], samples.v[i]};
     return texture_coordinates(scene.meshes[range.first_row].arrays, place.element, {0, samples.u[i], samples.v[i]});
 }
 
-Color environment_radiance(const flat::Scene& scene, const Vec3& direction) {
-    const flat::Environment& map = scene.environment;
-    return pattern::map_radiance(*map.image, map.scale, pattern::map_uv(map.axes, direction));
-}
-
-// A disc of angular radius r and radiance L gives the irradiance pi L sin^2 r.
-Color sun_radiance(const LightRecord& sun) { return sun.color / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos)); }
-
-bool sun_covers(const LightRecord& sun, const Vec3& direction) {
-    // Half the squared difference of two unit vectors is 1 - cos of the angle between them.
-    return length_squared(normalize(direction) + sun.direction) / 2 <= sun.one_minus_cos;
-}
-
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i) {
-    const flat::Light& light = *samples.light[i];
-    if (light.kind >= flat::LightKind::point) return radiance_of_source(scene, samples, i);
-    const TextureId emission = scene.materials[static_cast<std::size_t>(light.material)].emission;
-    if (!light.textured && !flat::has_holes(scene.materials[static_cast<std::size_t>(light.material)]))
-        return scene.textures[static_cast<std::size_t>(emission)].color;
-    Surface s;
-    s.position = samples.position.get<Point3>(i);
-    s.position_error = samples.position_error.get<Vec3>(i);
-    s.normal = s.shading_normal = samples.normal.get<Normal3>(i);
-    s.uv = texture_coordinates_of(scene, samples, i);
-    s.material.id = static_cast<std::uint32_t>(light.material);
-    return opacity(scene, s) * texture_value(scene, emission, s);
+    return std::visit(
+        [&]<class Kind>(const Kind& light) {
+            if constexpr (std::is_base_of_v<flat::SurfaceLight, Kind>)
+                return surface_radiance(scene, light, samples, i);
+            else
+                return light.sampled_radiance(samples.direction.get<Vec3>(i), {samples.u[i], samples.v[i]});
+        },
+        *samples.light[i]);
 }
 
 double opacity(const flat::Scene& scene, const Surface& s) {

@@ -22,14 +22,6 @@ bool can_emit(const flat::Scene& scene, const MaterialRef& material);
 // Returns the radiance that a surface emits towards the viewer.
 Color emitted(const flat::Scene& scene, const Surface& s);
 
-// Returns the radiance of the environment map in a direction of any length. \pre the scene has an environment map
-Color environment_radiance(const flat::Scene& scene, const Vec3& direction);
-
-// Returns the radiance of a sun's disc.
-Color sun_radiance(const LightRecord& sun);
-// Returns true if the disc covers a direction of any length.
-bool sun_covers(const LightRecord& sun, const Vec3& direction);
-
 // Returns the shading normal, bent by the normal map of the material if it has one. \param incoming direction of the
 // ray that arrived at the surface, of any length
 Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);
@@ -37,8 +29,9 @@ Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& i
 // Returns the share of the light that the surface stops, by the opacity of its material.
 double opacity(const flat::Scene& scene, const Surface& s);
 
-// Return the texture coordinates and the radiance of sample i of a light.
+// Returns the texture coordinates of sample i. \pre its light is a surface
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
+// Returns the radiance of sample i towards the receiver.
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 
 // Sets the fields of vertex i that the lobe of its material uses. \param incoming direction of the ray that arrived at

@@ -11,6 +11,7 @@
 #include "shading/light_points.h"
 #include "shading/lights.h"
 #include "shading/shading.h"
+#include "support/light_of.h"
 
 namespace limn::test {
 
@@ -42,7 +43,8 @@ inline std::optional<LightSample> first_of(const lights::LightSamples& rows) {
     s.point.position = rows.position.get<Point3>(0), s.point.position_error = rows.position_error.get<Vec3>(0);
     s.point.normal = s.point.shading_normal = rows.normal.get<Normal3>(0);
     s.point.uv = {rows.u[0], rows.v[0]};
-    s.point.material.id = static_cast<std::uint32_t>(rows.light[0]->material);
+    if (const flat::SurfaceLight* light = surface_of(*rows.light[0]))
+        s.point.material.id = static_cast<std::uint32_t>(light->material);
     s.direction = rows.direction.get<Vec3>(0), s.pdf = rows.pdf[0];
     return s;
 }
@@ -54,7 +56,8 @@ inline std::optional<LightSample> sample_light(const flat::Scene& scene, const R
     rows->numbers = numbers;
     lights::sample(scene, OneReceiver(receiver, time).rows(), *rows);
     std::optional<LightSample> s = first_of(*rows);
-    if (s && rows->light[0]->textured) s->point.uv = shade::texture_coordinates_of(scene, *rows, 0);
+    const flat::SurfaceLight* light = surface_of(*rows->light[0]);
+    if (s && light && light->textured) s->point.uv = shade::texture_coordinates_of(scene, *rows, 0);
     return s;
 }
 

@@ -1,7 +1,7 @@
 /// \file
-/// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials,
-/// textures and lights of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A
-/// program needs records only if a class of its own overrides `lower`.
+/// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials and
+/// textures of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A program
+/// needs records only if a class of its own overrides `lower`.
 ///
 /// Raw pointers and spans in a record don't own what they point to. The code that writes the record gives the owner to
 /// RecordSink::keep.
@@ -234,29 +234,6 @@ struct UserDefinedRecord {
 };
 static_assert(sizeof(UserDefinedRecord) == 64);
 
-// ---- lights that are no shapes -------------------------------------------------------------------------------------
-
-/// The kind of a light that is no shape.
-enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
-
-/// A light that is no shape, see limn/scene/lights.h. The comment of a field names the kinds that use it.
-struct LightRecord {
-    LightSourceKind kind = LightSourceKind::point;  ///< decides which of the other fields are used
-    Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
-    Point3 position;                                ///< point, spot
-    Vec3 direction;                                 ///< spot, directional, sun: unit vector away from the light
-    double cos_inner = 1;                           ///< spot: cosine of the angle up to which the intensity is full
-    double cos_outer = 0;                           ///< spot: cosine of the angle from which on the intensity is 0
-    double one_minus_cos = 0;                       ///< sun: 1 - cos(angular radius)
-};
-
-/// An equirectangular environment map, see EnvironmentMap.
-struct EnvironmentRecord {
-    std::shared_ptr<const Image> image{};  ///< null: the scene has no map
-    Transform world_from_map{};            ///< rotation, perhaps with a reflection; no translation
-    double scale = 1;                      ///< factor of the radiance
-};
-
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
 /// A run of consecutive primitives of one kind in a BLAS. A mesh, an instance or a medium is a range of its own: it has
@@ -291,10 +268,8 @@ struct SceneRecords {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    std::vector<LightRecord> lights;
     ///@}
 
-    EnvironmentRecord environment;                                ///< replaces the background if it has an image
     std::vector<BlasRecord> blases = std::vector<BlasRecord>(1);  ///< row 0 is the scene itself
     std::vector<std::shared_ptr<const void>> kept;                ///< owners of what the records point to
     std::vector<std::string> tags;  ///< Tagged::tag of the user-defined objects, in the order of description
