@@ -36,16 +36,20 @@ struct LightPoints {
     Vector<Doubles> direction{0.0, 0.0, 0.0};
     Doubles pdf = 0.0, u = 0.0, v = 0.0, end = 1 - kShadowEnd;
 
+    HWY_INLINE LightPoints() {}
+
     friend LIMN_ALWAYS_INLINE LightPoints select(const Mask<Doubles>& mask, const LightPoints& a,
                                                  const LightPoints& b) {
-        return {select(mask, a.position, b.position),
-                select(mask, a.position_error, b.position_error),
-                select(mask, a.normal, b.normal),
-                select(mask, a.direction, b.direction),
-                select(mask, a.pdf, b.pdf),
-                select(mask, a.u, b.u),
-                select(mask, a.v, b.v),
-                select(mask, a.end, b.end)};
+        LightPoints s;
+        s.position = select(mask, a.position, b.position);
+        s.position_error = select(mask, a.position_error, b.position_error);
+        s.normal = select(mask, a.normal, b.normal);
+        s.direction = select(mask, a.direction, b.direction);
+        s.pdf = select(mask, a.pdf, b.pdf);
+        s.u = select(mask, a.u, b.u);
+        s.v = select(mask, a.v, b.v);
+        s.end = select(mask, a.end, b.end);
+        return s;
     }
 };
 
