@@ -11,10 +11,10 @@
 #include "flat/steps.h"
 #include "geometry/bounds.h"
 #include "geometry/bvh/float_box.h"
-#include "geometry/bvh/parallel.h"
 #include "geometry/bvh/slab.h"
 #include "geometry/mesh_triangle.h"
 #include "limn/math/error.h"
+#include "math/parallel.h"
 
 namespace limn::compiler {
 
@@ -66,7 +66,7 @@ private:
 
     // Computes the boxes of primitives that aren't in meshes.
     void measure_others() {
-        accel::for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
+        for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
         for (const Candidate& other : others_) {
             bounds_.extend(other.box);
             extent_ = std::max(extent_, accel::finite_extent(other.box));
@@ -132,7 +132,7 @@ private:
     // except for numbers so small compared with `extent_` that they would become subnormal.
     void scale_boxes(double scale) {
         if (scale != 1)
-            accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
+            for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
                 accel::FloatBox& box = boxes_[i];
                 for (std::size_t a = 0; a < 3; ++a) {
                     box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));

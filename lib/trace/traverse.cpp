@@ -81,6 +81,19 @@ void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vec
     for (std::size_t i = before; out != nullptr && i < out->size(); ++i) (*out)[i].index_matched = true;
 }
 
+// Returns the query after a search of the scene and of all boundaries of media, for hits that the filter accepts.
+template <class Query>
+Query search_filtered(const flat::Scene& scene, const Ray& ray, Query query, const std::optional<Filter>& filter,
+                      std::vector<Crossing>* out) {
+    if (filter) {
+        Filtered<Query> filtered{query, &*filter};
+        search_all(scene, ray, filtered, out);
+        return filtered;
+    }
+    search_all(scene, ray, query, out);
+    return query;
+}
+
 bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
     double near = 0;
     return accel::SlabRay(ray, accel::finite_extent(medium.bounds)).meets(medium.bounds, ray.t_max, near);
@@ -135,15 +148,14 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
     search_boundary(scene, medium, ray, query);
 }
 
-void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
-    Every query{ray.t_max, out};
-    search_all(scene, ray, query, &out);
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out,
+               const std::optional<Filter>& filter) {
+    search_filtered(scene, ray, Every{ray.t_max, out}, filter, &out);
 }
 
-PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out) {
-    Passages query{{}, ray.t_max, out, wants_touched};
-    search_all(scene, ray, query, out);
-    return query;
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out,
+                      const std::optional<Filter>& filter) {
+    return search_filtered(scene, ray, Passages{{}, ray.t_max, out, wants_touched}, filter, out);
 }
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
@@ -159,17 +171,6 @@ bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Any> query{{ray.t_max}, &filter};
     search_all(scene, ray, query, nullptr);
     return query.found;
-}
-
-void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out) {
-    Filtered<Every> query{{ray.t_max, out}, &filter};
-    search_all(scene, ray, query, &out);
-}
-
-PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out) {
-    Filtered<Passages> query{{{}, ray.t_max, out}, &filter};
-    search_all(scene, ray, query, out);
-    return query;
 }
 
 }  // namespace limn::trace

@@ -81,6 +81,11 @@ struct RayFilter {
     /// One value of `without` for each ray of a batch, which replaces it. If the span is empty, `without` holds for all
     /// rays. Queries of a single ray don't use it.
     std::span<const std::uint64_t> without_each = {};
+
+    /// Returns true if no primitive is ignored.
+    constexpr bool is_empty() const {
+        return without == kNoPrimitive && faces == Faces::both && objects.empty() && without_each.empty();
+    }
 };
 
 /// All hits of many rays. The hits of ray i have the indices from first[i] up to, but not including, first[i + 1].
