@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
@@ -29,6 +30,20 @@ void for_all(std::size_t begin, std::size_t end, std::size_t grain, const Functi
     if (!all.is_divisible()) return run(all);
     tbb::task_group_context context(tbb::task_group_context::isolated);
     tbb::parallel_for(all, run, context);
+}
+
+// Returns the join of the results of add(result, i) for all i in [0, count), in parallel, as for_all() does. Each task
+// starts with a default-constructed result.
+template <class Result, class Add, class Join>
+Result join_all(std::size_t count, std::size_t grain, const Add& add, const Join& join) {
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::task_group_context context(tbb::task_group_context::isolated);
+    const auto run = [&](const Range& range, Result result) {
+        const FloatEnvironment environment;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) add(result, i);
+        return result;
+    };
+    return tbb::parallel_reduce(Range(0, count, grain), Result{}, run, join, context);
 }
 
 // Calls function(0) ... function(height - 1) in parallel, as for_all() does.

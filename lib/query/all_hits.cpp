@@ -11,8 +11,7 @@ namespace limn {
 namespace {
 
 // Appends the hits of one ray to `hits`. \pre is_usable(ray)
-void append_hits(const flat::Scene& scene, const Ray& ray, const std::optional<trace::Filter>& excluded,
-                 std::vector<RayHit>& hits) {
+void append_hits(const flat::Scene& scene, const Ray& ray, const query::Excluded& excluded, std::vector<RayHit>& hits) {
     query::Found found;
     std::vector<trace::Crossing>& crossings = *found;
     trace::every_hit(scene, ray, crossings, excluded);

@@ -51,11 +51,11 @@ std::size_t for_each_ray(const flat::Scene& scene, std::span<const Ray> rays, co
     const std::span<const std::uint64_t> each = filter.without_each;
     if (!each.empty() && each.size() != rays.size())
         throw ArgumentError(std::string(who) + ": filter.without_each must be empty or as long as there are rays");
-    const std::optional<trace::Filter> of_all = checked(scene, filter, who);
+    const Excluded of_all = checked(scene, filter, who);
     // Answer the queries.
     std::atomic<std::size_t> unusable = 0;
     for_all_parts(rays.size(), threads, who, [&](std::size_t first, std::size_t count) {
-        std::optional<trace::Filter> of_ray = of_all;
+        Excluded of_ray = of_all;
         for (std::size_t i = first; i < first + count; ++i) {
             if (!is_fit(rays[i])) {
                 refuse(i);

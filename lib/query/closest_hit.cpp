@@ -8,8 +8,7 @@
 
 namespace limn {
 
-using query::ask, query::complete, query::is_fit;
-using Excluded = std::optional<trace::Filter>;
+using query::ask, query::complete, query::Excluded, query::is_fit;
 
 namespace {
 
@@ -36,22 +35,18 @@ namespace {
 }
 
 // Returns the closest hit of one ray, boundaries of media included. \pre is_usable(ray)
-[[gnu::always_inline]] inline trace::Hit find_closest(const flat::Scene& scene, const Ray& ray,
-                                                      const Excluded& excluded) {
-    if (excluded) return trace::closest_hit(scene, ray, *excluded);
-    trace::Hit hit = trace::closest_hit(scene, ray);
-    if (!scene.media.empty()) nearer_boundary(scene, ray, hit);
-    return hit;
+[[gnu::always_inline]] inline std::optional<RayHit> find_closest(const flat::Scene& scene, const Ray& ray,
+                                                                 const Excluded& excluded) {
+    trace::Hit hit = excluded ? trace::closest_hit(scene, ray, *excluded) : trace::closest_hit(scene, ray);
+    if (!excluded && !scene.media.empty()) nearer_boundary(scene, ray, hit);
+    if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
+    return complete(scene, hit);
 }
 
 // Returns true if the ray has any hit, boundaries of media included. \pre is_usable(ray)
-bool find_any(const flat::Scene& scene, const Ray& ray, const Excluded& excluded) {
+[[gnu::always_inline]] inline bool find_any(const flat::Scene& scene, const Ray& ray, const Excluded& excluded) {
     if (excluded) return trace::any_hit(scene, ray, *excluded);
     return trace::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
-}
-
-RayHit hit_or_miss(const flat::Scene& scene, const trace::Hit& hit) {
-    return hit.primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, hit);
 }
 
 // Calls work(first, count) for each run of consecutive usable rays from `begin` to `end`, of at most trace::kMostRays
@@ -79,16 +74,11 @@ bool can_trace_together(const flat::Scene& scene, const RayFilter& filter) {
 }  // namespace
 
 std::optional<RayHit> CompiledScene::closest_hit(const Ray& ray, const RayFilter& filter) const {
-    return ask(*this, ray, filter, "closest_hit",
-               [](const flat::Scene& scene, const Ray& usable, const Excluded& excluded) -> std::optional<RayHit> {
-                   const trace::Hit hit = find_closest(scene, usable, excluded);
-                   if (hit.primitive == flat::RawHit::kMiss) return std::nullopt;
-                   return complete(scene, hit);
-               });
+    return ask(*this, ray, filter, "closest_hit", [](const auto&... query) { return find_closest(query...); });
 }
 
 bool CompiledScene::any_hit(const Ray& ray, const RayFilter& filter) const {
-    return ask(*this, ray, filter, "any_hit", find_any);
+    return ask(*this, ray, filter, "any_hit", [](const auto&... query) { return find_any(query...); });
 }
 
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads,
@@ -101,7 +91,7 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayH
         return query::for_each_ray(
             scene, rays, filter, threads, kWho,
             [&](std::size_t i, const Excluded& excluded) {
-                hits[i] = hit_or_miss(scene, find_closest(scene, rays[i], excluded));
+                hits[i] = find_closest(scene, rays[i], excluded).value_or(RayHit{});
             },
             refuse);
     std::atomic<std::size_t> unusable = 0;
@@ -109,7 +99,8 @@ std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayH
         std::array<trace::Hit, trace::kMostRays> found;
         const auto trace_run = [&](std::size_t first, std::size_t count) {
             trace::closest_hits(scene, rays.subspan(first, count), found.data());
-            for (std::size_t i = 0; i < count; ++i) hits[first + i] = hit_or_miss(scene, found[i]);
+            for (std::size_t i = 0; i < count; ++i)
+                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found[i]);
         };
         unusable += for_each_run(rays, begin, begin + size, trace_run, refuse);
     });

@@ -11,9 +11,9 @@ namespace limn {
 namespace {
 
 // Counts the passages of a ray. \pre is_usable(ray)
-trace::PassageCount count(const flat::Scene& scene, const Ray& ray, const std::optional<trace::Filter>& excluded) {
+constexpr auto count = [](const flat::Scene& scene, const Ray& ray, const query::Excluded& excluded) {
     return trace::passages(scene, ray, false, nullptr, excluded);
-}
+};
 
 }  // namespace
 
@@ -30,11 +30,13 @@ std::vector<RayCrossing> CompiledScene::crossings(const Ray& ray, const RayFilte
 }
 
 std::size_t CompiledScene::count_intersections(const Ray& ray, const RayFilter& filter) const {
-    return query::ask(*this, ray, filter, "count_intersections", count).count;
+    return query::ask(*this, ray, filter, "count_intersections",
+                      [](const auto&... query) { return count(query...).count; });
 }
 
 std::int64_t CompiledScene::winding_number(const Ray& ray, const RayFilter& filter) const {
-    return query::ask(*this, ray, filter, "winding_number", count).outward;
+    return query::ask(*this, ray, filter, "winding_number",
+                      [](const auto&... query) { return count(query...).outward; });
 }
 
 std::size_t CompiledScene::count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads,

@@ -81,19 +81,6 @@ void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vec
     for (std::size_t i = before; out != nullptr && i < out->size(); ++i) (*out)[i].index_matched = true;
 }
 
-// Returns the query after a search of the scene and of all boundaries of media, for hits that the filter accepts.
-template <class Query>
-Query search_filtered(const flat::Scene& scene, const Ray& ray, Query query, const std::optional<Filter>& filter,
-                      std::vector<Crossing>* out) {
-    if (filter) {
-        Filtered<Query> filtered{query, &*filter};
-        search_all(scene, ray, filtered, out);
-        return filtered;
-    }
-    search_all(scene, ray, query, out);
-    return query;
-}
-
 bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
     double near = 0;
     return accel::SlabRay(ray, accel::finite_extent(medium.bounds)).meets(medium.bounds, ray.t_max, near);
@@ -150,12 +137,24 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
 
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out,
                const std::optional<Filter>& filter) {
-    search_filtered(scene, ray, Every{ray.t_max, out}, filter, &out);
+    if (filter) {
+        Filtered<Every> query{{ray.t_max, out}, &*filter};
+        return search_all(scene, ray, query, &out);
+    }
+    Every query{ray.t_max, out};
+    search_all(scene, ray, query, &out);
 }
 
 PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out,
                       const std::optional<Filter>& filter) {
-    return search_filtered(scene, ray, Passages{{}, ray.t_max, out, wants_touched}, filter, out);
+    if (filter) {
+        Filtered<Passages> query{{{}, ray.t_max, out, wants_touched}, &*filter};
+        search_all(scene, ray, query, out);
+        return query;
+    }
+    Passages query{{}, ray.t_max, out, wants_touched};
+    search_all(scene, ray, query, out);
+    return query;
 }
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {

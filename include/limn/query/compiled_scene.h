@@ -55,9 +55,9 @@ public:
     /// is_usable) misses.
     /// \param filter the primitives that the ray ignores. Queries with a filter are somewhat slower.
     /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
-    std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter = {}) const;
+    std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
     /// Returns true if closest_hit finds a hit for the ray. Throws as closest_hit does.
-    bool any_hit(const Ray& ray, const RayFilter& filter = {}) const;
+    bool any_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
     /// primitive. The first hit is that of closest_hit. Throws as closest_hit does.
@@ -68,7 +68,7 @@ public:
     /// - The t of hits at the same point may differ by rounding. Such hits may be in either order.
     /// - The boundary of a medium is a hit too; RayHit::index_matched marks it.
     /// - An unusable ray has no hits.
-    std::vector<RayHit> all_hits(const Ray& ray, const RayFilter& filter = {}) const;
+    std::vector<RayHit> all_hits(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns the points where the ray passes through surfaces between t_min and t_max, sorted by t. A passage through
     /// an edge or a vertex is listed once. The ray and both of its ends count as moved by an infinitesimal vector, the
@@ -80,12 +80,12 @@ public:
     /// - A ray that touches a sphere between its ends does not cross it.
     /// - Disks and user-defined shapes are crossed where all_hits has hits.
     /// - An unusable ray has no crossings.
-    std::vector<RayCrossing> crossings(const Ray& ray, const RayFilter& filter = {}) const;
+    std::vector<RayCrossing> crossings(const Ray& ray, const RayFilter& filter = kNoFilter) const;
     /// Returns the number of crossings.
-    std::size_t count_intersections(const Ray& ray, const RayFilter& filter = {}) const;
+    std::size_t count_intersections(const Ray& ray, const RayFilter& filter = kNoFilter) const;
     /// Returns the number of outward crossings minus the number of inward ones. If surfaces are closed, this is the
     /// winding number around the start of the ray minus that around its end.
-    std::int64_t winding_number(const Ray& ray, const RayFilter& filter = {}) const;
+    std::int64_t winding_number(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns the winding number of the surfaces around a point, and whether the point is exactly on a surface. If a
     /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
@@ -129,12 +129,12 @@ public:
     /// empty nor as long as the scene has objects, or `filter.without_each` is neither empty nor as long as `rays`
     ///@{
     std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1,
-                            const RayFilter& filter = {}) const;
+                            const RayFilter& filter = kNoFilter) const;
     std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1,
-                        const RayFilter& filter = {}) const;
-    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1, const RayFilter& filter = {}) const;
+                        const RayFilter& filter = kNoFilter) const;
+    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1, const RayFilter& filter = kNoFilter) const;
     std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1,
-                                    const RayFilter& filter = {}) const;
+                                    const RayFilter& filter = kNoFilter) const;
     ///@}
 
     /// Answer the queries of the same names for many points at time 0. Result i is that of points[i]. `inside` is 1 or

@@ -88,6 +88,8 @@ struct RayFilter {
     }
 };
 
+inline constexpr RayFilter kNoFilter;  ///< a filter of which no primitive is ignored
+
 /// All hits of many rays. The hits of ray i have the indices from first[i] up to, but not including, first[i + 1].
 struct RayHits {
     std::vector<RayHit> hits;        ///< the hits of all rays, in the order of the rays
