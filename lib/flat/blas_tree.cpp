@@ -1,7 +1,4 @@
 // Builds the tree of one BLAS.
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,10 +8,10 @@
 #include "flat/steps.h"
 #include "geometry/bounds.h"
 #include "geometry/bvh/float_box.h"
-#include "geometry/bvh/parallel.h"
 #include "geometry/bvh/slab.h"
 #include "geometry/mesh_triangle.h"
 #include "limn/math/error.h"
+#include "math/parallel.h"
 
 namespace limn::compiler {
 
@@ -66,7 +63,7 @@ private:
 
     // Computes the boxes of primitives that aren't in meshes.
     void measure_others() {
-        accel::for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
+        for_all(0, others_.size(), kGrain / 16, [&](std::size_t i) { measure(others_[i]); });
         for (const Candidate& other : others_) {
             bounds_.extend(other.box);
             extent_ = std::max(extent_, accel::finite_extent(other.box));
@@ -77,26 +74,22 @@ private:
     // boxes.
     void measure_mesh(const PrimitiveRange& range, std::size_t first) {
         // Compute the boxes in parallel, with their common bounds and the number of degenerate triangles.
-        using Indices = oneapi::tbb::blocked_range<std::size_t>;
         struct Found {
             Box bounds;
             std::size_t degenerate = 0;
         };
         const MeshView& mesh = scene_.meshes[range.first_row].arrays;
-        const Found found = oneapi::tbb::parallel_reduce(
-            Indices(0, range.count, kGrain), Found{},
-            [&](const Indices& indices, Found so_far) {
-                for (std::size_t i = indices.begin(); i < indices.end(); ++i) {
-                    const TriangleVertices v = triangle_vertices(mesh, i);
-                    const bool counts = !is_degenerate(v);
-                    const Box box = triangle_bounds(v);
-                    boxes_[first + i] = accel::to_float_box(counts ? box : Box());
-                    if (counts)
-                        so_far.bounds.extend(box);
-                    else
-                        ++so_far.degenerate;
-                }
-                return so_far;
+        const Found found = join_all<Found>(
+            range.count, kGrain,
+            [&](Found& so_far, std::size_t i) {
+                const TriangleVertices v = triangle_vertices(mesh, i);
+                const bool counts = !is_degenerate(v);
+                const Box box = triangle_bounds(v);
+                boxes_[first + i] = accel::to_float_box(counts ? box : Box());
+                if (counts)
+                    so_far.bounds.extend(box);
+                else
+                    ++so_far.degenerate;
             },
             [](const Found& a, const Found& b) {
                 return Found{merge(a.bounds, b.bounds), a.degenerate + b.degenerate};
@@ -132,7 +125,7 @@ private:
     // except for numbers so small compared with `extent_` that they would become subnormal.
     void scale_boxes(double scale) {
         if (scale != 1)
-            accel::for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
+            for_all(0, boxes_.size(), kGrain, [&](std::size_t i) {
                 accel::FloatBox& box = boxes_[i];
                 for (std::size_t a = 0; a < 3; ++a) {
                     box.lower[a] = accel::round_down(scale * static_cast<double>(box.lower[a]));

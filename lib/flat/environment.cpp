@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "flat/steps.h"
-#include "geometry/bvh/parallel.h"
 #include "limn/math/math.h"
 #include "math/elementary.h"
+#include "math/parallel.h"
 
 namespace limn::compiler {
 
@@ -45,7 +45,7 @@ std::unique_ptr<const flat::Environment> tabulate(const EnvironmentMap& map) {
     const auto height = static_cast<std::size_t>(image.height()), width = static_cast<std::size_t>(image.width());
     e.row_luminance.resize(height);
     e.column_before.resize(height * (width + 1));
-    accel::for_all(0, height, kRowsAtOnce, [&](std::size_t y) {
+    for_all(0, height, kRowsAtOnce, [&](std::size_t y) {
         e.row_luminance[y] = tabulate_row(image, static_cast<int>(y), &e.column_before[y * (width + 1)]);
     });
     // Integrate each band.

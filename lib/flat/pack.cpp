@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 
-#include "geometry/bvh/parallel.h"
 #include "geometry/mesh_triangle.h"
 #include "limn/math/error.h"
+#include "math/parallel.h"
 
 namespace limn::compiler {
 
@@ -21,9 +21,9 @@ public:
 
     flat::Child pack() {
         if (bvh_.nodes.empty()) return flat::kNothing;
-        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
+        for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { sort_by_kind(bvh_.leaves[i]); });
         place_leaves();
-        accel::for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
+        for_all(0, bvh_.leaves.size(), kGrain, [&](std::size_t i) { write_leaf(bvh_.leaves[i], places_[i]); });
         const bool is_lone = bvh_.nodes.size() == 1 && bvh_.nodes[0].child[1] == flat::kNothing;
         return is_lone ? leaf_at(0) : append_nodes();
     }
@@ -138,7 +138,7 @@ private:
             scene_.nodes = std::move(bvh_.nodes);
         else
             scene_.nodes.insert(scene_.nodes.end(), bvh_.nodes.begin(), bvh_.nodes.end());
-        accel::for_all(root, scene_.nodes.size(), kGrain, [&](std::size_t i) {
+        for_all(root, scene_.nodes.size(), kGrain, [&](std::size_t i) {
             for (flat::Child& child : scene_.nodes[i].child) {
                 if (child == flat::kNothing) continue;
                 const bool is_leaf = (child & flat::kLeaf) != 0;

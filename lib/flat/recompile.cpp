@@ -6,8 +6,8 @@
 
 #include "flat/compile.h"
 #include "flat/steps.h"
-#include "geometry/bvh/parallel.h"
 #include "limn/math/error.h"
+#include "math/parallel.h"
 #include "scene/shape/arguments.h"
 
 namespace limn::compiler {
@@ -87,7 +87,7 @@ void move(flat::Scene& scene, std::span<const MovedObject> moved) {
     // Find the instances and check their matrices, before anything is changed.
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::uint32_t> rows(moved.size());
-    accel::for_all(0, moved.size(), kGrain, [&](std::size_t i) {
+    for_all(0, moved.size(), kGrain, [&](std::size_t i) {
         const MovedObject& m = moved[i];
         try {
             rows[i] = row_of(scene, m.object);
@@ -104,7 +104,7 @@ void move(flat::Scene& scene, std::span<const MovedObject> moved) {
     }
     // Place the instances and rebuild what depends on them.
     drop_what_moves(scene);
-    accel::for_all(0, moved.size(), kGrain, [&](std::size_t i) {
+    for_all(0, moved.size(), kGrain, [&](std::size_t i) {
         const MovedObject& m = moved[i];
         place_instance(scene.instances[rows[i]], m.world_from_object, m.at_time1.value_or(m.world_from_object));
     });

@@ -1,4 +1,5 @@
-// Decodes pictures with stb_image. This is the only source that contains stb_image, and its functions are static.
+// Decodes pictures with stb_image. This is the only source that contains stb_image, and its functions are static. stb
+// has decoders for formats that limn does not read. They are never called, because require_sound() refuses such files.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -7,11 +8,6 @@
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)
-#define STBI_ONLY_BMP
-#define STBI_ONLY_HDR
-#define STBI_ONLY_JPEG
-#define STBI_ONLY_PNG
-#define STBI_ONLY_TGA
 #include <stb_image.h>
 
 #include <algorithm>

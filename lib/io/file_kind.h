@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "io/image_codec.h"
+#include "io/picture_formats.h"
 
 namespace limn {
 

@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
+#include "io/bytes.h"
 #include "io/file_kind.h"
-#include "io/picture_checks.h"
 #include "limn/math/error.h"
 
 namespace limn {
@@ -12,30 +12,21 @@ namespace {
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-struct Format {
-    FileFormat format;
-    const char* name;
-    void (*check)(std::span<const std::byte>);  // throws a Fault if the file is not sound
-};
-
-constexpr Format kFormats[] = {{FileFormat::exr, "EXR", check_exr},    {FileFormat::png, "PNG", check_png},
-                               {FileFormat::jpeg, "JPEG", check_jpeg}, {FileFormat::hdr, "HDR", check_hdr},
-                               {FileFormat::bmp, "BMP", check_bmp},    {FileFormat::tga, "TGA", check_tga}};
-
 }  // namespace
 
 FileFormat require_sound(std::span<const std::byte> file, const std::string& path) {
     const FileKind kind = kind_of_contents(text_of(file));
     std::string known;
-    for (const Format& format : kFormats) {
-        known += (known.empty() ? "" : ", ") + std::string(format.name);
-        if (kind.format != format.format) continue;
+    for (const PictureFormat& row : kPictureFormats) {
+        if (!row.format) continue;
+        known += (known.empty() ? "" : ", ") + std::string(row.name);
+        if (kind.format != row.format) continue;
         try {
-            format.check(file);
+            row.check(file);
         } catch (const Fault& fault) {
-            throw FileError(path, "is not a whole " + std::string(format.name) + ": " + fault.text);
+            throw FileError(path, "is not a whole " + std::string(row.name) + ": " + fault.text);
         }
-        return format.format;
+        return *row.format;
     }
     const std::string name(file.empty() ? "an empty file" : kind.name);
     throw FileError(path, "is not a readable image: " + (name.empty() ? "" : "it appears to be " + name + "; ") +

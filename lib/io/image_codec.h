@@ -11,11 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "io/picture_formats.h"
 #include "limn/io/image_io.h"
 
 namespace limn {
-
-enum class FileFormat { exr, png, jpeg, hdr, bmp, tga };
 
 using Facts = std::vector<std::pair<std::string, std::string>>;  // names and values: see SaveOptions::facts
 

@@ -67,14 +67,9 @@ std::string message(std::string detail) {
     return detail.empty() ? "unknown reason" : detail;
 }
 
-// Returns OpenImageIO's name of a format.
-const char* format_name(FileFormat format) {
-    return format == FileFormat::png ? "png" : format == FileFormat::jpeg ? "jpeg" : "openexr";
-}
-
 // Returns the name of a picture in memory. OpenImageIO looks for a file of this name even when it reads memory, so the
 // name is one that cannot exist.
-std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + format_name(format); }
+std::string name_in_memory(FileFormat format) { return std::string("/dev/null/memory.") + row_of(format).openimageio; }
 
 // A reader of memory that never reads beyond the end of the bytes. The one of OpenImageIO 2.4 does if a file states an
 // offset that is too large.
@@ -92,7 +87,7 @@ public:
 std::unique_ptr<ImageInput> open(FileFormat format, OIIO::Filesystem::IOProxy& memory, const std::string& path) {
     ImageSpec spec, wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-    std::unique_ptr<ImageInput> input = ImageInput::create(format_name(format));
+    std::unique_ptr<ImageInput> input = ImageInput::create(row_of(format).openimageio);
     if (!input) throw FileError(path, "is not a readable image: " + message(OIIO::geterror()));
     if (!input->set_ioproxy(&memory) || !input->open(name_in_memory(format), spec, wishes))
         throw FileError(path, "is not a readable image: " + message(input->geterror()));
@@ -155,20 +150,13 @@ StoredImage read(ImageInput& input, std::size_t file_bytes, const std::string& p
     return image;
 }
 
-// Returns true if stb decodes the format, even in a build with OpenImageIO. OpenImageIO 2.4 has errors there: it reads
-// outside of the palette of a damaged TGA, takes the unused bytes of a BMP for alpha, and reads the numbers of an HDR
-// in the locale of the C library.
-bool is_for_stb(FileFormat format) {
-    return format == FileFormat::hdr || format == FileFormat::bmp || format == FileFormat::tga;
-}
-
 }  // namespace
 
 bool can_encode(FileFormat format) { return format == FileFormat::exr || format == FileFormat::png; }
 
 std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
     // Create a writer to memory.
-    const std::unique_ptr<ImageOutput> output = ImageOutput::create(format_name(job.format));
+    const std::unique_ptr<ImageOutput> output = ImageOutput::create(row_of(job.format).openimageio);
     if (!output) throw FileError(path, "cannot be written: " + message(OIIO::geterror()));
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -186,13 +174,13 @@ std::vector<std::byte> encode(const EncodeJob& job, const std::string& path) {
 }
 
 StoredImage decode(FileFormat format, std::span<const std::byte> bytes, const std::string& path, int most) {
-    if (is_for_stb(format)) return decode_stb(format, bytes, path, most);
+    if (row_of(format).openimageio == nullptr) return decode_stb(format, bytes, path, most);
     BoundedReader memory(bytes);
     return read(*open(format, memory, path), bytes.size(), path, most);
 }
 
 ImageInfo decode_header(FileFormat format, std::span<const std::byte> bytes, const std::string& path) {
-    if (is_for_stb(format))
+    if (row_of(format).openimageio == nullptr)
         return decode_info_stb(format, bytes, path);  // encode() doesn't write facts to these formats
     BoundedReader memory(bytes);
     const ImageSpec spec = open(format, memory, path)->spec();

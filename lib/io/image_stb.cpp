@@ -81,8 +81,9 @@ Facts read_png_facts(std::span<const std::byte> file) {
 }
 
 void require_readable(FileFormat format, const std::string& path) {
-    if (format == FileFormat::exr)
-        throw FileError(path, "is an EXR, which this build, without OpenImageIO, cannot read");
+    const PictureFormat& row = row_of(format);
+    if (!row.stb)
+        throw FileError(path, "is " + std::string(row.kind) + ", which this build, without OpenImageIO, cannot read");
 }
 
 }  // namespace

@@ -8,9 +8,11 @@ namespace limn {
 namespace {
 
 // The second bytes of markers (ITU-T T.81, table B.1). The sections below are those of T.81.
-constexpr std::uint64_t kFirstFrame = 0xc0, kProgressive = 0xc2, kHuffman = 0xc4, kExtension = 0xc8, kArithmetic = 0xcc,
-                        kLastFrame = 0xcf, kFirstRestart = 0xd0, kLastRestart = 0xd7, kStart = 0xd8, kEnd = 0xd9,
-                        kScan = 0xda, kTemporary = 0x01, kFill = 0xff;
+constexpr std::uint64_t kFirstFrame = 0xc0, kLastFrame = 0xcf, kProgressive = 0xc2;
+constexpr std::uint64_t kHuffman = 0xc4, kExtension = 0xc8, kArithmetic = 0xcc;
+constexpr std::uint64_t kFirstRestart = 0xd0, kLastRestart = 0xd7;
+constexpr std::uint64_t kStart = 0xd8, kEnd = 0xd9, kScan = 0xda;
+constexpr std::uint64_t kTemporary = 0x01, kFill = 0xff;
 
 std::uint64_t byte_at(std::span<const std::byte> bytes, std::size_t place) {
     return std::to_integer<std::uint64_t>(bytes[place]);

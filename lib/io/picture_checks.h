@@ -1,10 +1,10 @@
-// Checks the headers of picture files before they are decoded. The functions check_... throw a Fault if a file is not
-// sound. require_sound() in image_checks.h calls them.
+// Helpers of the functions that check picture files (picture_formats.h), and the chunks of a PNG.
 #pragma once
 
 #include <vector>
 
 #include "io/bytes.h"
+#include "io/picture_formats.h"
 
 namespace limn {
 
@@ -14,26 +14,6 @@ inline constexpr const char* kNoPixels = "it has no pixels";
 inline std::string too_short_for(std::uint64_t width, std::uint64_t height) {
     return "it is too short for a picture of " + std::to_string(width) + " x " + std::to_string(height);
 }
-
-// Check that the header is valid and of a kind that limn reads, and that the file can hold the picture.
-void check_hdr(std::span<const std::byte> file);
-void check_bmp(std::span<const std::byte> file);
-void check_tga(std::span<const std::byte> file);
-
-// Returns true if every field of the header has a value that TGA allows. A TGA has no mark to recognise.
-bool looks_like_tga(std::span<const std::byte> file);
-
-// Checks the headers of an EXR, because OpenEXR allocates whatever size they state. Refuses an attribute that is larger
-// than the file, a picture or a table of chunks that the file cannot hold, and deep pixels. Does not check the chunks.
-void check_exr(std::span<const std::byte> file);
-
-// Checks a JPEG from its first marker to its last: the order of segments, the sizes of Huffman tables, and that the
-// file can hold the picture.
-void check_jpeg(std::span<const std::byte> file);
-
-// Checks a PNG from its first chunk to its last: the order and the checksums of chunks, and that the file can hold the
-// picture.
-void check_png(std::span<const std::byte> file);
 
 // A chunk of a PNG. Its members are views of the file.
 struct PngChunk {

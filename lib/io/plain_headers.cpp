@@ -80,6 +80,12 @@ void check_bmp(std::span<const std::byte> file) {
     demand(pixels + (width * depth + 31) / 32 * 4 * height <= file.size(), kBreaksOff);
 }
 
+bool looks_like_pnm(std::span<const std::byte> file) {
+    const std::string_view text = text_of(file);
+    return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
+           (text[2] == '\n' || text[2] == ' ' || text[2] == '\r');
+}
+
 // A TGA is a header of 18 bytes, a text, a palette and pixels (Truevision TGA File Format Specification, version 2.0,
 // 1991).
 bool looks_like_tga(std::span<const std::byte> file) {

@@ -21,17 +21,14 @@ namespace {
 constexpr float kLargestHalf = 65504;      // (2 - 2^-10) 2^15 (IEEE 754 binary16)
 constexpr float kLargestRgbe = 0xFFp119f;  // 255 2^(127 - 8) (Ward, Real Pixels, Graphics Gems II, 1991)
 
-constexpr std::pair<const char*, FileFormat> kSuffixes[] = {
-    {".exr", FileFormat::exr}, {".png", FileFormat::png}, {".hdr", FileFormat::hdr}};
-
 // Returns the format for the suffix of a file. \throws FileError if it cannot be written
 FileFormat format_of(const std::string& path) {
     const std::string suffix = in_lower_case(std::filesystem::path(path).extension().string());
     std::string known;
-    for (const auto& [name, format] : kSuffixes) {
-        if (!can_encode(format)) continue;
-        if (suffix == name) return format;
-        known += (known.empty() ? "" : " or ") + std::string(name);
+    for (const PictureFormat& row : kPictureFormats) {
+        if (row.suffix == nullptr || !can_encode(*row.format)) continue;
+        if (suffix == row.suffix) return *row.format;
+        known += (known.empty() ? "" : " or ") + std::string(row.suffix);
     }
     const char* hint = suffix == ".exr" ? "this build has no OpenImageIO and cannot write EXR; " : "";
     throw FileError(path, hint + ("the name of a picture must end in " + known));

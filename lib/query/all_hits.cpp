@@ -1,53 +1,62 @@
-// Implements the forms of CompiledScene::all_hits for one ray.
+// Implements CompiledScene::all_hits, for one ray and for batches.
 #include <algorithm>
 #include <vector>
 
 #include "limn/query/compiled_scene.h"
-#include "math/float_environment.h"
-#include "query/filters.h"
+#include "query/batches.h"
 #include "query/results.h"
 
 namespace limn {
 
 namespace {
 
-// Sorts `found` along the ray, removes duplicates from it, and appends it to `hits`.
-void list(const flat::Scene& scene, std::vector<trace::Crossing>& found, std::vector<RayHit>& hits) {
-    query::sort_along_ray(found);
+// Appends the hits of one ray to `hits`. \pre is_usable(ray)
+void append_hits(const flat::Scene& scene, const Ray& ray, const query::Excluded& excluded, std::vector<RayHit>& hits) {
+    query::Found found;
+    std::vector<trace::Crossing>& crossings = *found;
+    trace::every_hit(scene, ray, crossings, excluded);
+    query::sort_along_ray(crossings);
     // The two hits of a sphere that the ray only touches have the same t.
     const auto same = [](const trace::Crossing& a, const trace::Crossing& b) {
         return a.t == b.t && a.primitive == b.primitive;
     };
-    found.erase(std::unique(found.begin(), found.end(), same), found.end());
-    hits.reserve(found.size());
-    for (const trace::Crossing& c : found) hits.push_back(query::complete(scene, c));
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
+    const std::size_t before = hits.size();
+    hits.resize(before + crossings.size());
+    for (std::size_t i = 0; i < crossings.size(); ++i) hits[before + i] = query::complete(scene, crossings[i]);
 }
 
 }  // namespace
 
-void CompiledScene::all_hits(const Ray& ray, std::vector<RayHit>& hits) const {
-    const FloatEnvironment environment;
-    hits.clear();
-    if (!query::is_fit(ray)) return;
-    query::Found found;
-    trace::every_hit(*scene_, ray, *found);
-    list(*scene_, *found, hits);
+std::vector<RayHit> CompiledScene::all_hits(const Ray& ray, const RayFilter& filter) const {
+    return query::ask(*this, ray, filter, "all_hits", [](const auto& scene, const auto& usable, const auto& excluded) {
+        std::vector<RayHit> hits;
+        append_hits(scene, usable, excluded, hits);
+        return hits;
+    });
 }
 
-std::vector<RayHit> CompiledScene::all_hits(const Ray& ray) const {
-    std::vector<RayHit> hits;
-    all_hits(ray, hits);
-    return hits;
-}
-
-void CompiledScene::all_hits(const Ray& ray, const RayFilter& filter, std::vector<RayHit>& hits) const {
-    const FloatEnvironment environment;
-    const trace::Filter checked = query::checked(*scene_, filter, "all_hits");
-    hits.clear();
-    if (!query::is_fit(ray)) return;
-    query::Found found;
-    trace::every_hit(*scene_, ray, checked, *found);
-    list(*scene_, *found, hits);
+std::size_t CompiledScene::all_hits(std::span<const Ray> rays, RayHits& hits, int threads,
+                                    const RayFilter& filter) const {
+    // Collect the hits of each part of the batch, and store the number of hits of ray i in hits.first[i + 1].
+    const std::size_t part = query::part_size(rays.size(), threads);
+    std::vector<std::vector<RayHit>> parts((rays.size() + part - 1) / part);
+    hits.first.assign(rays.size() + 1, 0);
+    const std::size_t unusable = query::for_each_ray(
+        flat(), rays, filter, threads, "all_hits",
+        [&](std::size_t i, const auto& excluded) {
+            std::vector<RayHit>& here = parts[i / part];
+            const std::size_t before = here.size();
+            append_hits(flat(), rays[i], excluded, here);
+            hits.first[i + 1] = here.size() - before;
+        },
+        [](std::size_t) {});
+    // Sum up the numbers of hits, and concatenate the hits of all parts.
+    for (std::size_t i = 0; i < rays.size(); ++i) hits.first[i + 1] += hits.first[i];
+    hits.hits.clear();
+    hits.hits.reserve(hits.first.back());
+    for (const std::vector<RayHit>& here : parts) hits.hits.insert(hits.hits.end(), here.begin(), here.end());
+    return unusable;
 }
 
 }  // namespace limn

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "math/float_environment.h"
+#include "query/batches.h"
 #include "query/surface_at.h"
-#include "query/threads.h"
 
 namespace limn {
 
@@ -43,22 +42,23 @@ void outward_normals(const CompiledScene& scene, std::span<const Ray> rays, std:
                      std::span<Vec3> normals) {
     query::check_length(rays.size(), hits.size(), "outward_normals: rays and hits differ in length");
     query::check_length(rays.size(), normals.size(), "outward_normals: rays and normals differ in length");
-    const FloatEnvironment environment;
-    query::SurfaceHit found;
-    for (std::size_t first = 0; first < rays.size(); first += kTogether) {
-        const std::size_t end = std::min(first + kTogether, rays.size());
-        prefetch(scene.flat(), hits.subspan(first, end - first));
-        for (std::size_t i = first; i < end; ++i) {
-            const RayHit& hit = hits[i];
-            normals[i] = {};
-            if (hit.t == kInfinity) continue;
-            query::surface_at(scene.flat(), rays[i], {{hit.t, hit.primitive}, hit.u, hit.v},
-                              {.uv = false, .tangents = false}, found);
-            // The normal of a Surface is on the side of the ray: turn it back to the outward side.
-            const Vec3 normal(found.surface.normal);
-            normals[i] = found.surface.front_face ? normal : -normal;
+    query::ask(scene, [&](const flat::Scene& tables) {
+        query::SurfaceHit found;
+        for (std::size_t first = 0; first < rays.size(); first += kTogether) {
+            const std::size_t end = std::min(first + kTogether, rays.size());
+            prefetch(tables, hits.subspan(first, end - first));
+            for (std::size_t i = first; i < end; ++i) {
+                const RayHit& hit = hits[i];
+                normals[i] = {};
+                if (hit.t == kInfinity) continue;
+                query::surface_at(tables, rays[i], {{hit.t, hit.primitive}, hit.u, hit.v},
+                                  {.uv = false, .tangents = false}, found);
+                // The normal of a Surface is on the side of the ray: turn it back to the outward side.
+                const Vec3 normal(found.surface.normal);
+                normals[i] = found.surface.front_face ? normal : -normal;
+            }
         }
-    }
+    });
 }
 
 }  // namespace limn

@@ -7,7 +7,7 @@
 
 #include "flat/scene.h"
 #include "limn/query/compiled_scene.h"
-#include "math/float_environment.h"
+#include "query/ask.h"
 
 namespace limn {
 
@@ -101,8 +101,7 @@ private:
 }  // namespace
 
 std::uint64_t CompiledScene::open_edges() const {
-    const FloatEnvironment environment;
-    return OpenEdges(*scene_).of(BlasId::root);
+    return query::ask(*this, [](const flat::Scene& scene) { return OpenEdges(scene).of(BlasId::root); });
 }
 
 }  // namespace limn

@@ -1,9 +1,7 @@
-// Helpers that all queries share: a fast test for usable rays, the conversion of hits into RayHit, and memory for lists
-// of hits.
+// Helpers that the queries of rays share: the conversion of hits into RayHit, and memory for lists of hits.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "flat/scene.h"
@@ -26,14 +24,6 @@ inline RayHit complete(const flat::Scene& scene, const trace::Hit& hit) {
 
 inline RayHit complete(const flat::Scene& scene, const trace::Crossing& c) {
     return complete(scene, trace::Hit{{c.t, c.primitive}, c.u, c.v, c.index_matched});
-}
-
-// Returns is_usable(r), faster for most rays: a sum of magnitudes below infinity has only finite terms. The sum may
-// also overflow; then is_usable() decides.
-inline bool is_fit(const Ray& r) {
-    const double across = std::abs(r.direction.x) + std::abs(r.direction.y) + std::abs(r.direction.z);
-    const double all = std::abs(r.origin.x) + std::abs(r.origin.y) + std::abs(r.origin.z) + std::abs(r.time) + across;
-    return all < kInfinity && across > 0 ? r.t_min <= r.t_max && r.t_min < kInfinity : is_usable(r);
 }
 
 // An empty list for the hits along one ray. It reuses memory that is kept for the thread, so that a query usually

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "math/elementary.h"
-#include "render/parallel.h"
+#include "math/parallel.h"
 #include "render/pixel_errors.h"
 #include "render/window.h"
 

@@ -1,14 +1,15 @@
 // The result of a film: its picture, the estimated error and the report.
 #include "limn/math/error.h"
 #include "limn/render/render.h"
+#include "math/parallel.h"
 #include "render/error_estimate.h"
 #include "render/job_info.h"
 
 namespace limn {
 
-RenderResult render_result(const Film& film, std::optional<double> error) {
-    if (error && !transport::is_target(*error))
-        throw ArgumentError("render_result: the error asked for must be over 0 and finite");
+namespace {
+
+RenderResult result_of(const Film& film, std::optional<double> error) {
     // Estimate the error.
     RenderResult r{film.image(), {}, {}, {}};
     r.error = transport::estimate_error(film, &r.maps);
@@ -32,6 +33,14 @@ RenderResult render_result(const Film& film, std::optional<double> error) {
     r.report.memory_bytes = film.memory_bytes();
     if (r.error.reached) r.report.stopped_by = StoppedBy::error;
     return r;
+}
+
+}  // namespace
+
+RenderResult render_result(const Film& film, std::optional<double> error) {
+    if (error && !transport::is_target(*error))
+        throw ArgumentError("render_result: the error asked for must be over 0 and finite");
+    return with_threads(0, [&] { return result_of(film, error); });
 }
 
 const char* version() { return LIMN_VERSION; }

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "limn/math/error.h"
+#include "math/parallel.h"
 #include "math/spawn.h"
 #include "query/results.h"
 #include "query/surface_at.h"
 #include "render/camera_samples.h"
 #include "render/holes.h"
 #include "render/job_info.h"
-#include "render/parallel.h"
 #include "shading/albedo.h"
 #include "shading/shading.h"
 #include "trace/traverse.h"
@@ -127,8 +127,10 @@ FirstHits first_hits(const CompiledScene& scene, const Camera& camera, const Ren
     hits.depth.assign(pixels, std::numeric_limits<float>::infinity());
     hits.object.assign(pixels, -1);
     hits.primitive.assign(pixels, -1);
-    const Rows rows(scene, info, hits);
-    transport::with_threads(settings.threads, [&] { transport::for_each_row(height, [&](int y) { rows.find(y); }); });
+    with_threads(settings.threads, [&] {
+        const Rows rows(scene, info, hits);
+        for_each_row(height, [&](int y) { rows.find(y); });
+    });
     return hits;
 }
 

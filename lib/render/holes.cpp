@@ -21,7 +21,10 @@ trace::Hit Holes::first_stop(const flat::Scene& scene, const Ray& ray, const tra
     // A number that has decided one surface is uniform again between the ends that were left.
     const auto stops = [&](double opacity) {
         if (opacity == 1) return true;
-        if (number < opacity) return number /= opacity, true;
+        if (number < opacity) {
+            number /= opacity;
+            return true;
+        }
         number = (number - opacity) / (1 - opacity);
         return false;
     };

@@ -6,7 +6,7 @@
 
 #include "image/compare_values.h"
 #include "math/elementary.h"
-#include "render/parallel.h"
+#include "math/parallel.h"
 #include "render/window.h"
 
 namespace limn::transport {

@@ -8,10 +8,10 @@
 #include <mutex>
 
 #include "limn/math/error.h"
+#include "math/parallel.h"
 #include "render/error_estimate.h"
 #include "render/film_file.h"
 #include "render/job_info.h"
-#include "render/parallel.h"
 #include "render/sample_rates.h"
 #include "render/tile_renderer.h"
 
@@ -123,8 +123,7 @@ public:
     const Film& film() const { return film_; }
 
     RenderResult result() const {
-        RenderResult r;
-        transport::with_threads(settings_.threads, [&] { r = render_result(film_, settings_.error); });
+        RenderResult r = with_threads(settings_.threads, [&] { return render_result(film_, settings_.error); });
         r.report.threads = settings_.threads > 0 ? settings_.threads : tbb::this_task_arena::max_concurrency();
         r.report.compile_seconds = scene_.stats().seconds;
         r.report.memory_bytes += scene_.stats().memory_bytes;
@@ -163,7 +162,7 @@ private:
         };
         {
             const End end{*this};
-            transport::with_threads(settings_.threads, [this] { run_passes(); });
+            with_threads(settings_.threads, [this] { run_passes(); });
         }
         if (!interrupted_) {
             finished_ = true;
@@ -235,7 +234,7 @@ private:
     // Takes the samples that the plan wants and the pixels don't have yet.
     void render_pass() {
         const bool may_end = film_.plan().samples > SamplePlan::kFirstPass;
-        transport::for_each_index(film_.tiles().size(), *context_, [&](std::size_t i) {
+        for_each_until_cancelled(film_.tiles().size(), *context_, [&](std::size_t i) {
             if (interrupted_) return;
             // The first pass is completed even after the time limit, so that there is a picture and an estimate.
             if (settings_.time_limit && may_end && seconds_of_run() >= *settings_.time_limit) timed_out_ = true;
@@ -325,7 +324,7 @@ private:
 };
 
 RenderJob::RenderJob(const CompiledScene& scene, const Camera& camera, const RenderSettings& settings)
-    : impl_(std::make_unique<Impl>(scene, camera, settings)) {}
+    : impl_(with_threads(0, [&] { return std::make_unique<Impl>(scene, camera, settings); })) {}
 RenderJob::~RenderJob() = default;
 bool RenderJob::load(const std::string& path) { return impl_->load(path); }
 void RenderJob::load_plan(const std::string& path) { impl_->load_plan(path); }

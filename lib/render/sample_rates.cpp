@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "image/compare_values.h"
-#include "render/parallel.h"
+#include "math/parallel.h"
 
 namespace limn::transport {
 

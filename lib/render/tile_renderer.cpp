@@ -31,7 +31,8 @@ void TileRenderer::render(Film& film, std::uint32_t tile, std::mutex& mutex,
             film.count(tile, counts);
         }
         samples += paths.size();
-        paths.clear(), pixels.clear();
+        paths.clear();
+        pixels.clear();
     };
     const Film::Tile t = film.tile(tile);
     for (int y = t.top; y < t.bottom; ++y)

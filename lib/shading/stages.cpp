@@ -5,36 +5,15 @@
 #include <hwy/foreach_target.h>
 
 #include <bit>
-#include <limits>
 
 #include "math/heuristic-inl.h"
 #include "math/rows-inl.h"
+#include "math/spawn-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::shade::HWY_NAMESPACE {
 
 using namespace sampling::HWY_NAMESPACE;
-
-// The next double towards the side that `by` goes to.
-HWY_INLINE Doubles moved(Doubles at, Doubles by) {
-    const hn::Rebind<std::int64_t, Doubles::Tag> whole;
-    const Doubles zero = 0.0, sum = at + by;
-    const Mask<Doubles> up = (by > zero), down = (by < zero);
-    const Mask<Doubles> moves = (up & (sum < kInfinity)) | (down & (sum > (-kInfinity)));
-    const Mask<Doubles> longer = (up & (sum > zero)) | (down & (sum < zero));
-    const auto step = hn::IfThenElse(hn::RebindMask(whole, longer.m), hn::Set(whole, 1), hn::Set(whole, -1));
-    const Doubles next = hn::BitCast(Doubles::Tag(), hn::Add(hn::BitCast(whole, sum.v), step));
-    const Doubles from_zero = copy_sign((std::numeric_limits<double>::denorm_min()), by);
-    return select(moves, select(sum == zero, from_zero, next), sum);
-}
-
-// limn::offset_along in lanes, bit for bit: core does not see lanes.
-HWY_INLINE Vector<Doubles> offset_along(const Vector<Doubles>& position, const Vector<Doubles>& error,
-                                        const Vector<Doubles>& normal, const Vector<Doubles>& direction) {
-    const Doubles distance = dot(abs(normal), error);
-    const Vector<Doubles> by = select(dot(normal, direction) < 0.0, -distance, distance) * normal;
-    return {moved(position.x, by.x), moved(position.y, by.y), moved(position.z, by.z)};
-}
 
 // Of rays from lanes: how many, and which of them are usable.
 HWY_INLINE Mask<Doubles> usable(const Vector<Doubles>& origin, const Vector<Doubles>& direction, Mask<Doubles> lanes,

@@ -135,12 +135,23 @@ void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& 
     search_boundary(scene, medium, ray, query);
 }
 
-void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out) {
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out,
+               const std::optional<Filter>& filter) {
+    if (filter) {
+        Filtered<Every> query{{ray.t_max, out}, &*filter};
+        return search_all(scene, ray, query, &out);
+    }
     Every query{ray.t_max, out};
     search_all(scene, ray, query, &out);
 }
 
-PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out) {
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out,
+                      const std::optional<Filter>& filter) {
+    if (filter) {
+        Filtered<Passages> query{{{}, ray.t_max, out, wants_touched}, &*filter};
+        search_all(scene, ray, query, out);
+        return query;
+    }
     Passages query{{}, ray.t_max, out, wants_touched};
     search_all(scene, ray, query, out);
     return query;
@@ -159,17 +170,6 @@ bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter) {
     Filtered<Any> query{{ray.t_max}, &filter};
     search_all(scene, ray, query, nullptr);
     return query.found;
-}
-
-void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out) {
-    Filtered<Every> query{{ray.t_max, out}, &filter};
-    search_all(scene, ray, query, &out);
-}
-
-PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out) {
-    Filtered<Passages> query{{{}, ray.t_max, out}, &filter};
-    search_all(scene, ray, query, out);
-    return query;
 }
 
 }  // namespace limn::trace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,9 +44,6 @@ struct Crossing {
 // The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
 void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
 
-// Every hit with t in (t_min, t_max], in no particular order, behind what is in `out`; of boundaries of media too,
-// which are flagged. \pre is_usable(ray)
-void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out);
 // What the moved ray (geometry/passage.h) passes through of the boundary of a medium, in no particular order,
 // replacing what is in `out`.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
@@ -63,10 +61,14 @@ struct Filter {
     bool accepts(std::uint64_t number, bool inward) const { return (inward ? front : back) && accepts(number); }
 };
 
-// closest_hit, any_hit and every_hit, all of boundaries of media too.
+// closest_hit and any_hit with a filter, of boundaries of media too.
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
-void every_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>& out);
+
+// Appends every hit with t in (t_min, t_max] to `out`, in no particular order. The boundaries of media are hit too, and
+// flagged. \pre is_usable(ray)
+void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out,
+               const std::optional<Filter>& filter = {});
 
 // What the moved ray (geometry/passage.h) passes through, boundaries of media too.
 struct PassageCount {
@@ -74,9 +76,9 @@ struct PassageCount {
     std::int64_t outward = 0;                     // of which go outward, less those that go inward
     std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was wanted
 };
-// \pre is_usable(ray). `out`, if any, gets the crossings behind what is in it, in no particular order
-PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out);
-PassageCount passages(const flat::Scene& scene, const Ray& ray, const Filter& filter, std::vector<Crossing>* out);
+// Counts the crossings, and appends them to `out` if that is not null, in no particular order. \pre is_usable(ray)
+PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out,
+                      const std::optional<Filter>& filter = {});
 
 // visit(frame) with the ray as an instance's BLAS sees it, and the result of that.
 template <class Visit>

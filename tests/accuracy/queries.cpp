@@ -129,14 +129,12 @@ struct Subject {
 
 struct Judge {
     const Subject& subject;
-    std::vector<RayHit> hits{};
-    std::vector<RayCrossing> crossings{};
 
     // \return whether all_hits and the crossings are right, and whether there are as many crossings as hits
-    std::array<bool, 3> rays_right(const Ray& ray) {
+    std::array<bool, 3> rays_right(const Ray& ray) const {
         const MeshTruth& truth = subject.truth;
-        subject.scene.all_hits(ray, hits);
-        subject.scene.crossings(ray, crossings);
+        const std::vector<RayHit> hits = subject.scene.all_hits(ray);
+        const std::vector<RayCrossing> crossings = subject.scene.crossings(ray);
         std::vector<int> met(truth.size()), passed(truth.size());
         bool all_hits = true, counted = true;
         for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -29,7 +29,7 @@ LIBRARIES = {
     "OpenImageIO": (r"OpenImageIO/.*", r"\b(OIIO|OpenImageIO)\b", r"lib/io/.*\.cpp"),
     "stb": (r"(stb/)?stb_.*", r"\bstbiw?_\w+", r"lib/io/.*\.cpp"),
     "tinyobjloader": (r"tiny_obj_.*", r"\btinyobj\b", r"lib/io/.*\.cpp"),
-    "oneTBB": (r"(tbb|oneapi)/.*", r"\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::", r"lib/(render|flat|geometry/bvh)/.*"),
+    "oneTBB": (r"(tbb|oneapi)/.*", r"\bnamespace\s+tbb\b|\b(tbb|oneapi)\s*::", r"lib/(math/parallel\.h|render/.*)"),
     "Random123": (r"Random123/.*", r"\br123\b", r"lib/render/.*"),
     "xxHash": (r"xxhash\.h", r"\bXXH\w+", r"lib/math/system/checksum\.cpp"),
     "Highway": (r"hwy/.*", r"\bhwy\b",

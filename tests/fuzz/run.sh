@@ -20,7 +20,7 @@ mkdir -p "$seeds" "$corpus" "$found" "$build/scratch"
 export TMPDIR=$build/scratch  # for scratch_file.h
 case $target in
     image)
-        cp "$data"/images/* "$data/orange.jpg" "$here"/seeds/*.{png,hdr,bmp,tga} "$seeds"
+        cp "$data"/images/* "$data/orange.jpg" "$here"/seeds/images/* "$seeds"
         largest=4096
         ;;
     obj)  # an OBJ, a zero byte, an MTL

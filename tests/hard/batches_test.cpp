@@ -13,20 +13,22 @@ TEST_CASE("Batches: on any number of threads as one by one, unusable rays counte
     std::vector<Ray> rays = unusable_rays();
     while (rays.size() < 5003) rays.push_back(random_ray(random, zoo.targets));
     const std::size_t n = rays.size(), unusable = unusable_rays().size();
-    std::vector<std::uint64_t> without(n), counts(n, 7);
+    std::vector<std::uint64_t> without(n), counts(n, 7), counts_of_rest(n, 7);
     for (std::size_t i = 0; i < n; ++i) without[i] = random.index(scene.stats().primitives);
     const RayFilter filter{.without_each = without};
     Tally tally;
     for (const int threads : {1, 0, 3}) {
         std::vector<RayHit> hits(n, RayHit{.t = 7}), filtered(n, RayHit{.t = 7});
         std::vector<std::uint8_t> occluded(n, 7), occluded_by_rest(n, 7);
-        RayHits all;
+        RayHits all, rest;
         CHECK(scene.closest_hit(rays, hits, threads) == unusable);
-        CHECK(scene.closest_hit(rays, filter, filtered, threads) == unusable);
+        CHECK(scene.closest_hit(rays, filtered, threads, filter) == unusable);
         CHECK(scene.any_hit(rays, occluded, threads) == unusable);
-        CHECK(scene.any_hit(rays, filter, occluded_by_rest, threads) == unusable);
+        CHECK(scene.any_hit(rays, occluded_by_rest, threads, filter) == unusable);
         CHECK(scene.all_hits(rays, all, threads) == unusable);
+        CHECK(scene.all_hits(rays, rest, threads, filter) == unusable);
         CHECK(scene.count_intersections(rays, counts, threads) == unusable);
+        CHECK(scene.count_intersections(rays, counts_of_rest, threads, filter) == unusable);
         REQUIRE((all.first.size() == n + 1 && all.first.back() == all.hits.size()));
         for (std::size_t i = 0; i < n; ++i) {
             ++tally.rays, ++tally.judged;
@@ -36,9 +38,12 @@ TEST_CASE("Batches: on any number of threads as one by one, unusable rays counte
                 if (occluded_i != (single ? 1 : 0)) tally.fault(rays[i], "any");
             };
             judge_hit(scene.closest_hit(rays[i]), hits[i], occluded[i]);
-            judge_hit(scene.closest_hit(rays[i], {.without = without[i]}), filtered[i], occluded_by_rest[i]);
             if (!std::ranges::equal(scene.all_hits(rays[i]), all.of(i), same)) tally.fault(rays[i], "all");
             if (counts[i] != scene.count_intersections(rays[i])) tally.fault(rays[i], "count");
+            const RayFilter own{.without = without[i]};
+            judge_hit(scene.closest_hit(rays[i], own), filtered[i], occluded_by_rest[i]);
+            if (!std::ranges::equal(scene.all_hits(rays[i], own), rest.of(i), same)) tally.fault(rays[i], "rest");
+            if (counts_of_rest[i] != scene.count_intersections(rays[i], own)) tally.fault(rays[i], "count of rest");
         }
     }
     check(tally, "rays");
@@ -48,7 +53,7 @@ TEST_CASE("Batches: on any number of threads as one by one, unusable rays counte
     CHECK_THROWS_AS(scene.count_intersections(rays, counts, 1025), ArgumentError);
     without.pop_back();
     std::vector<RayHit> hits(n);
-    CHECK_THROWS_AS(scene.closest_hit(rays, {.without_each = without}, hits), ArgumentError);
+    CHECK_THROWS_AS(scene.closest_hit(rays, hits, 1, {.without_each = without}), ArgumentError);
     RayHits none;
     CHECK(scene.all_hits(std::span<const Ray>{}, none, 0) == 0);
     CHECK((none.hits.empty() && none.first.size() == 1));

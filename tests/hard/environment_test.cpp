@@ -2,13 +2,13 @@
 // leaks no ray, raises no trap, answers as in the default one, and leaves it as it was.
 #if defined(__x86_64__)
 
-#include <immintrin.h>
 #include <ucontext.h>
 #include <csignal>
 #include <cstring>
 
 #include "catch.h"
 #include "hard/corpus.h"
+#include "hard/float_environments.h"
 #include "hard/hard.h"
 #include "limn/render/render.h"
 #include "limn/scene/material/lambertian.h"
@@ -18,34 +18,6 @@ namespace limn::environment_test {
 using namespace test;
 
 namespace {
-
-constexpr unsigned kDefault = 0x1f80, kFlags = 0x3f;  // of MXCSR: everything masked, nothing flushed, to nearest
-constexpr unsigned kFlush = 0x8040, kDown = 0x2000, kUp = 0x4000, kToZero = 0x6000;
-
-struct Environment {
-    const char* name;
-    unsigned csr;
-};
-
-constexpr Environment kEnvironments[] = {
-    {"subnormals flushed", kDefault | kFlush},
-    {"rounding up", kDefault | kUp},
-    {"rounding down", kDefault | kDown},
-    {"rounding to zero", kDefault | kToZero},
-    {"flushed, rounding up", kDefault | kFlush | kUp},
-    {"flushed, rounding down", kDefault | kFlush | kDown},
-};
-
-// For as long as it lives. Only limn is called meanwhile; what a test itself computes would be rounded otherwise too.
-class InEnvironment {
-public:
-    explicit InEnvironment(unsigned csr) : csr_(csr), before_(_mm_getcsr()) { _mm_setcsr(csr); }
-    ~InEnvironment() { _mm_setcsr(before_); }
-    bool is_as_it_was() const { return (_mm_getcsr() & ~kFlags) == (csr_ & ~kFlags); }
-
-private:
-    unsigned csr_, before_;
-};
 
 // Traps are counted and masked, so that the program goes on.
 volatile std::sig_atomic_t traps = 0;

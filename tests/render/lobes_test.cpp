@@ -9,8 +9,6 @@
 #include "limn/limn.h"
 #include "lobe_examples.h"
 #include "math/sobol.h"
-#include "math/spawn.h"
-#include "random_light.h"
 #include "render/sampler.h"
 #include "shading/stages.h"
 #include "support/random_geometry.h"
@@ -155,7 +153,7 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
                 std::size_t row = 0;
                 for (std::size_t i = 0; i < v.count; ++i) {
                     if (is_black(v.weight.get<Color>(i))) continue;
-                    const Ray ray = leave(b.surfaces[i], v.direction.get<Vec3>(i), 0);
+                    const Ray ray = b.surfaces[i].spawn_ray(v.direction.get<Vec3>(i), 0);
                     origins += next->path[row] != i || ray.origin != next->origin.get<Point3>(row) ||
                                ray.direction != next->direction.get<Vec3>(row) ||
                                next->throughput.get<Color>(row) != v.weight.get<Color>(i);
@@ -193,7 +191,7 @@ TEST_CASE("Lobes: rays leave in lanes from where they leave alone, bit for bit, 
                 s.position = {hard(), hard(), hard()};
                 s.position_error = {size(), size(), size()};
                 s.normal = {size(), hard(), hard()};  // not three times -0
-                alone[i] = leave(s, {hard(), hard(), hard()}, 0);
+                alone[i] = s.spawn_ray({hard(), hard(), hard()}, 0);
                 v.position.set(i, s.position), v.position_error.set(i, s.position_error);
                 v.normal.set(i, s.normal), v.direction.set(i, alone[i].direction);
             }
@@ -252,7 +250,7 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
                 const double a = odds[i] * alone->pdf, weight = a * a / (a * a + f.pdf * f.pdf) / alone->pdf;
                 weights += !(std::abs(arriving.r - weight * 5 * f.value.r) <= 1e-13 * arriving.r &&
                              std::abs(arriving.b - 2 * weight * 1e-3 * f.value.b) <= 1e-13 * arriving.b);
-                const Ray ray = leave_for(b.surfaces[i], alone->point, 0);
+                const Ray ray = b.surfaces[i].spawn_ray_to(alone->point, 0);
                 rays += ray.origin != shadows->origin.get<Point3>(row) ||
                         ray.direction != shadows->direction.get<Vec3>(row);
                 ++row;

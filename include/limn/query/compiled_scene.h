@@ -53,12 +53,14 @@ public:
     /// Returns the nearest hit with t in (t_min, t_max]. Of equally near hits it is the one whose primitive has the
     /// lowest number. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable ray (see
     /// is_usable) misses.
-    std::optional<RayHit> closest_hit(const Ray& ray) const;
-    /// Returns true if closest_hit finds a hit for the ray.
-    bool any_hit(const Ray& ray) const;
+    /// \param filter the primitives that the ray ignores. Queries with a filter are somewhat slower.
+    /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
+    std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
+    /// Returns true if closest_hit finds a hit for the ray. Throws as closest_hit does.
+    bool any_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
-    /// Return every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
-    /// primitive. The first hit is that of closest_hit.
+    /// Returns every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
+    /// primitive. The first hit is that of closest_hit. Throws as closest_hit does.
     ///
     /// - At a shared edge or vertex each triangle that the ray hits is listed once.
     /// - A sphere is hit where the ray enters and where it exits. It is listed once if the ray touches it, or if both t
@@ -66,16 +68,11 @@ public:
     /// - The t of hits at the same point may differ by rounding. Such hits may be in either order.
     /// - The boundary of a medium is a hit too; RayHit::index_matched marks it.
     /// - An unusable ray has no hits.
-    ///
-    /// The second overload replaces the contents of `hits` and reuses its memory.
-    ///@{
-    std::vector<RayHit> all_hits(const Ray& ray) const;
-    void all_hits(const Ray& ray, std::vector<RayHit>& hits) const;
-    ///@}
+    std::vector<RayHit> all_hits(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
-    /// Return the points where the ray passes through surfaces between t_min and t_max, sorted by t. A passage through
+    /// Returns the points where the ray passes through surfaces between t_min and t_max, sorted by t. A passage through
     /// an edge or a vertex is listed once. The ray and both of its ends count as moved by an infinitesimal vector, the
-    /// same for all rays (docs/queries.md).
+    /// same for all rays (docs/queries.md). Throws as closest_hit does.
     ///
     /// - A ray that touches an edge of a closed surface, or runs along a face of it, has two crossings there or none.
     ///   So the number of crossings with closed surfaces is even between two points outside.
@@ -83,17 +80,12 @@ public:
     /// - A ray that touches a sphere between its ends does not cross it.
     /// - Disks and user-defined shapes are crossed where all_hits has hits.
     /// - An unusable ray has no crossings.
-    ///
-    /// The second overload replaces the contents of `crossings` and reuses its memory.
-    ///@{
-    std::vector<RayCrossing> crossings(const Ray& ray) const;
-    void crossings(const Ray& ray, std::vector<RayCrossing>& crossings) const;
+    std::vector<RayCrossing> crossings(const Ray& ray, const RayFilter& filter = kNoFilter) const;
     /// Returns the number of crossings.
-    std::size_t count_intersections(const Ray& ray) const;
+    std::size_t count_intersections(const Ray& ray, const RayFilter& filter = kNoFilter) const;
     /// Returns the number of outward crossings minus the number of inward ones. If surfaces are closed, this is the
     /// winding number around the start of the ray minus that around its end.
-    std::int64_t winding_number(const Ray& ray) const;
-    ///@}
+    std::int64_t winding_number(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns the winding number of the surfaces around a point, and whether the point is exactly on a surface. If a
     /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
@@ -127,17 +119,6 @@ public:
     /// \throws ArgumentError as closest_point does
     double signed_distance(const Point3& point, double time = 0) const;
 
-    /// Answer the queries of the same names for a ray that ignores the primitives which `filter` excludes. They are
-    /// somewhat slower than queries without a filter.
-    /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
-    ///@{
-    std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter) const;
-    bool any_hit(const Ray& ray, const RayFilter& filter) const;
-    void all_hits(const Ray& ray, const RayFilter& filter, std::vector<RayHit>& hits) const;
-    void crossings(const Ray& ray, const RayFilter& filter, std::vector<RayCrossing>& crossings) const;
-    std::size_t count_intersections(const Ray& ray, const RayFilter& filter) const;
-    ///@}
-
     /// Answer the queries of the same names for many rays, bit for bit as for single rays. Result i is that of rays[i].
     /// A miss of closest_hit has t == kInfinity. `occluded` is 1 if the ray hits something, else 0. An unusable ray
     /// misses.
@@ -147,14 +128,13 @@ public:
     /// \throws ArgumentError if spans differ in length, `threads` is not in 0 to 1024, `filter.objects` is neither
     /// empty nor as long as the scene has objects, or `filter.without_each` is neither empty nor as long as `rays`
     ///@{
-    std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1) const;
-    std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1) const;
-    std::size_t closest_hit(std::span<const Ray> rays, const RayFilter& filter, std::span<RayHit> hits,
-                            int threads = 1) const;
-    std::size_t any_hit(std::span<const Ray> rays, const RayFilter& filter, std::span<std::uint8_t> occluded,
-                        int threads = 1) const;
-    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1) const;
-    std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1) const;
+    std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1,
+                            const RayFilter& filter = kNoFilter) const;
+    std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1,
+                        const RayFilter& filter = kNoFilter) const;
+    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1, const RayFilter& filter = kNoFilter) const;
+    std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1,
+                                    const RayFilter& filter = kNoFilter) const;
     ///@}
 
     /// Answer the queries of the same names for many points at time 0. Result i is that of points[i]. `inside` is 1 or

@@ -81,7 +81,14 @@ struct RayFilter {
     /// A value for each ray of a batch, which is used in place of `without`. If the span is empty, `without` is used
     /// for all rays. Queries of a single ray ignore the span.
     std::span<const std::uint64_t> without_each = {};
+
+    /// Returns true if no primitive is ignored.
+    constexpr bool is_empty() const {
+        return without == kNoPrimitive && faces == Faces::both && objects.empty() && without_each.empty();
+    }
 };
+
+inline constexpr RayFilter kNoFilter;  ///< a filter of which no primitive is ignored
 
 /// All hits of many rays. The hits of ray i have the indices from first[i] up to, but not including, first[i + 1].
 struct RayHits {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "geometry/bvh/collapse.h"
-#include "geometry/bvh/parallel.h"
+#include "math/parallel.h"
 
 namespace limn::accel {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/bvh/parallel.h"
+#include "math/parallel.h"
 
 namespace limn::accel {
 

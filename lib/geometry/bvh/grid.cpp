@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "geometry/bvh/binning.h"
-#include "geometry/bvh/parallel.h"
 #include "geometry/bvh/subtree.h"
+#include "math/parallel.h"
 
 namespace limn::accel {
 

@@ -6,8 +6,8 @@
 #include "geometry/bvh/collapse.h"
 #include "geometry/bvh/gather.h"
 #include "geometry/bvh/grid.h"
-#include "geometry/bvh/parallel.h"
 #include "geometry/bvh/subtree.h"
+#include "math/parallel.h"
 
 namespace limn::accel {
 

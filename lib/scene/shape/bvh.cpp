@@ -45,11 +45,9 @@ Bvh::Bvh(std::vector<std::shared_ptr<const Hittable>> objects) : objects_(std::m
 
 Bvh::~Bvh() = default;
 
-Box Bvh::bounds() const { return tree_->bounds; }
+Box Bvh::box() const { return tree_->bounds; }
 
-std::optional<Hit> Bvh::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Bvh::intersect(const Ray& ray) const {
     const RayFrame frame = frame_of(ray);
     const accel::SlabRay slab(ray, tree_->extent, frame.origin_error, frame.direction_error);
     std::optional<Hit> nearest;

@@ -2,7 +2,6 @@
 
 #include "geometry/exact_disk.h"
 #include "geometry/hit_error.h"
-#include "math/float_environment.h"
 #include "scene/shape/arguments.h"
 
 namespace limn {
@@ -15,11 +14,9 @@ Disk::Disk(const Point3& center, const Vec3& normal, double radius, std::shared_
     if (!(radius > 0 && radius < kInfinity)) throw ArgumentError("Disk: the radius must be positive and finite");
 }
 
-Box Disk::bounds() const { return disk_bounds(center_, normal_, radius_); }
+Box Disk::box() const { return disk_bounds(center_, normal_, radius_); }
 
-std::optional<Hit> Disk::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Disk::intersect(const Ray& ray) const {
     PlanarHit hit;
     if (!intersect_disk(center_, normal_, radius_, frame_of(ray), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     const Vec3 edge{2 * radius_, 0, 0};

@@ -1,5 +1,7 @@
 #include "limn/scene/shape/hittable.h"
 
+#include "math/float_environment.h"
+
 namespace limn {
 
 namespace {
@@ -24,6 +26,16 @@ bool call_hit(const Hittable& object, const Ray& ray, UserDefinedHit& out) {
 void Hittable::lower(RecordSink& sink) const {
     sink.identify(dynamic_cast<const Tagged*>(this));
     sink.user_defined({bounds(), this, &call_hit});
+}
+
+Box BuiltInShape::bounds() const {
+    const FloatEnvironment environment;
+    return box();
+}
+
+std::optional<Hit> BuiltInShape::hit(const Ray& ray) const {
+    const FloatEnvironment environment;
+    return is_usable(ray) ? intersect(ray) : std::nullopt;
 }
 
 }  // namespace limn

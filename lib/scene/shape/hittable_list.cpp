@@ -1,6 +1,5 @@
 #include "limn/scene/shape/hittable_list.h"
 
-#include "math/float_environment.h"
 #include "scene/shape/arguments.h"
 
 namespace limn {
@@ -18,8 +17,7 @@ void HittableList::add(std::shared_ptr<const Hittable> object) {
     objects_.push_back(std::move(object));
 }
 
-std::optional<Hit> HittableList::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
+std::optional<Hit> HittableList::intersect(const Ray& ray) const {
     std::optional<Hit> nearest;
     Ray rest = ray;
     for (std::size_t i = 0; i < objects_.size(); ++i) {

@@ -75,11 +75,9 @@ Instance::Instance(std::shared_ptr<const Hittable> object, const Transform& at_t
     require_placement(at_time0, at_time1, "Instance");
 }
 
-Box Instance::bounds() const { return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds()); }
+Box Instance::box() const { return instance_bounds(world_from_object0_, world_from_object1_, object_->bounds()); }
 
-std::optional<Hit> Instance::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Instance::intersect(const Ray& ray) const {
     const Transform m = moving_ ? interpolate(world_from_object0_, world_from_object1_, ray.time) : world_from_object0_;
     const Transform inv = inverse(m);
     const RayFrame outside = frame_of(ray), inside(outside, m, inv, inverse_error(m));

@@ -82,9 +82,7 @@ std::uint32_t Mesh::face(std::uint64_t element) const {
     return data_->faces.empty() ? static_cast<std::uint32_t>(element) : data_->faces.at(element);
 }
 
-std::optional<Hit> Mesh::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Mesh::intersect(const Ray& ray) const {
     const MeshView mesh = view_of(*data_);
     PlanarHit nearest;
     const std::size_t element = intersect_mesh(mesh, frame_of(ray), {ray.t_min, ray.t_max}, nearest);

@@ -18,11 +18,9 @@ Quad::Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::sh
     if (are_parallel(edge_u, edge_v)) throw ArgumentError("Quad: the edges must not be zero or parallel");
 }
 
-Box Quad::bounds() const { return quad_bounds(corner_, edge_u_, edge_v_); }
+Box Quad::box() const { return quad_bounds(corner_, edge_u_, edge_v_); }
 
-std::optional<Hit> Quad::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Quad::intersect(const Ray& ray) const {
     PlanarHit hit;
     if (!intersect_quad(corner_, edge_u_, edge_v_, frame_of(ray), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,
@@ -37,6 +35,7 @@ void Quad::lower(RecordSink& sink) const { sink.quad({corner_, edge_u_, edge_v_,
 
 std::shared_ptr<HittableList> make_box(const Point3& corner, const Point3& opposite,
                                        const std::shared_ptr<const Material>& material) {
+    const FloatEnvironment environment;
     // Compute the edges.
     Box box;
     box.extend(corner);

@@ -4,7 +4,6 @@
 
 #include "geometry/bounds.h"
 #include "geometry/intersect.h"
-#include "math/float_environment.h"
 #include "math/sphere_uv.h"
 #include "scene/shape/arguments.h"
 
@@ -24,11 +23,9 @@ Point3 Sphere::center(double time) const {
     return center0_ == center1_ ? center0_ : interpolate(center0_, center1_, time);  // a still centre isn't rounded
 }
 
-Box Sphere::bounds() const { return sphere_bounds(center0_, center1_, radius_); }
+Box Sphere::box() const { return sphere_bounds(center0_, center1_, radius_); }
 
-std::optional<Hit> Sphere::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Sphere::intersect(const Ray& ray) const {
     const Point3 c = center(ray.time);
     PlanarHit found;
     if (!intersect_sphere(c, std::abs(radius_), frame_of(ray), {ray.t_min, ray.t_max}, found)) return std::nullopt;

@@ -15,11 +15,9 @@ Triangle::Triangle(const Point3& a, const Point3& b, const Point3& c, std::share
     if (are_collinear(a, b, c)) throw ArgumentError("Triangle: the area must not be zero");
 }
 
-Box Triangle::bounds() const { return triangle_bounds({a_, b_, c_}); }
+Box Triangle::box() const { return triangle_bounds({a_, b_, c_}); }
 
-std::optional<Hit> Triangle::hit(const Ray& ray) const {
-    const FloatEnvironment environment;
-    if (!is_usable(ray)) return std::nullopt;
+std::optional<Hit> Triangle::intersect(const Ray& ray) const {
     PlanarHit hit;
     if (!intersect_triangle(a_, b_, c_, frame_of(ray), {ray.t_min, ray.t_max}, hit)) return std::nullopt;
     return Hit{.t = hit.t,

@@ -9,7 +9,7 @@ namespace limn {
 /// The points of a plane at a distance of at most `radius` from `center`. The plane is perpendicular to `normal`, which
 /// points outward. A ray in that plane misses. u and v run from 0 to 1 over the square around the disk, along the
 /// tangents Frame::x and Frame::y of the unit normal.
-class Disk final : public Hittable {
+class Disk final : public BuiltInShape {
 public:
     /// \param normal of any length but zero
     /// \param radius above 0
@@ -17,11 +17,12 @@ public:
     ///
     /// \throws ArgumentError if a number is not finite, the normal is zero, or the radius is not positive
     Disk(const Point3& center, const Vec3& normal, double radius, std::shared_ptr<const Material> material);
-    Box bounds() const override;
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override;
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     Point3 center_;
     Vec3 normal_;
     double radius_;

@@ -53,4 +53,16 @@ public:
     virtual void lower(RecordSink& sink) const;
 };
 
+/// The base of limn's own shapes. Its two functions give the same bits in every floating-point environment of the
+/// calling thread: they set the one that the shapes' error bounds assume.
+class BuiltInShape : public Hittable {
+public:
+    Box bounds() const final;
+    std::optional<Hit> hit(const Ray& ray) const final;
+
+private:
+    virtual Box box() const = 0;                                     // computes the result of `bounds`
+    virtual std::optional<Hit> intersect(const Ray& ray) const = 0;  // computes that of `hit`; \pre is_usable(ray)
+};
+
 }  // namespace limn

@@ -10,7 +10,7 @@ namespace limn {
 
 /// A list of objects that is an object itself. Its elements are numbered consecutively: those of the first object, then
 /// those of the second, and so on.
-class HittableList final : public Hittable {
+class HittableList final : public BuiltInShape {
 public:
     HittableList() = default;  ///< makes an empty list, which no ray hits
     /// \throws ArgumentError if an object is null
@@ -20,11 +20,12 @@ public:
     /// \throws ArgumentError if the object is null or the list itself
     void add(std::shared_ptr<const Hittable> object);
 
-    Box bounds() const override { return bounds_; }
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override { return bounds_; }
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     std::vector<std::shared_ptr<const Hittable>> objects_;
     std::vector<std::uint64_t> first_element_;
     std::uint64_t elements_ = 0;

@@ -14,7 +14,7 @@ namespace limn {
 ///   space of the object, so t is the same in both spaces.
 /// - The outside of the object stays outside if the transform is a reflection.
 /// - Instances nest. compile() throws ArgumentError if they nest deeper than 16.
-class Instance final : public Hittable {
+class Instance final : public BuiltInShape {
 public:
     /// \throws ArgumentError if the object is null, a matrix is not finite, or the matrix is singular at some time from
     /// 0 to 1
@@ -22,11 +22,12 @@ public:
     Instance(std::shared_ptr<const Hittable> object, const Transform& world_from_object);
     Instance(std::shared_ptr<const Hittable> object, const Transform& at_time0, const Transform& at_time1);
     ///@}
-    Box bounds() const override;
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override;
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     std::shared_ptr<const Hittable> object_;
     Transform world_from_object0_, world_from_object1_;
     bool moving_;

@@ -21,7 +21,7 @@ struct MeshData {
 /// A triangle mesh. Hit::element is the index of the triangle in MeshData::triangles. Hit::u and Hit::v are the
 /// barycentric weights of the triangle's second and third vertex. No ray hits a triangle whose area is exactly zero.
 /// There is no other limit on the size of triangles. `hit` tests every triangle. To trace many rays, compile a scene.
-class Mesh final : public Hittable {
+class Mesh final : public BuiltInShape {
 public:
     /// A material may be null in scenes that are queried and not rendered. An empty list of materials counts as one
     /// null material.
@@ -45,11 +45,12 @@ public:
     /// Returns the number of triangles of exactly zero area.
     std::size_t degenerate_triangles() const { return degenerate_; }
 
-    Box bounds() const override { return bounds_; }
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override { return bounds_; }
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     std::shared_ptr<const MeshData> data_;
     std::vector<std::shared_ptr<const Material>> materials_;
     Box bounds_;

@@ -10,17 +10,18 @@ namespace limn {
 
 /// The parallelogram corner + u edge_u + v edge_v with u and v in [0, 1]. Its outward normal is edge_u x edge_v. A ray
 /// in the plane of the quad misses.
-class Quad final : public Hittable {
+class Quad final : public BuiltInShape {
 public:
     /// \param material may be null in scenes that are queried and not rendered
     ///
     /// \throws ArgumentError if a number is not finite, an edge is zero, or the edges are parallel
     Quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, std::shared_ptr<const Material> material);
-    Box bounds() const override;
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override;
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     Point3 corner_;
     Vec3 edge_u_, edge_v_;
     std::shared_ptr<const Material> material_;

@@ -9,7 +9,7 @@ namespace limn {
 /// A sphere, which is still or whose centre moves on a straight line from time 0 to time 1. u and v are the spherical
 /// coordinates of n = Hit::normal: u = (atan2(-n.z, n.x) + pi) / (2 pi) and v = acos(-n.y) / pi. v runs from 0 at -y to
 /// 1 at +y. u runs from 0 at -x through 1/4 at +z, 1/2 at +x and 3/4 at -z.
-class Sphere final : public Hittable {
+class Sphere final : public BuiltInShape {
 public:
     /// Makes a sphere that doesn't move.
     ///
@@ -24,11 +24,12 @@ public:
 
     Point3 center(double time) const;          ///< centre at a time, which is clamped to [0, 1]
     double radius() const { return radius_; }  ///< as given; may be negative
-    Box bounds() const override;
-    std::optional<Hit> hit(const Ray& ray) const override;
     void lower(RecordSink& sink) const override;
 
 private:
+    Box box() const override;
+    std::optional<Hit> intersect(const Ray& ray) const override;
+
     Point3 center0_, center1_;
     double radius_;
     std::shared_ptr<const Material> material_;
