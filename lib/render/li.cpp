@@ -1,10 +1,12 @@
 #include "render/li.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "math/spawn.h"
 #include "query/surface_at.h"
 #include "render/li_terms.h"
+#include "shading/shading.h"
 #include "shading/single.h"
 
 namespace limn::transport {
@@ -79,7 +81,8 @@ Path li(const PathSettings& settings, Ray ray, const Sampler& sampler) {
                 random.depth -= flight.depth;
                 continue;
             }
-            L += beta * surface_emission(settings, last, x, hit.primitive, ray.time);
+            L +=
+                beta * weighted_emission(settings, last, shade::emitted(scene, x), hit.primitive, x.position, ray.time);
         }
         if (vertex == settings.max_depth) break;
 
@@ -94,7 +97,8 @@ Path li(const PathSettings& settings, Ray ray, const Sampler& sampler) {
         beta *= wi->weight;
 
         // End paths of small throughput by Russian roulette. A larger throughput of the others makes up for it.
-        const double survival = survival_probability(settings.roulette, vertex, beta);
+        const auto& [start, factor, largest] = settings.roulette;
+        const double survival = vertex < start ? 1 : std::min(factor * max_component(beta), largest);
         if (draw(vertex, Use::roulette).x >= survival) break;
         beta = beta / survival;
 

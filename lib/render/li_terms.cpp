@@ -1,6 +1,5 @@
 #include "render/li_terms.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "limn/math/warp.h"
@@ -12,14 +11,12 @@ namespace limn::transport {
 
 namespace {
 
-// Returns the emission that scattering has found, times its weight against light sampling at the last vertex.
-// `primitive` and `position` are those of lights::LightHits.
-Color weighted_emission(const PathSettings& settings, const LastVertex& last, const Color& emission,
-                        std::uint64_t primitive, const Point3& position, double time) {
-    if (!settings.sample_lights || last.scatter_pdf == 0 || is_black(emission)) return emission;
-    const double light_pdf =
-        last.pdf_ratio * shade::pdf_light(settings.scene, last.receiver, time, primitive, position);
-    return shade::power_heuristic(last.scatter_pdf, light_pdf) * emission;
+// Returns the radiance that arrives from a distant light against a direction. Lights without extent are black.
+Color radiance_of(const flat::Scene& scene, const flat::Light& light, const Vec3& direction) {
+    if (light.kind == flat::LightKind::environment) return shade::environment_radiance(scene, direction);
+    if (light.kind != flat::LightKind::sun) return {};
+    const LightRecord& sun = scene.light_sources[light.number];
+    return shade::sun_covers(sun, direction) ? shade::sun_radiance(sun) : Color{};
 }
 
 // Returns the share of light that gets from one end of a ray to the other, through holes and media.
@@ -48,21 +45,24 @@ Color single_scattering(const PathSettings& settings, const Ray& ray, const Medi
            direct_light(settings, point_in_medium(ray, flight), -ray.direction, ray.time, {pick, u, v}, pdf_ratio);
 }
 
+Color weighted_emission(const PathSettings& settings, const LastVertex& last, const Color& emission,
+                        std::uint64_t primitive, const Point3& position, double time) {
+    if (!settings.sample_lights || last.scatter_pdf == 0 || is_black(emission)) return emission;
+    const double light_pdf =
+        last.pdf_ratio * shade::pdf_light(settings.scene, last.receiver, time, primitive, position);
+    return shade::power_heuristic(last.scatter_pdf, light_pdf) * emission;
+}
+
 Color distant_emission(const PathSettings& settings, const LastVertex& last, const Ray& ray) {
     const flat::Scene& scene = settings.scene;
     Color sum;
     if (scene.environment.image == nullptr)
         sum += Background{scene.background_bottom, scene.background_top}.radiance(ray.direction);
     for (std::size_t k = 0; k < scene.lights.distant.size(); ++k) {
-        const Color emission = shade::distant_radiance(scene, k, ray.direction);
+        const Color emission = radiance_of(scene, scene.lights.distant[k].light, ray.direction);
         sum += weighted_emission(settings, last, emission, flat::kFirstDistant + k, Point3{} + ray.direction, ray.time);
     }
     return sum;
-}
-
-Color surface_emission(const PathSettings& settings, const LastVertex& last, const Surface& x, std::uint64_t primitive,
-                       double time) {
-    return weighted_emission(settings, last, shade::emitted(settings.scene, x), primitive, x.position, time);
 }
 
 Color direct_light(const PathSettings& settings, const Surface& x, const Vec3& wo, double time, const Random3& random,
@@ -75,11 +75,6 @@ Color direct_light(const PathSettings& settings, const Surface& x, const Vec3& w
     const double light_pdf = pdf_ratio * light->pdf;
     const double weight = shade::power_heuristic(light_pdf, f.pdf);
     return (weight / light_pdf * transmittance(scene, light->shadow_ray)) * (f.value * light->radiance);
-}
-
-double survival_probability(const shade::Roulette& roulette, std::uint32_t vertex, const Color& beta) {
-    if (vertex < roulette.start) return 1;
-    return std::min(roulette.factor * max_component(beta), roulette.largest);
 }
 
 }  // namespace limn::transport

@@ -35,21 +35,18 @@ struct LastVertex {
 Color single_scattering(const PathSettings& settings, const Ray& ray, const MediaAlongRay& media,
                         const Equiangular& along, const Sampler& sampler, std::uint32_t vertex);
 
-// Returns the light that arrives from the background and from distant lights along a ray that leaves the scene. It is
-// weighted against light sampling at the last vertex.
-Color distant_emission(const PathSettings& settings, const LastVertex& last, const Ray& ray);
+// Returns the emission that the path has found by scattering, times its weight against light sampling at the last
+// vertex. `primitive` and `position` are those of lights::LightHits.
+Color weighted_emission(const PathSettings& settings, const LastVertex& last, const Color& emission,
+                        std::uint64_t primitive, const Point3& position, double time);
 
-// Returns the light that a surface emits towards the last vertex. It is weighted against light sampling there.
-Color surface_emission(const PathSettings& settings, const LastVertex& last, const Surface& x, std::uint64_t primitive,
-                       double time);
+// Returns the weighted emission of the background and of distant lights along a ray that leaves the scene.
+Color distant_emission(const PathSettings& settings, const LastVertex& last, const Ray& ray);
 
 // Returns an estimate of the light that arrives at x straight from lights and is scattered into direction wo, by a
 // sample of one light. It is weighted against scattering.
 // \param pdf_ratio the ratio of LastVertex, for x. The estimate is divided by it
 Color direct_light(const PathSettings& settings, const Surface& x, const Vec3& wo, double time, const Random3& random,
                    double pdf_ratio);
-
-// Returns the probability that Russian roulette lets a path of throughput beta go on from a vertex.
-double survival_probability(const shade::Roulette& roulette, std::uint32_t vertex, const Color& beta);
 
 }  // namespace limn::transport

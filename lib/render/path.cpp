@@ -164,9 +164,16 @@ void PathTracer::escape(std::size_t row, const Color& throughput) {
 // A function of its own, so that scenes without them do not save the registers that it needs.
 void PathTracer::add_distant_emission(std::size_t row, const Color& throughput) {
     const Vec3& direction = ray_list_[row].direction;
-    for (std::size_t k = 0; k < scene_.lights.distant.size(); ++k) {
-        const Color radiance = shade::distant_radiance(scene_, k, direction);
-        if (!is_black(radiance)) add_emission(row, throughput * radiance, flat::kFirstDistant + k, direction);
+    const std::vector<flat::DistantLight>& distant = scene_.lights.distant;
+    for (std::size_t k = 0; k < distant.size(); ++k) {
+        const flat::Light& light = distant[k].light;
+        const std::uint64_t number = flat::kFirstDistant + k;
+        if (light.kind == flat::LightKind::environment)
+            add_emission(row, throughput * shade::environment_radiance(scene_, direction), number, direction);
+        if (light.kind != flat::LightKind::sun) continue;
+        const LightRecord& sun = scene_.light_sources[light.number];
+        if (shade::sun_covers(sun, direction))
+            add_emission(row, throughput * shade::sun_radiance(sun), number, direction);
     }
 }
 

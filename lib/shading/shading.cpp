@@ -51,9 +51,6 @@ double spot_factor(const LightRecord& spot, const Vec3& from_receiver) {
     return part * part;
 }
 
-// Returns the radiance of a sun's disc: a disc of radius r and radiance L gives a plane across it pi L sin^2 r.
-Color sun_radiance(const LightRecord& sun) { return sun.color / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos)); }
-
 // Of lights without extent as if they filled kNoSolidAngle, as seen from a distance of 1: points are drawn the more
 // densely per solid angle the farther they are.
 Color radiance_of_source(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i) {
@@ -132,17 +129,16 @@ Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& 
     return texture_coordinates(scene.meshes[range.first_row].arrays, place.element, {0, samples.u[i], samples.v[i]});
 }
 
-Color distant_radiance(const flat::Scene& scene, std::size_t k, const Vec3& direction) {
-    const flat::Light& light = scene.lights.distant[k].light;
-    if (light.kind == flat::LightKind::environment) {
-        const flat::Environment& map = scene.environment;
-        return pattern::map_radiance(*map.image, map.scale, pattern::map_uv(map.axes, direction));
-    }
-    if (light.kind != flat::LightKind::sun) return {};
-    const LightRecord& sun = scene.light_sources[light.number];
-    // The term on the left is 1 - cos, because both vectors are unit vectors.
-    const bool is_covered = length_squared(normalize(direction) + sun.direction) / 2 <= sun.one_minus_cos;
-    return is_covered ? sun_radiance(sun) : Color{};
+Color environment_radiance(const flat::Scene& scene, const Vec3& direction) {
+    const flat::Environment& map = scene.environment;
+    return pattern::map_radiance(*map.image, map.scale, pattern::map_uv(map.axes, direction));
+}
+
+// A disc of radius r and radiance L gives a plane across it pi L sin^2 r.
+Color sun_radiance(const LightRecord& sun) { return sun.color / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos)); }
+
+bool sun_covers(const LightRecord& sun, const Vec3& direction) {
+    return length_squared(normalize(direction) + sun.direction) / 2 <= sun.one_minus_cos;  // of unit vectors: 1 - cos
 }
 
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i) {

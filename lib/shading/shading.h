@@ -20,8 +20,13 @@ bool is_specular(const flat::Scene& scene, const MaterialRef& material);
 bool can_emit(const flat::Scene& scene, const MaterialRef& material);
 Color emitted(const flat::Scene& scene, const Surface& s);
 
-// Returns the radiance of LightTable::distant[k] from a direction of any length. Lights without extent are black.
-Color distant_radiance(const flat::Scene& scene, std::size_t k, const Vec3& direction);
+// Of a direction of any length. \pre there is an environment
+Color environment_radiance(const flat::Scene& scene, const Vec3& direction);
+
+// Of a sun's disc.
+Color sun_radiance(const LightRecord& sun);
+// Whether the disc covers a direction of any length.
+bool sun_covers(const LightRecord& sun, const Vec3& direction);
 
 // As a normal map bends it. \param incoming direction of the ray that came here
 Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);

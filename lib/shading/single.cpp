@@ -8,15 +8,21 @@
 
 namespace limn::shade {
 
+namespace {
+
+// Returns rows of which the first is the vertex.
+bsdf::Vertices rows_of(const flat::Scene& scene, const Surface& vertex, const Vec3& out) {
+    bsdf::Vertices rows;
+    rows.count = 1;
+    set_vertex(scene, vertex, -out, rows, 0);
+    return rows;
+}
+
+}  // namespace
+
 Receiver receiver_at(const flat::Scene& scene, const Surface& vertex) {
     const bsdf::Lobe* lobe = lobe_of(scene, vertex.material);
     return {vertex.position, lobe && lobe->one_sided ? Vec3(vertex.normal) : Vec3{}};
-}
-
-OneReceiver::OneReceiver(const Receiver& receiver, double at_time) {
-    position.set(0, receiver.position);
-    normal.set(0, receiver.normal);
-    time[0] = at_time;
 }
 
 std::optional<LightSample> sample_light(const flat::Scene& scene, const Surface& vertex, double time,
@@ -50,9 +56,7 @@ std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Sur
                                              const Random3& random) {
     const bsdf::Lobe* lobe = lobe_of(scene, vertex.material);
     if (!lobe) return std::nullopt;
-    bsdf::Vertices v;
-    v.count = 1;
-    set_vertex(scene, vertex, -out, v, 0);
+    bsdf::Vertices v = rows_of(scene, vertex, out);
     v.numbers[0][0] = random.x;
     v.numbers[1][0] = random.y;
     v.numbers[2][0] = random.z;
@@ -64,9 +68,7 @@ std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Sur
 ScatterValue material_value(const flat::Scene& scene, const Surface& vertex, const Vec3& out, const Vec3& in) {
     const bsdf::Lobe* lobe = lobe_of(scene, vertex.material);
     if (!lobe) return {};
-    bsdf::Vertices v;
-    v.count = 1;
-    set_vertex(scene, vertex, -out, v, 0);
+    bsdf::Vertices v = rows_of(scene, vertex, out);
     sampling::Rows3 directions;
     directions.set(0, in);
     bsdf::value(*lobe, v, directions);

@@ -22,11 +22,14 @@ Receiver receiver_at(const flat::Scene& scene, const Surface& vertex);
 
 // A receiver in the first row.
 struct OneReceiver {
-    explicit OneReceiver(const Receiver& receiver, double at_time = 0);
+    explicit OneReceiver(const Receiver& receiver, double at_time = 0) : time{at_time} {
+        position.set(0, receiver.position);
+        normal.set(0, receiver.normal);
+    }
     lights::Receivers rows() const { return {1, position, normal, time}; }
 
     sampling::Rows3 position, normal;
-    sampling::Row time = {};
+    sampling::Row time;
 };
 
 // A sampled direction towards a light.
