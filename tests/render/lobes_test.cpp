@@ -9,6 +9,7 @@
 #include "limn/limn.h"
 #include "lobe_examples.h"
 #include "math/sobol.h"
+#include "random_light.h"
 #include "render/sampler.h"
 #include "shading/stages.h"
 #include "support/random_geometry.h"
