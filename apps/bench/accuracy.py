@@ -1,8 +1,7 @@
 """Counts how many intersections are wrong, in limn and in other libraries.
 
-Run it by ./build.sh accuracy. It writes build/results/accuracy.json and accuracy.html. The exit status is 1 if limn has
-a wrong intersection. An interrupted run continues with the groups that are not measured yet. docs/accuracy.md describes
-the groups."""
+Run it by ./build.sh accuracy. The exit status is 1 if limn has a wrong intersection. An interrupted run continues with
+the groups that are not measured yet. docs/accuracy.md describes the groups."""
 
 import argparse
 import sys
@@ -23,7 +22,6 @@ FULL = ("--rays", "1000000", "--leak-rays", "10000000")
 
 
 def is_wrong(measure, column, cell):
-    """Returns True if limn exceeds a limit in this cell."""
     if measure == "furnace":
         return (column == DEEP and abs(cell["figure"]) > LIMIT_FURNACE or
                 column == "unlimited" and abs(cell["figure"]) > LIMIT_FURNACE + 4.5 * cell["figure_error"])
@@ -69,8 +67,7 @@ def draw_leaks(group):
                 rows = [row for row in group["rows"] if row["case"].startswith(body) and row["case"].endswith(kind)]
                 rates = [1e6 * row["cells"][k]["false_misses"] / row["cells"][k]["asked"] for row in rows]
                 axis.plot([f"{row['x']:g}" for row in rows], rates, style, color=f"C{k}", label=f"{column}, {body}")
-        axis.set_yscale("symlog", linthresh=1)
-        axis.set(xlabel="distance from the origin along each axis", title=f"aimed at {kind}")
+        axis.set(xlabel="distance from the origin along each axis", title=f"aimed at {kind}", yscale="symlog")
         axis.grid(True, alpha=0.3)
     axes[0].set_ylabel("leaks a million rays")
     axes[0].legend(fontsize=7)

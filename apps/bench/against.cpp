@@ -1,9 +1,6 @@
 // Prints the time that a render or a set of rays takes. against.py links it with the libraries of two commits.
-//
-//     against                          lists the scenes: "samples NAME" or "rays NAME"
-//     against samples NAME SPP         renders 100x100 pixels with SPP samples each
-//     against instructions NAME SPP    renders 16x16 pixels with SPP samples each, for callgrind
-//     against rays NAME SPP            traces rays of each kind and ignores SPP
+//     against                                   lists the scenes: "samples NAME" or "rays NAME"
+//     against samples|instructions|rays NAME SPP  renders 100x100 or 16x16 pixels, or traces rays of each kind
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -14,7 +11,6 @@
 
 using namespace limn;
 
-// Returns the scenes that are rendered, by name.
 static std::map<std::string, std::function<Figure()>> pictures() {
     std::map<std::string, std::function<Figure()>> found;
 #define LIMN_ADD(figure) found[#figure] = [] { return figures::figure(); };
@@ -36,31 +32,28 @@ extern "C" [[gnu::noinline]] void measured_render(const CompiledScene& scene, co
     render(scene, figure.camera, figure.settings);
 }
 
+static void trace_rays(const std::string& name) {
+    const bench::Geometry geometry = bench::make_scene(name, 1);
+    const CompiledScene scene = compile(bench::describe(geometry));
+    for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) {
+        std::vector<RayHit> hits(set.rays.size());
+        std::vector<std::uint8_t> occluded(set.rays.size());
+        print_seconds(set.name + ",single", [&] {
+            for (const Ray& ray : set.rays) set.any ? scene.any_hit(ray) : scene.closest_hit(ray).has_value();
+        });
+        print_seconds(set.name + ",batch",
+                      [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
+    }
+}
+
 int main(int argc, char** argv) {
     const std::string what = argc == 4 ? argv[1] : "list";
     if (what == "list") {
-        // List the scenes.
         for (const auto& [name, make] : pictures()) std::printf("samples %s\n", name.c_str());
         for (const std::string& name : bench::scene_names()) std::printf("rays %s\n", name.c_str());
     } else if (what == "rays") {
-        // Trace the rays of each kind.
-        const bench::Geometry geometry = bench::make_scene(argv[2], 1);
-        const CompiledScene scene = compile(bench::describe(geometry));
-        for (const bench::RaySet& set : bench::make_rays(geometry, scene, 65536)) {
-            std::vector<RayHit> hits(set.rays.size());
-            std::vector<std::uint8_t> occluded(set.rays.size());
-            print_seconds(set.name + ",single", [&] {
-                for (std::size_t i = 0; i < set.rays.size(); ++i)
-                    if (set.any)
-                        occluded[i] = scene.any_hit(set.rays[i]);
-                    else
-                        hits[i] = scene.closest_hit(set.rays[i]).value_or(RayHit{});
-            });
-            print_seconds(set.name + ",batch",
-                          [&] { set.any ? scene.any_hit(set.rays, occluded) : scene.closest_hit(set.rays, hits); });
-        }
+        trace_rays(argv[2]);
     } else {
-        // Render.
         Figure figure = pictures().at(argv[2])();
         figure.settings.width = figure.settings.height = what == "samples" ? 100 : 16;
         figure.settings.samples_per_pixel = std::stoi(argv[3]);

@@ -1,17 +1,16 @@
 """Compares limn with Embree in tracing and building, and with Open3D, trimesh and embreex in queries.
 
-Run it by ./build.sh bench. It writes build/results/bench.json and bench.html. The exit status is 1 if a result is
-wrong. An interrupted run continues with what is not measured yet. The times mean little if the machine runs other
-programs."""
+Run it by ./build.sh bench. The exit status is 1 if a result is wrong. An interrupted run continues with what is not
+measured yet. The times mean little if the machine runs other programs."""
 
 import argparse
 import os
 import subprocess
 import sys
 from pathlib import Path
-from statistics import geometric_mean, median, quantiles
+from statistics import geometric_mean, median
 
-from results import BIN, ROOT, Kept, origin, run_json, table, write
+from results import BIN, ROOT, Kept, origin, quartiles, run_json, spread, table, write
 
 SCENES = ("sphere", "soup", "spheres", "cornell", "forest")
 PARTS = (*SCENES, "growth", "queries")
@@ -41,45 +40,32 @@ def ask_peers(*arguments):
 
 
 def subject(row, name):
-    """Returns the subject of a row that has the name, or None. "batch" is the fastest of limn's batches. "best mode" is
-    the fastest of Embree's modes."""
+    """Returns the subject of a row that has the name, or else {}. HEAD defines the names "batch" and "best mode"."""
     fits = {"batch": lambda s: s["name"].startswith("limn batch"),
             "best mode": lambda s: s["name"].startswith("Embree") and s["name"] != "Embree robust"}
     found = filter(fits.get(name, lambda s: s["name"] == name), row["subjects"])
-    return max(found, key=lambda s: s["million_a_second"], default=None)
+    return max(found, key=lambda s: s["million_a_second"], default={})
 
 
 def ratio(a, b):
     """Returns the quartiles over the rounds of the times b divided by the times a, or None if one is missing."""
-    return a and b and quantiles([y / x for x, y in zip(a, b)], n=4, method="inclusive")
+    return quartiles([y / x for x, y in zip(a, b)]) if a and b else None
 
 
 def ray_ratio(row, ours, theirs):
-    """Returns the ratio of two subjects of a row."""
-    return ratio(*((found := subject(row, name)) and found["seconds"] for name in (ours, theirs)))
-
-
-def rate(row, name):
-    """Returns million rays a second, or None if there is no such subject."""
-    return (found := subject(row, name)) and found["million_a_second"]
+    return ratio(*(subject(row, name).get("seconds") for name in (ours, theirs)))
 
 
 def number(x, digits=2):
     return "–" if x is None else f"{x:,.{digits}f}"
 
 
-def spread(r):
-    return f"{r[1]:.2f} ({r[0]:.2f}..{r[2]:.2f})" if r else "–"
-
-
 def rows_of(scenes, threads=1):
-    """Returns the rows of a number of threads, with their titles."""
     return [(f"{scene['name']}, {row['rays']}", row) for scene in scenes for row in scene["rows"]
             if row["threads"] == threads]
 
 
 def summary(scenes):
-    """Returns a table of the mean ratios of each scene and of all."""
     def means(rows):
         found = [[r[1] for _, row in rows if (r := ray_ratio(row, *pair))] for pair in RATIOS]
         return [number(geometric_mean(ratios)) if ratios else "–" for ratios in found]
@@ -89,9 +75,9 @@ def summary(scenes):
 
 
 def ray_tables(scenes):
-    """Returns three tables: rates; batches over single rays, and the processor's best instruction set over AVX2 if it
-    has a better one; all threads over one."""
+    """Returns tables of rates, of batches (and of the best instruction set over AVX2), and of all threads over one."""
     columns = ["limn", "batch", "Embree", "Embree robust", "best mode"]
+    rate = lambda row, name: subject(row, name).get("million_a_second")
     gains = [r for r in (("limn", "AVX2"), ("limn batch", "AVX2 batch")) if subject(scenes[0]["rows"][0], r[1])]
     rates, batches, threads = [], [], []
     most = max(row["threads"] for scene in scenes for row in scene["rows"])
@@ -99,7 +85,7 @@ def ray_tables(scenes):
         plain, best = subject(row, "Embree"), subject(row, "best mode")
         rates.append([name, *(number(rate(row, c)) for c in columns), best["name"][7:] or "1" if best else "–",
                       *(spread(ray_ratio(row, *r)) for r in RATIOS),
-                      number(plain and 1e6 * plain["mismatches"] / row["count"], 0)])
+                      number(1e6 * plain["mismatches"] / row["count"] if plain else None, 0)])
         batches.append([name, *(spread(ray_ratio(row, batch, "limn")) for batch in BATCHES),
                         *(spread(ray_ratio(row, *r)) for r in gains)])
         threads.append([name, *(number(rate(row, c) and rate(many, c) / rate(row, c)) for c in columns[:3])])
@@ -111,15 +97,13 @@ def ray_tables(scenes):
 
 
 def building(scenes):
-    """Returns a table of the time of building and of the memory."""
     rows = []
     for scene in scenes:
         for build in scene["builds"]:
             own, theirs = build["seconds"]["limn"], build["seconds"].get("Embree")
             rows.append([scene["name"], f"{scene['primitives']:,}", build["threads"], f"{median(own):.3g}",
                          f"{median(theirs):.3g}" if theirs else "–", spread(ratio(own, theirs)),
-                         *(number(scene["bytes"].get(name, 0) / scene["primitives"], 1)
-                           for name in ("limn", "Embree"))])
+                         *(number(scene["bytes"].get(n, 0) / scene["primitives"], 1) for n in ("limn", "Embree"))])
     return "## Building and memory\n\n" + table(
         ["scene", "primitives", "threads", "limn, s", "Embree, s", "limn / Embree", "limn, bytes each",
          "Embree, bytes each"], rows)
@@ -142,7 +126,6 @@ def query_tables(results):
 
 
 def faults(results):
-    """Returns a line for each wrong result of limn."""
     found = [f"{t['scene']}, {t['rays']}: {t['wrong']} of {t['judged']} results are wrong: {t['first']}"
              for t in results.get("truth", []) if t["wrong"]]
     found += [f"{scene['name']}, {row['rays']}: {row['differences']} rays have other results in batches"
@@ -156,9 +139,7 @@ def faults(results):
 
 
 def measure(kept, options, models):
-    """Measures what the options say, and returns the results by part."""
-    results = {}
-    chosen = options.scene or PARTS
+    results, chosen = {}, options.scene or PARTS
     scenes = [name for name in chosen if name in SCENES]
     rays, judged, asked, most = (2 ** 18, 200, 2000, 2e7) if options.full else (2 ** 17, 40, 200, 2e6)
     if scenes or models:

@@ -12,24 +12,14 @@
 
 namespace limn::bench {
 
-// The clocks. The work of one thread is measured in processor time, which other programs affect less. The work of
-// several threads is measured in wall time.
+// One thread is measured in processor time, which other programs affect less. Several are measured in wall time.
 enum class Clock { wall = CLOCK_MONOTONIC, process = CLOCK_PROCESS_CPUTIME_ID, thread = CLOCK_THREAD_CPUTIME_ID };
 
-// Returns the time of a clock in seconds.
 inline double seconds(Clock clock) {
     timespec time{};
     clock_gettime(static_cast<clockid_t>(clock), &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-// The result of a ray. In a set of any-hit queries a hit has t = 0, and the other members are 0.
-struct Answer {
-    double t = kInfinity;  // infinity is a miss
-    double u = 0, v = 0;
-    std::uint64_t primitive = 0;
-    bool operator==(const Answer&) const = default;
-};
 
 // One way to trace rays in a built scene: single rays, packets or batches. Only trace() is timed. prepare() converts
 // the rays to the form that the ray tracer takes. trace() reads them and stores the results.
@@ -41,8 +31,9 @@ public:
     virtual void prepare(const RaySet& set) = 0;
     // Traces `count` rays from `first` on, a multiple of 64. Several threads may trace parts that do not overlap.
     virtual void trace(std::size_t first, std::size_t count) = 0;
-    // Returns the result of ray i. \pre the ray has been traced
-    virtual Answer answer(std::size_t i) const = 0;
+    // Returns the result of ray i, whose t is infinite for a miss and 0 for an any-hit query that hits. The contenders
+    // are compared by t alone. \pre the ray has been traced
+    virtual RayHit answer(std::size_t i) const = 0;
 
     const std::string name;
 };
@@ -54,7 +45,6 @@ struct BuiltScene {
     std::vector<std::unique_ptr<Subject>> subjects;  // the first one traces single rays
 };
 
-// A ray tracer.
 struct Contender {
     std::string name, version;
     // Builds a scene and takes the time by the clock. The geometry must outlive the scene.
@@ -63,11 +53,7 @@ struct Contender {
 // Builds a scene with limn. See Contender::build.
 BuiltScene build_limn(const Geometry& geometry, Clock clock);
 
-// Returns limn and the contenders of the module limn_bench_embree (common/module.h). If the module can't be loaded,
-// adds the reason to `notes`.
+// Returns limn and the contenders of the module limn_bench_embree. Adds a note if the module can't be loaded.
 std::vector<Contender> load_contenders(std::vector<std::string>& notes);
-
-// The type of the function limn_module of a module.
-using AddContenders = void(std::vector<Contender>&);
 
 }  // namespace limn::bench

@@ -1,9 +1,7 @@
 """Measures the seconds to a relMSE, of limn and of other renderers.
 
-Writes build/results/convergence.json and convergence.html; with --size 400 their names are convergence-400.
 transport_scenes.cpp describes the scenes, and the modules of peers/ make them for each renderer that can express them.
-Each renderer first renders a converged reference in two halves. All of them then take turns with growing numbers of
-samples on one thread, with several seeds. The seconds mean little if the machine runs other programs."""
+The seconds mean little if the machine runs other programs."""
 
 import argparse
 import math
@@ -11,7 +9,7 @@ import os
 import sys
 import tempfile
 from pathlib import Path
-from statistics import mean, median
+from statistics import linear_regression, mean, median
 
 import promise
 from renderers import PEERS, PROGRAM, SCENES, SCENES_OF_LIMN, UNIFORM, Failed, Limn, Peer, compare
@@ -21,8 +19,6 @@ LARGE_SCENES = ("cornell", "lamps", "three-spheres", "still-spheres", "many-ligh
 PILOT_SPP, FIRST_SPP, GROWTH, LARGEST_SPP = 16, 4, 4, 1 << 20
 ERROR = 1e-3  # the relMSE for which seconds are stated
 DIFFERENT = 0.01  # smallest difference of block means that shows that two renderers solve different problems
-STYLES = {"limn": ("black", "o-"), UNIFORM: ("0.5", "o--"), "mitsuba": ("C0", "s-"), "cycles": ("C1", "^-"),
-          "luxcore": ("C2", "v-")}
 
 
 def parse_arguments():
@@ -52,7 +48,6 @@ def reference(renderer, folder, a):
         seconds, _ = renderer.render(folder / "pilot.exr", a.size, spp, seed, threads)
     while spp < LARGEST_SPP and 1.5 * spp * seconds / PILOT_SPP < a.cap:
         spp *= 2
-    # Render the halves with as many samples as fit into the time.
     halves = [folder / f"{renderer.key}-{half}.exr" for half in "ab"]
     for seed, half in enumerate(halves, 1001):
         renderer.render(half, a.size, spp, seed, threads)
@@ -62,7 +57,6 @@ def reference(renderer, folder, a):
 def block_means(picture):
     """Writes a picture of the means of blocks of 10x10 pixels and returns its path."""
     from OpenImageIO import ROI, ImageBuf, ImageBufAlgo  # Debian's python3-openimageio
-
     image, small = ImageBuf(str(picture)), picture.with_suffix(".blocks.exr")
     size = image.spec().width // 10
     ImageBufAlgo.resize(image, "box", 1, ROI(0, size, 0, size, 0, 1, 0, 3)).write(str(small))
@@ -98,19 +92,18 @@ def measure(scene, renderers, a):
         # Multiply the number of samples from rung to rung. The renderers take turns at each rung and seed.
         active, spp = [renderer for renderer in renderers if renderer.key in references], FIRST_SPP
         while active and spp <= LARGEST_SPP:
-            for renderer in active:
-                rows[renderer.key]["rungs"].append({"seconds": [], "errors": []})
+            rungs = {renderer: {"seconds": [], "errors": []} for renderer in active}
             for seed in range(1, a.seeds + 1):
-                for renderer in active:
-                    rung = rows[renderer.key]["rungs"][-1]
+                for renderer, rung in rungs.items():
                     seconds, rung["spp"] = renderer.render(folder / "a.exr", a.size, spp, seed, 1)
                     compared = compare(folder / "a.exr", *references[renderer.key])
                     rung["seconds"].append(seconds)
                     rung["errors"].append(compared["corrected_relmse"])
                     rung["reference_error"] = compared["reference_relmse"]
+            for renderer, rung in rungs.items():
+                rows[renderer.key]["rungs"].append(rung)
             # Go on with a renderer if the next rung is short enough and its error is still above that of its reference.
-            rungs = ((renderer, rows[renderer.key]["rungs"][-1]) for renderer in active)
-            active = [renderer for renderer, rung in rungs if GROWTH * median(rung["seconds"]) <= a.cap
+            active = [renderer for renderer, rung in rungs.items() if GROWTH * median(rung["seconds"]) <= a.cap
                       and mean(rung["errors"]) > rung["reference_error"]]
             spp *= GROWTH
     return rows
@@ -124,17 +117,16 @@ def seconds_to(error, curve):
         return math.inf, True
     goal = math.log(error)
     near = sorted(known, key=lambda point: abs(point[1] - goal))[:3]
-    x, y = (mean(axis) for axis in zip(*near))
-    spread = sum((p[0] - x) ** 2 for p in near)
-    slope = sum((p[0] - x) * (p[1] - y) for p in near) / spread if spread > 0 else -1.0
+    x, y = zip(*near)
+    slope = linear_regression(x, y).slope if len(set(x)) > 1 else -1.0
     if not -3 < slope < -0.3:  # the noise is too large for a fit: use the slope of independent samples
         slope = -1.0
-    return math.exp(x + (goal - y) / slope), not min(e for _, e in known) <= goal <= max(e for _, e in known)
+    is_inside = min(e for _, e in known) <= goal <= max(e for _, e in known)
+    return math.exp(mean(x) + (goal - mean(y)) / slope), not is_inside
 
 
 def seconds_by_seed(error, rungs):
-    """Returns the result of seconds_to for each seed, in ascending order. A rung has the lists "seconds" and "errors"
-    with an entry for each seed."""
+    """Returns the sorted results of seconds_to for each seed. A rung has the seconds and the errors of each seed."""
     curves = zip(*([(median(rung["seconds"]), e) for e in rung["errors"]] for rung in rungs))
     return sorted(seconds_to(error, curve) for curve in curves)
 
@@ -144,7 +136,6 @@ def median_seconds(row):
 
 
 def solves_another_problem(difference, noise):
-    """Returns True if the difference of two renderers is too large for noise."""
     return difference > max(DIFFERENT, 2 * noise)
 
 
@@ -163,7 +154,6 @@ def ratio_cell(rows):
 
 
 def page(scenes, a, plot):
-    """Returns the page of results as Markdown."""
     # Define the cells of the tables.
     keys = ["limn", *a.peer]
 
@@ -209,18 +199,15 @@ solves another problem and is not compared.
 
 
 def draw(scenes, path):
-    """Draws the error over the seconds for each scene."""
     import matplotlib.pyplot as plt
-
     lines = -(-len(scenes) // 2)
     figure, axes = plt.subplots(lines, 2, figsize=(11, 3.6 * lines), squeeze=False, layout="constrained")
     for axis in axes.flat[len(scenes):]:
         axis.set_axis_off()
     for axis, (scene, rows) in zip(axes.flat, scenes.items()):
         for key, row in rows.items():
-            color, style = STYLES[key]
             axis.loglog([median(rung["seconds"]) for rung in row["rungs"]],
-                        [mean(rung["errors"]) for rung in row["rungs"]], style, color=color, label=key)
+                        [mean(rung["errors"]) for rung in row["rungs"]], "o-", label=key)
         axis.set(title=scene, xlabel="seconds of rendering, one thread", ylabel="relMSE")
         axis.grid(True, alpha=0.3)
         axis.legend()

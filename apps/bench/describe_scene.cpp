@@ -5,7 +5,6 @@
 #include <span>
 
 #include "bench/transport_scenes.h"
-#include "json_output.h"
 #include "limn/math/error.h"
 #include "limn/records/record_sink.h"
 
@@ -24,7 +23,6 @@ Json triple(const Color& c) { return {c.r, c.g, c.b}; }
 Json triple(const Index3& t) { return {t.a, t.b, t.c}; }
 Json pair(const Float2& uv) { return {uv.u, uv.v}; }
 
-// Returns an array of to_json(element) for all elements.
 Json list(const auto& elements, const auto& to_json) {
     Json all = Json::array();
     for (const auto& element : elements) all.push_back(to_json(element));
@@ -44,8 +42,7 @@ class Description {
 public:
     explicit Description(const SceneRecords& records) : records_(records) {}
 
-    // Adds the spheres, meshes and media of a BLAS to the lists "spheres", "meshes" and "media" of `all`. `place` is
-    // its transform to world space.
+    // Adds the shapes of a BLAS to the lists "spheres", "meshes" and "media" of `all`, transformed by `place`.
     void add_shapes(BlasId id, const Transform& place, Json& all) const {
         for (const PrimitiveRange& range : records_.blases[static_cast<std::size_t>(id)].ranges) {
             // Convert the primitives by their kind.
@@ -92,7 +89,6 @@ private:
         }
     }
 
-    // Returns a mesh in world space.
     Json mesh(const MeshRecord& m, const Transform& place) const {
         const auto& slots = m.arrays.material_slots;
         require(std::ranges::adjacent_find(slots, std::not_equal_to()) == slots.end(), "meshes of several materials");
@@ -107,7 +103,6 @@ private:
                 {"material", material(m.materials.at(slots.empty() ? 0 : slots[0]))}};
     }
 
-    // Returns a material: its lobe, and its normal map and opacity if it has them.
     Json material(MaterialId id) const {
         const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
         Json told = lobe(m);
@@ -134,13 +129,12 @@ private:
             return {{"kind", "glass"}, {"index", m.parameter}};
         }
         require(m.kind == "rough-conductor" || m.kind == "rough-dielectric", "materials of other classes");
-        // Microfacets remain. numbers[3] and numbers[4] are alpha along u and across it.
+        // Microfacets remain. numbers[0] to [2] are the edge tint, [3] and [4] are alpha along u and across it.
         const double alpha = m.details->numbers[3];
         require(alpha != 0 && alpha == m.details->numbers[4], "brushed or smooth microfacets");
         if (m.kind == "rough-dielectric") return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", alpha}};
         const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
         require(reflectance.kind == TextureKind::solid, "metals that are not of one colour");
-        // numbers[0] to numbers[2] are the edge tint.
         const auto& tint = m.details->numbers;
         return {{"kind", "rough-conductor"},
                 {"reflectance", triple(reflectance.color)},
@@ -148,7 +142,6 @@ private:
                 {"alpha", alpha}};
     }
 
-    // Returns a texture: a colour, a checkerboard or an image.
     Json texture(TextureId id) const {
         const TextureRecord& t = records_.textures.at(static_cast<std::size_t>(id));
         if (t.kind == TextureKind::solid) return triple(t.color);

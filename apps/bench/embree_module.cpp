@@ -16,9 +16,8 @@ namespace {
 
 alignas(64) constexpr int kAllLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 
-// Traces rays in packets of kLanes. One lane means single rays. With kStreams it traces streams of 64 rays. prepare()
-// converts the rays into packets, which is not timed. Embree overwrites rays with results, so trace() copies each
-// packet first.
+// Traces rays in packets of kLanes. One lane means single rays. With kStreams it traces streams of 64 rays. Embree
+// overwrites rays with results, so trace() copies the packets that prepare() has made.
 template <int kLanes, bool kStreams>
 class EmbreeSubject final : public Subject {
 public:
@@ -26,12 +25,11 @@ public:
         : Subject(subject_name), scene_(std::move(scene)) {}
 
     void prepare(const RaySet& set) override {
-        // Make room for packets and results.
         set_ = &set;
         packets_.assign((set.rays.size() + kWidth - 1) / kWidth, {});
         t_.assign(packets_.size(), {});
         hits_.assign(set.any ? 0 : packets_.size(), {});
-        // Convert the rays. Lanes beyond the last ray repeat it.
+        // Lanes beyond the last ray repeat it.
         for (std::size_t i = 0; i < packets_.size() * kWidth; ++i) {
             const limn::Ray& from = set.rays[std::min(i, set.rays.size() - 1)];
             RTCRayNt<kLanes>& to = packets_[i / kWidth];
@@ -58,7 +56,6 @@ public:
         context.flags = set_->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         const std::size_t end = (first + count + kWidth - 1) / kWidth;
         for (std::size_t p = first / kWidth; p < end; p += kPackets) {
-            // Copy the packets.
             const std::size_t packets = std::min(kPackets, end - p);
             alignas(64) Rays rays[kPackets];
             for (std::size_t k = 0; k < packets; ++k) {
@@ -67,7 +64,6 @@ public:
                 std::fill_n(rays[k].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
                 std::fill_n(rays[k].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
             }
-            // Trace them and store the results.
             ask(context, rays, packets);
             for (std::size_t k = 0; k < packets; ++k) {
                 std::copy_n(rays[k].ray.tfar, kWidth, t_[p + k].data());
@@ -77,8 +73,7 @@ public:
         _mm_setcsr(before);
     }
 
-    // Sets only t. The u, v and primitives of peers aren't compared.
-    Answer answer(std::size_t i) const override {
+    RayHit answer(std::size_t i) const override {
         const std::size_t p = i / kWidth, k = i % kWidth;
         const double t = static_cast<double>(t_[p][k]);
         if (set_->any) return {.t = t < 0 ? 0 : kInfinity};  // Embree sets tfar = -inf for a hit
@@ -91,8 +86,7 @@ private:
 
     using Rays = RTCRayHitNt<kLanes>;
 
-    // Calls Embree. `rays` are `packets` packets of the type Rays. For any-hit queries Embree reads only their
-    // member `ray`.
+    // Calls Embree with packets of the type Rays. For any-hit queries Embree reads only their member `ray`.
     void ask(RTCIntersectContext& context, void* rays, std::size_t packets) const {
         const RTCScene scene = scene_.get();
         const bool any = set_->any;
@@ -125,7 +119,6 @@ private:
 // The bytes of memory that Embree uses, as its memory monitor reports them.
 std::atomic<std::ptrdiff_t> bytes_held{0};
 
-// Returns the device, which is made at the first call.
 RTCDevice device() {
     static const RTCDevice the_device = [] {
         const RTCDevice made = rtcNewDevice("set_affinity=0");
@@ -156,12 +149,10 @@ void attach(const ScenePointer& scene, RTCGeometry geometry) {
     rtcReleaseGeometry(geometry);
 }
 
-// Copies the values to a buffer of the geometry. Embree allocates the buffer with padding, because it reads 16 bytes of
-// the last vertex.
-template <class T>
-void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
-    std::memcpy(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size()), values.data(),
-                values.size() * sizeof(T));
+// Copies the values to a new buffer. Embree allocates it with padding, because it reads 16 bytes of the last vertex.
+void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& values) {
+    void* const buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(values[0]), values.size());
+    std::memcpy(buffer, values.data(), values.size() * sizeof(values[0]));
 }
 
 void attach_faces(const ScenePointer& scene, RTCGeometryType type, const std::vector<Float3>& vertices,
@@ -241,7 +232,6 @@ BuiltScene build(const Geometry& geometry, Clock clock) {
 extern "C" const char limn_module_id[] = LIMN_MODULE_ID;
 
 extern "C" void limn_module(std::vector<limn::bench::Contender>& contenders) {
-    using limn::bench::build;
-    contenders.push_back({.name = "Embree", .version = RTC_VERSION_STRING, .build = build<false>});
-    contenders.push_back({.name = "Embree robust", .version = RTC_VERSION_STRING, .build = build<true>});
+    contenders.push_back({.name = "Embree", .version = RTC_VERSION_STRING, .build = limn::bench::build<false>});
+    contenders.push_back({.name = "Embree robust", .version = RTC_VERSION_STRING, .build = limn::bench::build<true>});
 }

@@ -17,15 +17,12 @@ TARGETS = (3e-2, 1e-2, 1e-3, 1e-4)
 
 
 def measure(scene, seeds):
-    """Renders to given numbers of samples and to given errors. Returns for each render the estimated and the true
-    error."""
+    """Renders to given numbers of samples and to given errors. Returns the estimated and the true error of each."""
     print(f"promise: {scene}", file=sys.stderr, flush=True)
-    # List the renders.
     finest = 1e-2 if scene == "glass-mesh" else TARGETS[-1]  # a smaller error would take hours there
     tasks = [("spp", samples, seed) for samples in SAMPLES for seed in range(1, seeds + 1)]
     tasks += [("error", target, seed) for target in TARGETS if target >= finest for seed in range(1, seeds + 1)]
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        # Render the reference in two halves, then the renders in parallel.
         halves = [Path(name) / "a.exr", Path(name) / "b.exr"]
         for seed, half in enumerate(halves, 1_000_001):
             limn(scene, half, SIZE, f"--error={finest / 8}", f"--seed={seed}")
@@ -45,7 +42,6 @@ def share(cases):
 
 
 def coverage_rows(scenes):
-    """Yields the rows of the table on the estimate."""
     together = {samples: [] for samples in SAMPLES}
     for scene, renders in scenes.items():
         cells = []
@@ -60,7 +56,6 @@ def coverage_rows(scenes):
 
 
 def stop_rows(scenes):
-    """Yields the rows of the table on --error."""
     together = []
     for scene, renders in scenes.items():
         for target in TARGETS:

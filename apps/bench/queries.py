@@ -38,7 +38,6 @@ QUESTIONS = {library: OPEN3D if library.endswith("open3d") else TRIMESH for libr
 
 
 def floats(whole):
-    """Returns whole numbers times 2^-GRID as float32."""
     return (whole * 2.0 ** -GRID).astype(np.float32)
 
 
@@ -51,7 +50,6 @@ def meshes(models):
     for path in models:
         mesh = importlib.import_module("trimesh").load(path, force="mesh", process=False)
         found[path.stem] = mesh.vertices, mesh.faces
-    # Scale the meshes to the cube and round the vertices.
     for name, (vertices, faces) in found.items():
         lower, upper = vertices.min(axis=0), vertices.max(axis=0)
         scaled = (vertices.astype(float) - (lower + upper) / 2) * 2 / (upper - lower).max()
@@ -91,8 +89,7 @@ def meets(triangles, origin, direction):
     assert max(np.abs(corners).max(), np.abs(direction).max()) < 1 << 20
     a, b, c = corners.transpose(1, 0, 2)
     ab = np.cross(a, b)
-    # Compute six times the signed volumes of tetrahedra: of each edge and the direction, and of the triangle and the
-    # origin.
+    # Compute six times the volumes of tetrahedra: of each edge and the direction, and of the triangle and the origin.
     parts = np.stack([np.cross(b, c) @ direction, np.cross(c, a) @ direction, ab @ direction])
     volume, total = (ab * c).sum(axis=1), parts.sum(axis=0)
     met = (total != 0) & ((parts >= 0).all(axis=0) | (parts <= 0).all(axis=0))
@@ -101,8 +98,7 @@ def meets(triangles, origin, direction):
 
 
 def is_inside(triangles, point, rng):
-    """Returns 1 for a point inside, 0 for a point outside, and -1 for a point on the surface. Counts the hits of random
-    rays until one hits no edge."""
+    """Returns 1 inside, 0 outside and -1 on the surface. Counts the hits of the first random ray that hits no edge."""
     while True:
         t, on_edge = meets(triangles, point, rng.integers(-1 << GRID, 1 << GRID, 3))
         if (t == 0).any():
@@ -112,8 +108,7 @@ def is_inside(triangles, point, rng):
 
 
 def truth(vertices, faces, rays):
-    """Returns for each ray t of the nearest hit, or inf, and 1 if the origin is inside, 0 if it is outside, and -1 if
-    it is on the surface or the mesh is open."""
+    """Returns for each ray t of the nearest hit, or inf, and is_inside of the origin, which is -1 for an open mesh."""
     rng, triangles, closed = np.random.default_rng(1), vertices[faces], is_closed(vertices, faces)
     hits = [meets(triangles, ray[:3], ray[3:])[0] for ray in rays]
     inside = [is_inside(triangles, ray[:3], rng) if closed else -1 for ray in rays]
@@ -176,7 +171,6 @@ def rate(library, mesh, question, threads, rays):
 
 
 def measure(library, mesh, judged, timed):
-    """Returns the rates of wrong answers and the speeds of a library."""
     results = {"wrong": {}, "rates": {}}
     for kind, parts in judged.items():
         results["wrong"][kind] = wrong(library, mesh, *(part[:MOST.get(library)] for part in parts))
@@ -190,13 +184,11 @@ def measure(library, mesh, judged, timed):
 def main(count, timed, *models):
     results = {}
     for name, (vertices, faces) in meshes(map(Path, models)).items():
-        # Make the rays and compute the truth.
         judged = {}
         for kind in KINDS:
             rays = make_rays(kind, vertices, faces, count, 7)
             judged[kind] = floats(rays), *truth(vertices, faces, rays)
         rays = floats(make_rays("at random", vertices, faces, timed, 8))
-        # Ask the libraries.
         found = results[f"{name}, {len(faces):,} triangles"] = dict.fromkeys(QUESTIONS)
         for library in QUESTIONS:
             print(f"bench: queries of {library}", file=sys.stderr, flush=True)

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "bench/scenes.h"
-#include "limn/math/frame.h"
-#include "limn/math/warp.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 namespace {
@@ -18,15 +17,11 @@ constexpr double kOcclusionReach = 0.1;    // t_max of occlusion rays over the d
 // Indices into ray_kinds(). Diffuse rays have the indices kDiffuse to kDiffuse + 2, one for each depth.
 constexpr std::size_t kPrimary = 0, kDiffuse = 1, kOcclusion = 4, kShadow = 5;
 
-// A path from the camera.
 struct Path {
     Ray ray;                      // the last ray
     std::uint64_t number;         // the index of the path's random numbers
     std::optional<Surface> at{};  // the hit of the last ray that follow() has traced
 };
-
-// Returns random number `dimension` of path `number`.
-double random(std::uint64_t number, std::uint64_t dimension) { return random_number(1, number, dimension); }
 
 // Returns a path through each pixel, tile by tile.
 std::vector<Path> primary_paths(const CameraRays& camera, std::size_t side, std::uint64_t pass) {
@@ -36,10 +31,10 @@ std::vector<Path> primary_paths(const CameraRays& camera, std::size_t side, std:
         for (std::size_t k = 0; k < kTile * kTile; ++k) {
             // Find the k-th pixel of the tile in Z-order. Each aligned group of 4, 16 or 64 rays then covers a square.
             const std::size_t x = (k & 1) | (k >> 1 & 2) | (k >> 2 & 4), y = (k >> 1 & 1) | (k >> 2 & 2) | (k >> 3 & 4);
-            // Make its ray, rounded to float32.
             const std::uint64_t number = pass * side * side + paths.size();
-            Ray ray = camera.ray(static_cast<double>(tile % tiles * kTile + x) + random(number, 0),
-                                 static_cast<double>(tile / tiles * kTile + y) + random(number, 1), 0, 0, 0);
+            const auto u = random_numbers(1, number);
+            Ray ray = camera.ray(static_cast<double>(tile % tiles * kTile + x) + u(0),
+                                 static_cast<double>(tile / tiles * kTile + y) + u(1), 0, 0, 0);
             ray.origin = to_float32(ray.origin);
             ray.direction = to_float32(normalize(ray.direction));
             paths.push_back({ray, number});
@@ -57,11 +52,10 @@ void follow(const CompiledScene& scene, std::vector<Path>& paths) {
     std::erase_if(paths, [](const Path& path) { return !path.at; });
 }
 
-// Returns a direction from the path's hit with a pdf proportional to the cosine. Uses random numbers `dimension` and
-// `dimension` + 1.
+// Returns a direction with a pdf proportional to the cosine. Uses random numbers `dimension` and `dimension` + 1.
 Vec3 cosine_direction(const Path& path, std::uint64_t dimension) {
-    const Vec3 local = sample_cosine_hemisphere(random(path.number, dimension), random(path.number, dimension + 1));
-    return Frame(Vec3(path.at->normal)).to_world(local);
+    const auto u = random_numbers(1, path.number);
+    return Frame(Vec3(path.at->normal)).to_world(sample_cosine_hemisphere(u(dimension), u(dimension + 1)));
 }
 
 // Returns a ray with float32 coordinates that leaves a surface. spawn_ray moves the origin off the surface by its error
@@ -69,8 +63,7 @@ Vec3 cosine_direction(const Path& path, std::uint64_t dimension) {
 Ray leave(const Surface& from, const Vec3& direction, double t_min) {
     Ray ray = from.spawn_ray(direction, 0);
     const Vec3 out = dot(direction, Vec3(from.normal)) < 0 ? -Vec3(from.normal) : Vec3(from.normal);
-    const double largest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
-    ray.origin = to_float32(ray.origin + largest * 0x1p-21 * out);
+    ray.origin = to_float32(ray.origin + max_abs(ray.origin) * 0x1p-21 * out);
     ray.direction = to_float32(ray.direction);
     ray.t_min = to_float32(t_min);
     return ray;
@@ -126,7 +119,6 @@ std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& sce
             follow(scene, paths);
         }
     }
-    // Remove empty sets.
     std::erase_if(sets, [](const RaySet& set) { return set.rays.empty(); });
     return sets;
 }

@@ -1,16 +1,13 @@
 """Measures the cost of checkpoints, and checks that long renders survive faults.
 
-Run it by ./build.sh reliability [films|faults|cluster ...]. It writes build/results/reliability.json and
-reliability.html. The exit status is 0 only if nothing was lost."""
+Run it by ./build.sh reliability [films|faults|cluster ...]. The exit status is 0 only if nothing was lost."""
 
-import json
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from results import BIN, ROOT, origin, table, write
+from results import BIN, ROOT, origin, run_json, table, write
 
 sys.path[:0] = [str(ROOT / "tests/faults"), str(ROOT / "tests/cluster")]
 import cluster
@@ -21,9 +18,8 @@ PAIRS = 5
 
 def render_seconds(folder, *options):
     """Renders figure 16 in 400x400 pixels and returns the seconds."""
-    command = [BIN / "fig16_volume_cornell_box", "--quiet", "--spp", "160", "-o", "a.exr", "--report", "-", *options]
-    done = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE)
-    return json.loads(done.stdout)["seconds"]["render"]
+    return run_json(BIN / "fig16_volume_cornell_box", "--quiet", "--spp", 160, "-o", f"{folder}/a.exr", "--report", "-",
+                    *options)["seconds"]["render"]
 
 
 def films():

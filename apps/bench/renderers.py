@@ -33,10 +33,8 @@ def checked(*command):
 
 
 def limn(scene, picture, size, *options):
-    """Renders with limn and returns the report."""
-    report = picture.with_suffix(".json")
-    checked(PROGRAM, scene, "--quiet", f"--size={size}x{size}", *options, "-o", picture, "--report", report)
-    return json.loads(report.read_text())
+    return json.loads(checked(PROGRAM, scene, "--quiet", f"--size={size}x{size}", *options, "-o", picture,
+                              "--report", "-"))
 
 
 def compare(*pictures):
@@ -48,8 +46,7 @@ class Limn:
     """limn, with adaptive or uniform sampling."""
 
     def __init__(self, key):
-        # --error with an error that is never reached makes limn sample adaptively up to the given mean number of
-        # samples.
+        # An error that is never reached makes limn sample adaptively up to the given mean number of samples.
         self.key, self.options = key, [] if key == UNIFORM else ["--error=1e-300"]
 
     def open(self, scene):

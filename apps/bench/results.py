@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from statistics import quantiles
 
 ROOT = Path(__file__).resolve().parents[2]
 BIN = ROOT / "build/release/bin"
@@ -31,8 +32,7 @@ def origin(command):
 
 
 def run_json(*command):
-    """Runs a program and returns the JSON that it prints. An exit status of 1 may mean a wrong result and is no
-    error."""
+    """Returns the JSON that a program prints. An exit status of 1 may mean a wrong result and is no error."""
     print(*command, file=sys.stderr, flush=True)
     run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE)
     if run.returncode not in (0, 1) or not run.stdout:
@@ -61,8 +61,17 @@ class Kept:
         return self.parts[part]
 
     def forget(self):
-        """Deletes the kept results."""
         self.path.unlink(missing_ok=True)
+
+
+def quartiles(values):
+    """Returns the lower quartile, the median and the upper quartile."""
+    return quantiles(values, n=4, method="inclusive") if len(values) > 1 else [*values] * 3
+
+
+def spread(found, digits=2):
+    """Returns the result of quartiles() as text, with the median first. `found` may be None."""
+    return "{1:.{n}f} ({0:.{n}f}..{2:.{n}f})".format(*found, n=digits) if found else "–"
 
 
 def table(columns, rows):
@@ -74,7 +83,6 @@ def table(columns, rows):
 def write(name, title, head, raw, text):
     """Writes the numbers `raw` and the page. `text` is Markdown. It may name plots, which are files in RESULTS."""
     import markdown  # Debian's python3-markdown
-
     RESULTS.mkdir(parents=True, exist_ok=True)
     (RESULTS / f"{name}.json").write_text(json.dumps({**head, "results": raw}, indent=1))
     source = " ".join(f"{key} {value}" if key == "commit" else str(value) for key, value in head.items())

@@ -6,22 +6,15 @@
 #include <filesystem>
 #include <numbers>
 
-#include "limn/io/obj.h"
-#include "limn/math/error.h"
-#include "limn/math/warp.h"
-#include "limn/scene/shape/instance.h"
-#include "limn/scene/shape/quad.h"
-#include "limn/scene/shape/sphere.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 namespace {
 
-// Returns count * scale, at least 1.
 std::size_t scaled(double count, double scale) { return static_cast<std::size_t>(std::max(1.0, count * scale)); }
 
 std::shared_ptr<const Mesh> mesh_of(MeshData data) { return std::make_shared<Mesh>(std::move(data), nullptr); }
 
-// A plane wave of the hills.
 struct Wave {
     Vec3 frequency;
     double phase, height;
@@ -32,7 +25,7 @@ Vec3 on_hills(const Vec3& direction) {
     static const std::array<Wave, 32> waves = [] {
         std::array<Wave, 32> made;
         for (std::size_t i = 0; i < made.size(); ++i) {
-            const auto u = [i](std::uint64_t dimension) { return random_number(2, i, dimension); };
+            const auto u = random_numbers(2, i);
             const double frequency = 3 * std::pow(1.17, static_cast<double>(i));
             made[i] = {frequency * sample_uniform_sphere(u(0), u(1)), 2 * std::numbers::pi * u(2), 0.12 / frequency};
         }
@@ -43,9 +36,8 @@ Vec3 on_hills(const Vec3& direction) {
     return r * direction;
 }
 
-// Returns a ball with hills. Its mesh is a cube whose faces are divided into squares and projected to the ball. A point
-// on an edge of the cube belongs to several faces. Each face computes it from the same whole numbers and gets the same
-// bits, so that the surface is closed.
+// Returns a ball with hills. Its mesh is a cube whose faces are divided into squares and projected to the ball. Faces
+// compute the points of a common edge from the same whole numbers, so the surface is closed.
 Geometry displaced_sphere(double scale) {
     const auto cuts = static_cast<std::uint32_t>(std::max(1.0, std::round(std::sqrt(2e6 * scale / 12))));
     MeshData data;
@@ -70,9 +62,8 @@ Geometry displaced_sphere(double scale) {
         for (std::uint32_t j = 0; j < cuts; ++j) {
             for (std::uint32_t i = 0; i < cuts; ++i) {
                 const std::uint32_t a = first + j * (cuts + 1) + i, b = a + 1, c = a + cuts + 1, d = c + 1;
-                const bool turned = side == 0;
-                data.triangles.push_back(turned ? Index3{a, d, b} : Index3{a, b, d});
-                data.triangles.push_back(turned ? Index3{a, c, d} : Index3{a, d, c});
+                data.triangles.push_back(side == 0 ? Index3{a, d, b} : Index3{a, b, d});
+                data.triangles.push_back(side == 0 ? Index3{a, c, d} : Index3{a, d, c});
             }
         }
     }
@@ -95,7 +86,7 @@ Geometry soup(double scale) {
     const double size = 0.03 / std::cbrt(scale);
     MeshData data;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto u = [i](std::uint64_t dimension) { return random_number(3, i, dimension); };
+        const auto u = random_numbers(3, i);
         add_triangle(data, {u(0), u(1), u(2)}, size, u, 3);
     }
     return {.name = "soup", .mesh = mesh_of(std::move(data))};
@@ -109,9 +100,7 @@ Geometry spheres(double scale) {
     const int reach = std::max(1, static_cast<int>(11 * std::sqrt(scale)));
     for (int i = -reach; i < reach; ++i) {
         for (int j = -reach; j < reach; ++j) {
-            const auto u = [&](std::uint64_t dimension) {
-                return random_number(4, static_cast<std::uint64_t>((i + reach) * 2 * reach + j + reach), dimension);
-            };
+            const auto u = random_numbers(4, (i + reach) * 2 * reach + j + reach);
             g.balls.push_back({to_float32(Point3{i + 0.9 * u(0), 0.2, j + 0.9 * u(1)}), to_float32(0.2)});
         }
     }
@@ -123,18 +112,15 @@ Geometry spheres(double scale) {
 
 // Adds the six quads of a box with one corner at the origin, transformed by `place`.
 void add_box(Geometry& g, const Vec3& size, const Transform& place) {
-    const auto quad = [&](const Point3& corner, const Vec3& u, const Vec3& v) {
+    const auto add = [&](const Point3& corner, const Vec3& u, const Vec3& v) {
         g.quads.push_back({to_float32(transform_point(place, corner)), to_float32(transform_vector(place, u)),
                            to_float32(transform_vector(place, v))});
     };
-    const Vec3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
-    const Point3 low{}, high = low + size;
-    quad(low, y, x);
-    quad(low, z, y);
-    quad(low, x, z);
-    quad(high, -x, -y);
-    quad(high, -y, -z);
-    quad(high, -z, -x);
+    const Vec3 edges[] = {{size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        add(Point3{}, edges[(i + 1) % 3], edges[i]);
+        add(Point3{} + size, -edges[i], -edges[(i + 1) % 3]);
+    }
 }
 
 // Returns the Cornell box: five walls, a lamp and two boxes, 18 quads at any scale.
@@ -161,7 +147,7 @@ MeshData tree(std::size_t count) {
         data.triangles.push_back({0, 1 + (i + 1) % kSides, 1 + i});
     }
     for (std::size_t i = kSides; i < count; ++i) {
-        const auto u = [i](std::uint64_t dimension) { return random_number(5, i, dimension); };
+        const auto u = random_numbers(5, i);
         const Vec3 inside = sample_uniform_ball(u(0), u(1), u(2));
         add_triangle(data, {0.3 * inside.x, 0.65 + 0.35 * inside.y, 0.3 * inside.z}, 0.015, u, 3);
     }
@@ -173,9 +159,7 @@ Geometry forest(double scale) {
     Geometry g{.name = "forest", .mesh = mesh_of(tree(scaled(1e4, scale)))};
     const int side = std::max(1, static_cast<int>(std::round(100 * std::sqrt(scale))));
     for (int i = 0; i < side * side; ++i) {
-        const auto u = [i](std::uint64_t dimension) {
-            return random_number(6, static_cast<std::uint64_t>(i), dimension);
-        };
+        const auto u = random_numbers(6, i);
         const double size = 0.7 + 0.6 * u(0);
         Transform place = Transform::translate({0.5 * (i % side + u(1)), 0, 0.5 * (i / side + u(2))}) *
                           Transform::rotate_y(360 * u(3)) * Transform::scale(size, size, size);
@@ -183,9 +167,7 @@ Geometry forest(double scale) {
             for (double& entry : row) entry = to_float32(entry);
         g.places.push_back(place);
     }
-    const double width = 0.5 * side;
-    g.camera =
-        Camera{.look_from = {0.5 * width, 0.2 * width + 1, 1.4 * width}, .look_at = {0.5 * width, 0, 0.6 * width}};
+    g.camera = Camera{.look_from = {0.25 * side, 0.1 * side + 1, 0.7 * side}, .look_at = {0.25 * side, 0, 0.3 * side}};
     return g;
 }
 

@@ -2,17 +2,14 @@
 /// The scenes and rays that limn and its peers trace. Every number is a float32, so that all of them trace the same.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "limn/math/ray.h"
-#include "limn/query/compiled_scene.h"
-#include "limn/scene/camera.h"
-#include "limn/scene/scene.h"
-#include "limn/scene/shape/mesh.h"
+#include "limn/limn.h"
 
 namespace limn::bench {
 
@@ -35,9 +32,7 @@ struct Geometry {
     std::vector<Parallelogram> quads{};
     std::optional<Camera> camera{};  // by default frame_box() of all objects
     std::optional<Point3> light{};   // by default above the objects, in front of them to the left
-    // t_min of rays that leave a surface. limn needs 0. Embree needs more for large spheres, or a ray hits the surface
-    // that it leaves.
-    double t_min = 0;
+    double t_min = 0;                // t_min of rays that leave a surface; if it is 0, Embree hits large spheres again
 };
 
 // Returns the names that make_scene accepts.
@@ -51,9 +46,8 @@ Scene describe(const Geometry& geometry);
 // Returns the number of triangles, balls, quads and instances.
 std::size_t stored_primitives(const Geometry& geometry);
 
-// The rays of a kind.
 struct RaySet {
-    std::string name;
+    std::string name;       // the kind of the rays
     bool any = false;       // true for any-hit queries, false for closest-hit queries
     bool coherent = false;  // true if neighbouring rays are similar
     std::vector<Ray> rays;
@@ -65,7 +59,6 @@ const std::vector<std::string>& ray_kinds();
 // kind without rays has no set. Diffuse, occlusion and shadow rays start at hits that limn finds.
 std::vector<RaySet> make_rays(const Geometry& geometry, const CompiledScene& scene, std::size_t count);
 
-// Returns the coordinates as float32.
 inline Float3 to_float3(const auto& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -75,13 +68,15 @@ inline double to_float32(double x) { return static_cast<double>(static_cast<floa
 inline Vec3 to_float32(const Vec3& v) { return {to_float32(v.x), to_float32(v.y), to_float32(v.z)}; }
 inline Point3 to_float32(const Point3& p) { return {to_float32(p.x), to_float32(p.y), to_float32(p.z)}; }
 
-// Returns a pseudorandom number in [0, 1) that depends on the arguments alone. `dimension` is below 64. The mixer is
-// SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014).
-inline double random_number(std::uint64_t seed, std::uint64_t place, std::uint64_t dimension) {
-    std::uint64_t x = seed + 0x9e3779b97f4a7c15 * (place * 64 + dimension + 1);
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
+// Returns a function of a dimension from 0 to 63 that returns pseudorandom numbers in [0, 1). The mixer is SplitMix64
+// (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014).
+inline auto random_numbers(std::uint64_t seed, std::integral auto place) {
+    return [seed, first = static_cast<std::uint64_t>(place) * 64 + 1](std::uint64_t dimension) {
+        std::uint64_t x = seed + 0x9e3779b97f4a7c15 * (first + dimension);
+        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+        x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+        return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
+    };
 }
 
 }  // namespace limn::bench

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "limn/math/error.h"
 #include "limn/render/render.h"
@@ -21,8 +22,7 @@ using app::Json;
 // limn's public queries, of single rays or of batches.
 class LimnSubject final : public Subject {
 public:
-    // \param batch number of rays of each query; 0: single rays
-    // \param targets instruction sets that limn may use, as Highway's bits
+    // `batch` is the number of rays of a query, 0 for single rays. `targets` are bits of Highway's instruction sets.
     LimnSubject(const std::string& subject_name, std::shared_ptr<const CompiledScene> scene, std::size_t batch,
                 std::int64_t targets)
         : Subject(subject_name), scene_(std::move(scene)), batch_(batch), targets_(targets) {}
@@ -45,9 +45,8 @@ public:
             for (std::size_t i = first; i < end; ++i) hits_[i] = scene_->closest_hit(rays[i]).value_or(RayHit{});
     }
 
-    Answer answer(std::size_t i) const override {
-        if (set_->any) return {.t = occluded_[i] != 0 ? 0 : kInfinity};
-        return {.t = hits_[i].t, .u = hits_[i].u, .v = hits_[i].v, .primitive = hits_[i].primitive};
+    RayHit answer(std::size_t i) const override {
+        return set_->any ? RayHit{.t = occluded_[i] != 0 ? 0 : kInfinity} : hits_[i];
     }
 
 private:
@@ -70,7 +69,6 @@ constexpr double kSameT = 1e-3;  // largest relative difference of t of the same
 // The least time of a measurement. It is long enough that starting threads and reading clocks hardly count.
 constexpr double kLeastSeconds = 0.004;
 
-// Traces all rays of the prepared set.
 void trace_all(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     // Divide the rays so that each thread gets several parts. A part has a multiple of 64 rays.
     const std::size_t share = rays / (8 * static_cast<std::size_t>(arena.max_concurrency())) / 64 * 64;
@@ -91,97 +89,14 @@ double time_of(Subject& subject, std::size_t rays, tbb::task_arena& arena) {
     }
 }
 
-}  // namespace
-
-BuiltScene build_limn(const Geometry& geometry, Clock clock) {
-    const Scene description = describe(geometry);  // not timed
-    const double begin = seconds(clock);
-    const auto scene = std::make_shared<const CompiledScene>(compile(description));
-    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = scene->stats().memory_bytes, .subjects = {}};
-    const auto add = [&](const std::string& name, std::size_t batch, std::int64_t targets) {
-        built.subjects.push_back(std::make_unique<LimnSubject>(name, scene, batch, targets));
-    };
-    const std::int64_t all = hwy::SupportedTargets(), better_than_avx2 = all & (HWY_AVX2 - 1);
-    add("limn", 0, all);
-    if (better_than_avx2 != 0) {
-        add("AVX2", 0, all & ~better_than_avx2);
-        add("AVX2 batch", 4096, all & ~better_than_avx2);
-    }
-    add("limn batch", 4096, all);
-    for (const std::size_t size : {1, 8, 64, 65536}) add("limn batch " + std::to_string(size), size, all);
-    return built;
-}
-
-std::vector<Contender> load_contenders(std::vector<std::string>& notes) {
-    std::vector<Contender> contenders{{.name = "limn", .version = version(), .build = build_limn}};
-    try {
-        reinterpret_cast<AddContenders*>(app::load_module("limn_bench_embree"))(contenders);
-    } catch (const Error& e) {
-        notes.push_back(std::string("without Embree: ") + e.what());
-    }
-    return contenders;
-}
-
-Spread spread_of(std::vector<double> values) {
-    if (values.empty()) return {};
-    std::ranges::sort(values);
-    const auto quantile = [&](double q) {
-        const double place = q * static_cast<double>(values.size() - 1);
-        const auto below = static_cast<std::size_t>(place);
-        const std::size_t above = std::min(below + 1, values.size() - 1);
-        return std::lerp(values[below], values[above], place - static_cast<double>(below));
-    };
-    return {.median = quantile(0.5), .low = quantile(0.25), .high = quantile(0.75)};
-}
-
-Spread ratio(const Timing& a, const Timing& b) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < std::min(a.seconds.size(), b.seconds.size()); ++i)
-        ratios.push_back(b.seconds[i] / a.seconds[i]);
-    return spread_of(std::move(ratios));
-}
-
-std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
-                            int rounds, const std::function<bool()>& keep_going) {
-    tbb::task_arena arena(threads);
-    const std::size_t rays = set.rays.size();
-    std::vector<Timing> timings;
-    // Trace with each subject, and compare its results with those of the first.
-    for (const auto& subject : subjects) {
-        subject->prepare(set);
-        trace_all(*subject, rays, arena);
-        Timing& timing = timings.emplace_back(Timing{.subject = subject->name});
-        for (std::size_t i = 0; i < rays; ++i) {
-            const Answer expected = subjects.front()->answer(i), found = subject->answer(i);
-            const bool agrees = expected.t == found.t || std::abs(expected.t - found.t) <= kSameT * expected.t;
-            timing.mismatches += agrees ? 0 : 1;
-            timing.differences += expected == found ? 0 : 1;
-        }
-        if (!keep_going()) return timings;
-    }
-    // Take the times.
-    for (int round = 0; round < rounds; ++round) {
-        for (std::size_t s = 0; s < subjects.size(); ++s) {
-            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena));
-            if (!keep_going()) return timings;
-        }
-    }
-    return timings;
-}
-
-namespace {
-
-// Building a small scene takes so little time that a few rounds are not enough. It is repeated for this many seconds,
-// but at most this many times.
+// A few rounds of building a small scene are too short. They are repeated for this many seconds, at most this often.
 constexpr double kLeastBuilding = 0.05;
 constexpr int kMostBuilds = 200;
 
-// The format of a row of the table.
 constexpr char kLine[] = "  {:<10} {:>2} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}  {:<18} {:<18} {:<18} {:>8}\n";
 
 // Returns the timing of the fastest subject for whose name `fits` returns true, or null.
-template <class Fits>
-const Timing* fastest(const std::vector<Timing>& timings, const Fits& fits) {
+const Timing* fastest(const std::vector<Timing>& timings, const auto& fits) {
     const auto median = [&](const Timing& t) {
         return fits(t.subject) && !t.seconds.empty() ? spread_of(t.seconds).median : kInfinity;
     };
@@ -196,10 +111,8 @@ std::string ratio_text(const Timing* a, const Timing* b) {
     return fmt::format("{:.2f} ({:.2f}..{:.2f})", r.median, r.low, r.high);
 }
 
-// Returns the rate in million rays a second.
 double million_a_second(const Timing& timing, double rays) { return 1e-6 * rays / spread_of(timing.seconds).median; }
 
-// Returns a row of the table.
 std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& timings) {
     const auto find = [&](const char* name) { return fastest(timings, [&](const auto& s) { return s == name; }); };
     const Timing *single = find("limn"), *plain = find("Embree"), *robust = find("Embree robust");
@@ -216,7 +129,6 @@ std::string row_text(const RaySet& set, int threads, const std::vector<Timing>& 
                        ratio_text(single, robust), ratio_text(batch, best), differ(plain) + "/" + differ(robust));
 }
 
-// A run of `limn bench`.
 struct Session {
     const Plan& plan;
     const std::vector<Contender>& contenders;
@@ -229,9 +141,9 @@ struct Session {
 
     Results run() {
         for (const std::string& name : plan.scenes)
-            if (goes_on()) measure_scene(make_scene(name, plan.scale));
+            if (goes_on()) scenes.push_back(measure_scene(make_scene(name, plan.scale)));
         for (const std::string& path : plan.models)
-            if (goes_on()) measure_scene(load_scene(path));
+            if (goes_on()) scenes.push_back(measure_scene(load_scene(path)));
         Json versions = Json::object();
         for (const Contender& contender : contenders) versions[contender.name] = contender.version;
         results.json = {{"complete", going}, {"versions", versions}, {"rounds", plan.rounds}, {"scenes", scenes}};
@@ -245,34 +157,27 @@ struct Session {
         return going;
     }
 
-    // Measures a scene and adds its results to the table and to `scenes`.
-    void measure_scene(const Geometry& geometry) {
-        const std::size_t primitives = stored_primitives(geometry);
+    // Adds a scene to the table and returns its results as JSON.
+    Json measure_scene(const Geometry& geometry) {
+        const std::size_t count = stored_primitives(geometry);
         Json bytes = Json::object(), builds = Json::array(), rows = Json::array();
-        results.table += fmt::format("{}: {} primitives", geometry.name, primitives);
-        // Build it for each contender.
+        results.table += fmt::format("{}: {} primitives", geometry.name, count);
         std::vector<std::unique_ptr<Subject>> subjects;
         for (const Contender& contender : contenders) {
             BuiltScene built = contender.build(geometry, Clock::wall);
             bytes[contender.name] = built.bytes;
             results.table += fmt::format("; {} {:.1f} bytes each", contender.name,
-                                         static_cast<double>(built.bytes) / static_cast<double>(primitives));
+                                         static_cast<double>(built.bytes) / static_cast<double>(count));
             std::ranges::move(built.subjects, std::back_inserter(subjects));
         }
         results.table += '\n';
-        // Measure building and rays.
         for (const int threads : plan.threads) builds.push_back(measure_builds(geometry, threads));
         if (goes_on()) rows = measure_rays(geometry, subjects);
-        scenes.push_back({{"name", geometry.name},
-                          {"primitives", primitives},
-                          {"bytes", bytes},
-                          {"builds", builds},
-                          {"rows", rows}});
         ++scenes_done;
         part = 0;
+        return {{"name", geometry.name}, {"primitives", count}, {"bytes", bytes}, {"builds", builds}, {"rows", rows}};
     }
 
-    // Measures building with a number of threads.
     Json measure_builds(const Geometry& geometry, int threads) {
         std::vector<Timing> timings;
         for (const Contender& contender : contenders) timings.push_back({.subject = contender.name});
@@ -303,7 +208,6 @@ struct Session {
         return {{"threads", threads}, {"seconds", seconds}};
     }
 
-    // Measures the rays of each kind with each number of threads.
     Json measure_rays(const Geometry& geometry, const std::vector<std::unique_ptr<Subject>>& subjects) {
         std::vector<RaySet> sets = make_rays(geometry, compile(describe(geometry)), plan.rays);
         if (!plan.kinds.empty())
@@ -344,6 +248,84 @@ struct Session {
 };
 
 }  // namespace
+
+BuiltScene build_limn(const Geometry& geometry, Clock clock) {
+    const Scene description = describe(geometry);  // not timed
+    const double begin = seconds(clock);
+    const auto scene = std::make_shared<const CompiledScene>(compile(description));
+    BuiltScene built{.seconds = seconds(clock) - begin, .bytes = scene->stats().memory_bytes, .subjects = {}};
+    const auto add = [&](const std::string& name, std::size_t batch, std::int64_t targets) {
+        built.subjects.push_back(std::make_unique<LimnSubject>(name, scene, batch, targets));
+    };
+    const std::int64_t all = hwy::SupportedTargets(), better_than_avx2 = all & (HWY_AVX2 - 1);
+    add("limn", 0, all);
+    if (better_than_avx2 != 0) {
+        add("AVX2", 0, all & ~better_than_avx2);
+        add("AVX2 batch", 4096, all & ~better_than_avx2);
+    }
+    add("limn batch", 4096, all);
+    for (const std::size_t size : {1, 8, 64, 65536}) add("limn batch " + std::to_string(size), size, all);
+    return built;
+}
+
+std::vector<Contender> load_contenders(std::vector<std::string>& notes) {
+    std::vector<Contender> contenders{{.name = "limn", .version = version(), .build = build_limn}};
+    try {
+        const auto add = reinterpret_cast<void (*)(std::vector<Contender>&)>(app::load_module("limn_bench_embree"));
+        add(contenders);
+    } catch (const Error& e) {
+        notes.push_back(std::string("without Embree: ") + e.what());
+    }
+    return contenders;
+}
+
+Spread spread_of(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::ranges::sort(values);
+    const auto quantile = [&](double q) {
+        const double place = q * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, values.size() - 1);
+        return std::lerp(values[below], values[above], place - static_cast<double>(below));
+    };
+    return {.median = quantile(0.5), .low = quantile(0.25), .high = quantile(0.75)};
+}
+
+Spread ratio(const Timing& a, const Timing& b) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(a.seconds.size(), b.seconds.size()); ++i)
+        ratios.push_back(b.seconds[i] / a.seconds[i]);
+    return spread_of(std::move(ratios));
+}
+
+std::vector<Timing> measure(std::span<const std::unique_ptr<Subject>> subjects, const RaySet& set, int threads,
+                            int rounds, const std::function<bool()>& keep_going) {
+    tbb::task_arena arena(threads);
+    const std::size_t rays = set.rays.size();
+    const auto bits = [](const RayHit& hit) { return std::tuple(hit.t, hit.u, hit.v, hit.primitive); };
+    std::vector<Timing> timings;
+    // Trace with each subject, and compare its results with those of the first.
+    for (const auto& subject : subjects) {
+        subject->prepare(set);
+        trace_all(*subject, rays, arena);
+        Timing& timing = timings.emplace_back(Timing{.subject = subject->name});
+        for (std::size_t i = 0; i < rays; ++i) {
+            const RayHit expected = subjects.front()->answer(i), found = subject->answer(i);
+            const bool agrees = expected.t == found.t || std::abs(expected.t - found.t) <= kSameT * expected.t;
+            timing.mismatches += agrees ? 0 : 1;
+            timing.differences += bits(expected) == bits(found) ? 0 : 1;
+        }
+        if (!keep_going()) return timings;
+    }
+    // Take the times.
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t s = 0; s < subjects.size(); ++s) {
+            timings[s].seconds.push_back(time_of(*subjects[s], rays, arena));
+            if (!keep_going()) return timings;
+        }
+    }
+    return timings;
+}
 
 Results run_session(const Plan& plan, const std::vector<Contender>& contenders, const Watch& watch) {
     return Session{plan, contenders, watch}.run();

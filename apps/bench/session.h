@@ -15,10 +15,8 @@ namespace limn::bench {
 struct Timing {
     std::string subject;
     std::vector<double> seconds{};  // the time of each round
-    // Number of rays that differ from the first subject by hit or miss, or by more than a thousandth of t.
-    std::size_t mismatches = 0;
-    // Number of rays that differ from the first subject in any bit of the result.
-    std::size_t differences = 0;
+    std::size_t mismatches = 0;     // rays that differ from the first subject by hit or miss, or by over 1/1000 of t
+    std::size_t differences = 0;    // rays that differ from the first subject in any bit of the result
 };
 
 // The median and the lower and upper quartile of some numbers.
@@ -53,8 +51,7 @@ struct Results {
     std::string fault;  // the rays for which limn's batches and single rays differ; empty if they never do
 };
 
-// A function that is called after each measurement with the part of the plan that is done, 0 to 1. It returns false to
-// end the session.
+// run_session calls a Watch after each measurement with the part of the plan that is done. False ends the session.
 using Watch = std::function<bool(double)>;
 
 // Measures what the plan says. Returns the results so far if `watch` ends the session.

@@ -34,13 +34,14 @@ Figure lamps() {
     return figure;
 }
 
-// Returns a figure of three balls with Fresnel's equations, and with a mirror instead of fuzzy metal.
+// Returns the figure with another scene of three balls: the glass reflects by Fresnel's equations, and the metal is a
+// smooth mirror.
 Figure with_mirror(Figure figure) {
     figure.scene = figures::three_balls(glass(), std::make_shared<Metal>(Color{.8, .6, .2}, 0));
     return figure;
 }
 
-// Returns figure 1 without motion, without fuzz, and with Fresnel's equations.
+// Returns figure 1 without motion and with smooth metal. Its glass reflects by Fresnel's equations.
 Figure still_spheres() {
     auto balls = figures::read_bouncing_spheres(figures::data_file("bounce_spheres.csv"));
     for (figures::BouncingSphere& ball : balls) {
@@ -52,14 +53,13 @@ Figure still_spheres() {
     return figure;
 }
 
-// Returns a ball with hills, a mesh of 69312 triangles.
+// Returns a ball with hills: a mesh of 69312 triangles.
 std::shared_ptr<const Mesh> hilly_ball(const Point3& center, double radius, std::shared_ptr<const Material> material) {
     MeshData data = make_scene("sphere", 0.035).mesh->data();
     for (Float3& v : data.vertices) v = to_float3(center + radius * Vec3{v.x, v.y, v.z});
     return std::make_shared<Mesh>(std::move(data), std::move(material));
 }
 
-// Returns the empty Cornell box with a ball with hills.
 Figure ball_in_room(std::shared_ptr<const Material> material) {
     Figure figure = cornell_empty();
     figure.scene.add(hilly_ball({278, 200, 278}, 150, std::move(material)));
@@ -72,7 +72,7 @@ Figure many_lights() {
     constexpr double kSide = 6;
     auto lamps = std::make_shared<HittableList>();
     for (std::uint64_t i = 0; i < kCount; ++i) {
-        const auto u = [i](std::uint64_t dimension) { return random_number(8, i, dimension); };
+        const auto u = random_numbers(8, i);
         const Frame turned{Normal3(sample_uniform_sphere(u(0), u(1)))};
         const Point3 corner{40 + 475 * u(2), 280 + 255 * u(3), 40 + 475 * u(4)};
         const Color color{5 + 25 * u(5), 5 + 25 * u(6), 5 + 25 * u(7)};
@@ -92,7 +92,6 @@ EnvironmentMap sky_with_sun() {
     const Sky sky = make_sky(settings);
     Image map = *sky.environment->image();
     const double row = std::numbers::pi / map.height(), column = 2 * std::numbers::pi / map.width();
-    // Find the pixels whose centres are within two degrees of the sun.
     std::vector<std::pair<int, int>> disc;
     double solid_angle = 0;
     for (int y = 0; y < map.height(); ++y) {
@@ -104,13 +103,11 @@ EnvironmentMap sky_with_sun() {
             solid_angle += (std::cos(row * y) - std::cos(row * (y + 1))) * column;
         }
     }
-    // Add the sun's light to them.
     const Color radiance = sky.sun.irradiance / (solid_angle * sky.environment->scale());
     for (const auto& [x, y] : disc) map.set(x, y, map.at(x, y) + radiance);
     return EnvironmentMap(std::move(map), {}, sky.environment->scale());
 }
 
-// Returns a ball of rough copper under a sky with a sun.
 Figure rough_copper() {
     Scene scene;
     scene.add(std::make_shared<Quad>(Point3{-20, -1, -20}, Vec3{0, 0, 40}, Vec3{40, 0, 0}, matte({.4, .4, .4})));
@@ -119,7 +116,6 @@ Figure rough_copper() {
     return figure_of(std::move(scene), {.look_from = {0, 1.5, 5}, .look_at = {0, -.1, 0}, .vertical_fov = 30});
 }
 
-// Returns the Cornell box with a ball of ground glass.
 Figure rough_glass() {
     Figure figure = cornell_empty();
     figure.scene.add(figures::tall_box(matte(kLightGrey)));
@@ -127,7 +123,7 @@ Figure rough_glass() {
     return figure;
 }
 
-// Returns the glTF model of the gallery, which has normal maps, alpha and rough metal.
+// Returns the gallery's glTF model. The model has normal maps, alpha and rough metal.
 Figure still_life() {
     const Model model = gallery::load("still_life.glb");
     Scene scene;
@@ -136,8 +132,8 @@ Figure still_life() {
     return figure_of(std::move(scene), model.cameras.front().camera);
 }
 
-// Returns a floor with a small bright lamp. A screen shadows the floor, so that it gets light only by a fuzzy mirror.
-// The samples with this light are rare and bright.
+// Returns a floor with a small bright lamp. A screen shadows the floor, which the lamp lights only by way of a fuzzy
+// mirror. Samples that find the lamp through the mirror are rare and bright.
 Figure fireflies() {
     Scene scene;
     scene.background = Background::constant({.05, .06, .08});
@@ -180,7 +176,9 @@ std::vector<std::string> transport_scene_names() {
 
 Figure make_transport_scene(const std::string& name) {
     const auto* found = std::ranges::find(kScenes, name, [](const auto& scene) { return scene.first; });
-    if (found == std::end(kScenes)) throw ArgumentError("'" + name + "' is not the name of a scene");
+    std::string known;
+    for (const auto& [other, make] : kScenes) known += std::string(" ") + other;
+    if (found == std::end(kScenes)) throw ArgumentError("'" + name + "' is not the name of a scene; there are" + known);
     Figure figure = found->second();
     figure.name = name;
     return figure;

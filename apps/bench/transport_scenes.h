@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "figure.h"
-
-namespace limn::app {
-class Json;  // in json_output.h
-}
+#include "json_output.h"
 
 namespace limn::bench {
 
@@ -17,14 +14,11 @@ namespace limn::bench {
 // Fresnel's equations and are smooth or have the same microfacets. Only limn renders the others.
 std::vector<std::string> transport_scene_names();
 
-// Returns the scene of a name. \throws ArgumentError for another name, FileError if a data file of the figures cannot
-// be read
+// Returns the scene of a name. \throws ArgumentError for another name, FileError if the figures' data cannot be read
 Figure make_transport_scene(const std::string& name);
 
-// Returns camera, lights and objects as a JSON object, in world space and with float64 numbers. The modules in
-// apps/bench/peers make the scenes of other renderers from it. The numbers are those of the records that `compile`
-// reads.
-// \throws Error if no peer can express the scene
+// Returns camera, lights and objects as a JSON object, in world space and with the numbers that `compile` reads. The
+// modules in apps/bench/peers make the peers' scenes from it. \throws Error if no peer can express the scene
 app::Json describe_scene(const Figure& figure);
 
 }  // namespace limn::bench

@@ -14,8 +14,9 @@
 
 namespace limn::app {
 
-/// A JSON value that is built to be written. The members of an object keep their order. nlohmann's library writes it;
-/// only json_output.cpp includes that library, because it adds three seconds to the compilation of a source.
+/// A JSON value for output. The members of an object are written in the order in which they were added. nlohmann's
+/// library writes it; only json_output.cpp includes that library, because it adds three seconds to the compilation of a
+/// source.
 class Json {
 public:
     using Array = std::vector<Json>;

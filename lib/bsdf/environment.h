@@ -24,7 +24,7 @@ inline MapAxes axes_of(const Transform& world_from_map) {
 Uv map_uv(const MapAxes& axes, const Vec3& direction);
 
 // Returns the radiance of the map, interpolated bilinearly between the centres of pixels. The columns wrap around.
-// Above the centres of the first row and below those of the last row, the radiance is that of the row.
+// Above the centres of the first row and below those of the last row, the radiance doesn't change with v.
 Color map_radiance(const Image& image, double scale, const Uv& uv);
 
 }  // namespace limn::pattern

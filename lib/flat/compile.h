@@ -1,4 +1,4 @@
-// Compiles the described scene to the flat scene. `compile` is the only room that sees both.
+// Compiles the described scene to the flat scene. `flat` is the only room of lib/ that sees both.
 #pragma once
 
 #include <span>

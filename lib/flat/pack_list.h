@@ -12,7 +12,7 @@ namespace limn::compiler {
 // returns false. \pre the root's extent and scale are set
 bool list_all(flat::Scene& scene);
 
-// A primitive or instance of the root BLAS. Triangles of meshes are no candidates.
+// A primitive or instance of the root BLAS. Triangles of meshes aren't candidates.
 struct Candidate {
     flat::Reference reference;
     Box box{};
@@ -21,7 +21,7 @@ struct Candidate {
 };
 
 // Fills Scene::list with the candidates that are so large compared with the rest that most rays would test them in a
-// tree anyway. Returns a flag for each candidate, true if it's listed. `others` bounds the primitives that are no
+// tree anyway. Returns a flag for each candidate, true if it's listed. `others` bounds the primitives that aren't
 // candidates. \pre the root's extent and scale are set
 std::vector<bool> list_large(flat::Scene& scene, std::span<const Candidate> candidates, const Box& others);
 

@@ -12,8 +12,8 @@ struct NearestPoint {
     enum class Part { face, edge_ab, edge_ac, edge_bc, a, b, c };
 
     Vec3 at;
-    // On a triangle the weights of b and c, on a quad the coordinates along the edges, on a disk as in
-    // intersect_disk().
+    // Surface coordinates. On a triangle they are the weights of b and c, on a quad the coordinates along the edges,
+    // and on a disk those of exact_disk.h. On a sphere they are 0.
     double u = 0, v = 0;
     Part part = Part::face;
 };
@@ -22,11 +22,12 @@ struct NearestPoint {
 // triangle is.
 NearestPoint nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Returns the nearest point of a quad. `part` is a part of the half of the quad that has the point; the halves are the
-// triangle at `corner` and the opposite one. The diagonal between them counts as face.
+// Returns the nearest point of a quad. A diagonal divides the quad into two triangles: a, b and c are `corner` and its
+// neighbours in one of them, and the opposite corner and its neighbours in the other. `part` is a part of the triangle
+// that has the point. A point on the diagonal has the part `face`.
 NearestPoint nearest_on_quad(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
 
-// Returns the nearest point of a sphere, and (radius, 0, 0) if its centre is the origin.
+// Returns the nearest point of a sphere. It is (radius, 0, 0) if the centre is the origin.
 NearestPoint nearest_on_sphere(const Vec3& center, double radius);
 
 // Returns the nearest point of a disk. On the rim, `part` is edge_bc. \pre the normal has unit length

@@ -7,8 +7,8 @@
 
 namespace limn {
 
-// Returns the i-th of the numbers that an object consists of. It is read from the bytes of the object: a pointer to one
-// member must not be used to read the next one, and compilers rely on that.
+// Returns the i-th of the numbers that an object consists of. It is read from the bytes of the object, because C++ does
+// not allow reading one member by a pointer to another.
 template <class Number, class Object>
 inline Number number_of(const Object& object, std::size_t i) {
     Number value;

@@ -80,8 +80,8 @@ SphereHits exact_sphere(const Point3& center, double radius, const RayFrame& fra
     SphereHits hits;
     hits.near = near != nullptr ? *near : b.sign() < 0 ? inner : outer;
     hits.far = far != nullptr ? *far : b.sign() < 0 ? outer : inner;
-    // Rounding may reverse the order of the roots: make them equal then. A root that the filter knows must not change,
-    // because a search that the filter decides alone reports that root.
+    // Rounding may reverse the order of the roots: make them equal then. Keep a root that the filter has found, because
+    // the filter reports it too if it can decide.
     if (near != nullptr)
         hits.far = larger(hits.far, hits.near);
     else

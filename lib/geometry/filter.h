@@ -14,8 +14,9 @@ namespace limn {
 // The largest relative error of t, and the largest absolute error of u and v, with which a filter may report a hit.
 inline constexpr double kAccurate = 0x1p-32, kAccurateWeight = 0x1p-26;
 
-// The interval in which a hit is searched: t in (t_min, t_max], and finite. A hit is within it if its reported, rounded
-// t is. Thus the interval and the order of hits are judged by the numbers that the caller sees.
+// The interval in which a hit is searched: t in (t_min, t_max], and finite. A hit is within it if its reported t is,
+// which is rounded. The caller therefore sees no t outside the interval. The nearest hit is the one with the least
+// reported t.
 struct Search {
     double t_min, t_max;
 

@@ -1,7 +1,7 @@
 // Bounds on the distance of a computed hit point from its surface.
 //
 // The next ray starts at a point that is moved off the surface by this bound. The bounds are larger than the error
-// itself,so that the filter of the next intersection can decide on which side of the surface the ray starts. With the
+// itself, so that the filter of the next intersection can decide on which side of the surface the ray starts. With the
 // error alone, the exact fallback would have to decide, which is slower.
 //
 // A bound is the same along every axis, because an intersection in a rotated or sheared frame mixes the axes.
@@ -29,7 +29,7 @@ inline Vec3 sphere_error(const Point3& center, double radius) {
     return along_every_axis(gamma(64) * (max_abs(center) + std::abs(radius)));
 }
 
-// Returns the bound for the point origin + t direction, for shapes of which nothing better is known.
+// Returns the bound for the point origin + t direction, for shapes without a better bound.
 inline Vec3 ray_error(const Ray& ray, double t) {
     return along_every_axis(gamma(16) * (max_abs(ray.origin) + std::abs(t) * max_abs(ray.direction)));
 }

@@ -23,7 +23,7 @@
 // trace/traversal-inl.h and these members:
 //
 //     std::array<float, n> pack() const              returns the primitive's rows in a block: see flat::rows_of
-//     double packed_error() const                    returns the largest distance that this rounding moves its points
+//     double packed_error() const                    returns the largest distance by which pack() moves its points
 //
 // A planar kind that can be sampled as a light has this member:
 //

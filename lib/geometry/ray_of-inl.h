@@ -49,9 +49,9 @@ struct FilterResult {
 
 // The judgement of a t with a bound on its error: see judge().
 //
-// If t is neither `beyond` nor `accurate`, the exact fallback decides. A t is not accurate if it is not a float but the
-// nearest float is within its error. The exact t may then be that float, and t_min and t_max are often such round
-// numbers.
+// If t is neither `beyond` nor `accurate`, the exact fallback decides. If the computed t isn't a float but a float is
+// within its error, the exact t may be that float. t_min or t_max may be the same float, since they are often floats.
+// Such a t isn't accurate.
 template <class N>
 struct Judgement {
     Mask<N> beyond;    // the exact t is surely outside the search

@@ -18,7 +18,8 @@ double square(double x) { return x * x; }
 
 double encode_clamped(double linear) { return srgb_encode(std::clamp(linear, 0.0, 1.0)); }
 
-// Returns the share of the worst 0.1 % of `errors`, but at least one of them, in their sum. Reorders the errors.
+// Returns the sum of the largest 0.1 % of `errors`, but of at least one, divided by `sum`, the sum of all. Returns NaN
+// if that is 0. Reorders the errors.
 double share_of_worst(std::vector<double>& errors, double sum) {
     const std::size_t count = (errors.size() + 999) / 1000;
     const auto end = errors.begin() + static_cast<std::ptrdiff_t>(count);

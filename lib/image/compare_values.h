@@ -11,7 +11,7 @@ namespace limn {
 // The constant that relMSE adds to the squared reference, so that dark pixels don't dominate.
 inline constexpr double kDarkness = 0.01;
 
-// Returns the value of the reference that is given as two halves: their mean.
+// Returns a value of a reference that is given as two halves a and b: the mean of both.
 inline double mean_of_halves(float a, float b) { return (static_cast<double>(a) + b) / 2; }
 
 // Returns the term of relMSE for a value x of the test image and a value r of the reference.

@@ -115,7 +115,7 @@ private:
     }
 
     // Visits the nodes of the default scene and their children. Without a default scene, takes the first scene. Without
-    // any scene, starts at all nodes that are no other node's children.
+    // any scene, starts at all nodes without a parent.
     void visit_all() {
         // Find the root nodes.
         const GltfValue nodes = document_["nodes"], scenes = document_["scenes"], number = document_["scene"];

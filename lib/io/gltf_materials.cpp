@@ -86,8 +86,8 @@ private:
         const GltfValue emissive_texture = m["emissiveTexture"];
         if (is_black(emission)) return nullptr;
         if (!emissive_texture.exists()) return std::make_shared<DiffuseLight>(emission);
-        // An emissive texture is often black except for some spots. If there is a base colour texture as well, keep
-        // that one, for a light shows no base colour.
+        // An emissive texture is often black except for some spots. If there is a base colour texture as well, make no
+        // light, because a light shows no base colour.
         const auto picture = m["pbrMetallicRoughness"]["baseColorTexture"].exists()
                                  ? nullptr
                                  : pictures_.image(emissive_texture, Values::colors, emission, kBrightest);
@@ -104,7 +104,8 @@ private:
         const double metallic = share(base["metallicFactor"].number_or(1)),
                      roughness = share(base["roughnessFactor"].number_or(1));
         const double stated_index = m["extensions"]["KHR_materials_ior"]["ior"].number_or(1.5);
-        // An index of 0 is meant for materials with specular and glossiness, which limn does not read.
+        // The specification reserves an index of 0 for materials with specular and glossiness, which limn does not
+        // read.
         const double index = stated_index >= 1 ? stated_index : 1.5;
         const auto surface_picture = pictures_.image(surface, Values::raw);
         if (const auto glass = this->glass(m, index, metallic, roughness, surface_picture.get())) return glass;
@@ -142,7 +143,7 @@ private:
     }
 
     // Applies the alpha of a material (glTF 2.0, 3.9.4). In the mode MASK, the surface is opaque where alpha is at
-    // least the cutoff, and not there elsewhere. In the mode BLEND, alpha is the opacity.
+    // least the cutoff, and absent elsewhere. In the mode BLEND, alpha is the opacity.
     MaterialPtr masked(MaterialPtr material, const GltfValue& m, const GltfValue& base_texture, double factor) {
         const std::string mode = m["alphaMode"].text_or("OPAQUE");
         const double cutoff = mode == "MASK" ? m["alphaCutoff"].number_or(0.5) : 0;

@@ -110,7 +110,7 @@ private:
         current_->file = path_;
     }
 
-    // Returns the picture of the current material that a keyword names; null if it is no keyword of a picture.
+    // Returns the picture of the current material that a keyword names; null if it isn't a keyword of a picture.
     MtlMap* map_of(std::string_view key) {
         if (key == "map_Kd") return &current().diffuse_map;
         if (key == "map_Ks") return &current().specular_map;

@@ -7,11 +7,12 @@
 
 namespace limn::query {
 
-// The surface at a hit. Traversal reports only t, u, v and the primitive. The rest is computed once, for the hit that
-// is kept: in the primitive's own space, then transformed outward through the instances.
+// The surface at a hit. Traversal reports only t, u, v and the primitive. The rest is computed only for the hit that
+// the caller keeps. It is computed in the primitive's own space and then transformed to world space, one instance after
+// the other.
 struct SurfaceHit {
     Surface surface;
-    bool index_matched = false;  // true for the boundary of a medium and for a user-defined shape that says so
+    bool index_matched = false;  // true for the boundary of a medium, or if a user-defined shape says so
 };
 
 // Parts of a surface that a caller may leave out: the texture coordinates of a sphere, which cost more than everything

@@ -14,7 +14,8 @@ namespace limn::transport {
 namespace {
 
 constexpr int kEvennessReach = 3;  // pixels to each side in the window of evenness()
-constexpr double kSingle = 0.5;    // a sample with a larger share of a pixel than this has found its light alone
+// A sample with a larger share of its pixel than this has found light that the pixel's other samples missed.
+constexpr double kSingle = 0.5;
 
 using Channels = std::array<double, 3>;
 Channels channels(const Color& c) { return {c.r, c.g, c.b}; }
@@ -31,8 +32,9 @@ struct Variances {
     }
 };
 
-// Returns, for each pixel, the ratio of the variance to that of independent samples in the 7x7 pixels around it, at
-// most 1.
+// Returns a factor for each pixel, at most 1: by how much the film's samples reduce the variance compared with
+// independent samples. It is the ratio of the sums of Film::variance and Film::independent_variance over the 7x7 pixels
+// around the pixel.
 std::vector<float> evenness(const Film& film) {
     const int width = film.width(), height = film.height();
     const auto sum = [](const Color& c) { return c.r + c.g + c.b; };
@@ -80,9 +82,9 @@ struct TrueValue {
     double own;      // the weight of the pixel's own mean in it
 };
 
-// Estimates r of a pixel. `around` is the sum over the window of `count` pixels, which contains the pixel. `share` is
-// the largest share that one sample has of the pixel. In proportion to it, r^2 includes the variance of r, as the
-// second moment of a posterior does.
+// Estimates r and r^2 of a pixel. `around` is the sum over the window of `count` pixels, which contains the pixel.
+// `share` is the largest share that one sample has of the pixel. If r has a posterior distribution, the mean of r^2 is
+// the squared mean plus the variance. The estimate of r^2 adds `share` times that variance.
 TrueValue true_value(const Moments& here, const Moments& around, int count, double share) {
     if (count == 1) return {square(here.value), here.value, 1};
     const double others = (around.value - here.value) / (count - 1);
@@ -146,7 +148,8 @@ private:
             own += r.own / 3;
             mean += here.channels[c].value / 3;
         }
-        // Add light that is not found. It ranges over log(mean / 0.1) e-folds.
+        // Add the error due to light that no sample has found. It is error * own in each e-fold of the probability of
+        // finding the light (pixel_errors.h), and there are log(mean / 0.1) e-folds.
         if (share > kSingle && square(mean) > kDarkness)
             sums.not_found = sums.error * own * logarithm(square(mean) / kDarkness) / 2;
         errors_.error[film_.index(x, y)] = static_cast<float>(sums.error);

@@ -231,7 +231,7 @@ private:
         film_.plan().scale = scale;
     }
 
-    // Takes the samples that pixels lack to the plan.
+    // Takes the samples that the plan wants and the pixels don't have yet.
     void render_pass() {
         const bool may_end = film_.plan().samples > SamplePlan::kFirstPass;
         for_each_until_cancelled(film_.tiles().size(), *context_, [&](std::size_t i) {

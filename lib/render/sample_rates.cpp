@@ -12,13 +12,13 @@ namespace limn::transport {
 namespace {
 
 constexpr int kReach = 2;  // pixels to each side in the window whose variance is averaged
-// The weight of relative_unseen. It would be 1 for independent samples. Evenly spread samples cover edges so much
-// better that a larger weight takes samples from where they are needed.
+// The weight of relative_unseen. It would be 1 for independent samples. The samples are Sobol points, which cover edges
+// much better than independent ones. A larger weight would spend samples on edges that are needed elsewhere.
 constexpr double kUnseen = 0.08;
 
-// Returns the relative variance of a pixel's mean, if its samples were independent. The variance of the film's Sobol
-// points is usually smaller and would be the right one. But its estimate from two replicates is so noisy that rates
-// computed from it gave noisier pictures.
+// Returns the relative variance that a pixel's mean would have if its samples were independent. The variance of the
+// film's Sobol points is usually smaller and would be the right one. But its estimate from two replicates is so noisy
+// that rates computed from it gave noisier pictures.
 double relative_variance(const Film& film, int x, int y) {
     const Color mean = film.mean(x, y), variance = film.independent_variance(x, y);
     const auto relative = [](double v, double m) { return v / (m * m + kDarkness); };

@@ -102,7 +102,6 @@ def material_of(told, tinted=False):
 
 
 def add(data, material=None):
-    """Adds an object with these data to the scene and returns it."""
     made = bpy.data.objects.new(data.name, data)
     bpy.context.scene.collection.objects.link(made)
     if material is not None:
@@ -151,7 +150,6 @@ def add_spheres(spheres):
 
 
 def add_light(kind, power):
-    """Adds a light and returns its data and its object."""
     light = bpy.data.lights.new("light", kind)
     light.color, light.energy = np.array(power) / max(power), max(power)
     return light, add(light)
@@ -183,8 +181,7 @@ def add_sky(scene):
                             projection="EQUIRECTANGULAR")
     else:
         color = rgba(scene.sky or (0, 0, 0))
-    background = shader.node("Background", {"Color": color, "Strength": 1.0})
-    shader.node("OutputWorld", {"Surface": background})
+    shader.node("OutputWorld", {"Surface": shader.node("Background", {"Color": color, "Strength": 1.0})})
     world.cycles.sampling_method = "AUTOMATIC" if scene.has_map else "NONE"
 
 

@@ -12,21 +12,18 @@ LIFT = 0.2  # how far media are moved up, because Mitsuba misses a boundary that
 
 
 class Scene:
-    """A scene to render.
+    """A scene whose meshes have arrays of vertices, triangles, normals and uvs.
 
-    The vertices, triangles, normals and uvs of meshes are arrays. A colour is one of three: a list of red, green and
-    blue; a dict {"cell", "even", "odd"} for a checkerboard; a dict {"picture"} for an image with rows from the top,
-    which is interpolated bilinearly and repeated. `sky` is None if there is no light around the scene. Otherwise it is
-    a colour or a latitude-longitude map."""
+    A colour is one of three: a list of red, green and blue; a dict {"cell", "even", "odd"} for a checkerboard; a dict
+    {"picture"} for an image with rows from the top, which is interpolated bilinearly and repeated. `sky` is a colour, a
+    latitude-longitude map, or None if there is no light around the scene."""
 
     def __init__(self, text):
-        # Read the description.
         told = json.loads(text)
         self.max_depth, self.camera, self.suns = told["max_depth"], told["camera"], told["suns"]
         self.spheres, self.meshes, self.media = told["spheres"], told["meshes"], told["media"]
         for medium in self.media:
             (medium["boundary"],) = medium["boundary"]["meshes"]
-        # Convert the meshes to arrays.
         for mesh in self.meshes + [medium["boundary"] for medium in self.media]:
             mesh["vertices"] = np.array(mesh["vertices"], dtype=np.float32)
             mesh["triangles"] = np.array(mesh["triangles"], dtype=np.uint32)
@@ -34,7 +31,6 @@ class Scene:
                 mesh[name] = np.array(mesh[name], dtype=np.float32) if mesh.get(name) else None
         for medium in self.media:
             medium["boundary"]["vertices"][:, 1] += LIFT
-        # Read the light around the scene.
         bottom, top = told["background"]["bottom"], told["background"]["top"]
         self.has_map = told["environment"] is not None
         if self.has_map:
@@ -67,8 +63,7 @@ def sphere_mesh(sphere, rings):
     around = 2 * np.pi * np.arange(segments) / segments
     sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
     normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), -1).reshape(-1, 3)
-    # Connect the rings. a and b are neighbours in a ring. c and d are below them. The first and the last ring are the
-    # poles.
+    # Connect the rings. a and b are neighbours in a ring, c and d are below them. The poles are the outermost rings.
     rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
     a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
     c, d = a + segments, b + segments

@@ -1,7 +1,6 @@
 """Renders scenes with LuxCore, by path tracing on the processor with independent samples.
 
-LuxCore has only triangles, so that balls are meshes with exact normals. Its lamps emit on one side only. z is up in its
-sky."""
+LuxCore has only triangles, so balls are meshes with exact normals. Its lamps emit on one side only."""
 
 import time
 
@@ -32,10 +31,8 @@ class Peer:
         rings = 128 if len(scene.spheres) <= 16 else 32
         for sphere in scene.spheres:
             self.add(sphere_mesh(sphere, rings), self.material(sphere["material"]))
-        for mesh in scene.meshes:
-            self.add(mesh, self.material(mesh["material"]))
-        for back, share in scene.backs():
-            self.add(back, self.material(back["material"], {"emission.importance": share}))
+        for mesh, share in [*((mesh, 1.0) for mesh in scene.meshes), *scene.backs()]:
+            self.add(mesh, self.material(mesh["material"], {"emission.importance": share}))
         for medium in scene.media:
             self.add(medium["boundary"], self.medium(medium))
 
@@ -78,18 +75,15 @@ class Peer:
             "mapping.transformation": floats(np.diag([1 / color["cell"]] * 3 + [1]).ravel())})
 
     def material(self, told, settings={}):
-        kind = told["kind"]
-        if kind not in ("lambertian", "mirror", "glass", "light") or "normal_map" in told or "opacity" in told:
-            raise ValueError(f"no {kind} with such settings is written for LuxCore")
-        if kind == "lambertian":
-            made = {"type": "matte", "kd": self.texture(told["color"])}
-        elif kind == "mirror":
-            made = {"type": "mirror", "kr": self.texture(told["color"])}
-        elif kind == "glass":
-            made = {"type": "glass", "kr": [1.0] * 3, "kt": [1.0] * 3, "interiorior": told["index"], "exteriorior": 1.0}
-        else:
-            made = {"type": "matte", "kd": [0.0] * 3, "emission": self.texture(told["color"])}
-        return self.define("materials", {**made, **settings})
+        kinds = {
+            "lambertian": lambda: {"type": "matte", "kd": self.texture(told["color"])},
+            "mirror": lambda: {"type": "mirror", "kr": self.texture(told["color"])},
+            "glass": lambda: {"type": "glass", "kr": [1.0] * 3, "kt": [1.0] * 3, "interiorior": told["index"],
+                              "exteriorior": 1.0},
+            "light": lambda: {"type": "matte", "kd": [0.0] * 3, "emission": self.texture(told["color"])}}
+        if told["kind"] not in kinds or "normal_map" in told or "opacity" in told:
+            raise ValueError(f"no {told['kind']} with such settings is written for LuxCore")
+        return self.define("materials", {**kinds[told["kind"]](), **settings})
 
     def medium(self, told):
         scattering = np.array(told["albedo"]) * told["density"]
@@ -99,14 +93,13 @@ class Peer:
         return self.define("materials", {"type": "null", "volume.interior": volume})
 
     def render(self, path, size, spp, seed, threads):
-        # Set the camera. LuxCore's pixel (x, y) is the pixel (x, y + 1) of other renderers.
+        # LuxCore's pixel (x, y) is the pixel (x, y + 1) of other renderers.
         c, low = self.camera, 2 / size
         camera = {"type": "perspective", "lookat.orig": floats(c["look_from"]), "lookat.target": floats(c["look_at"]),
                   "up": floats(c["up"]), "fieldofview": c["vertical_fov"], "lensradius": c["lens_radius"],
                   "focaldistance": c["focus_distance"], "screenwindow": [-1, 1, -1 - low, 1 - low],
                   "autofocus.enable": False, "cliphither": 1e-3, "clipyon": 1e5}
         self.scene.Parse(self.properties({f"scene.camera.{name}": value for name, value in camera.items()}))
-        # Set the integrator.
         session = pyluxcore.RenderSession(pyluxcore.RenderConfig(self.properties({
             "renderengine.type": "PATHCPU", "sampler.type": "RANDOM", "sampler.random.adaptive.strength": 0.0,
             "renderengine.seed": 1000 * seed,  # thread i has seed + i
@@ -114,7 +107,6 @@ class Peer:
             "film.filter.type": "NONE", "film.outputs.0.type": "RGB", "film.outputs.0.filename": path,
             **{f"path.pathdepth.{kind}": self.depth for kind in ("total", "diffuse", "glossy", "specular")},
             "path.clamping.variance.maxvalue": 0.0, "path.hybridbackforward.enable": False}), self.scene))
-        # Render.
         session.Start()
         start = time.perf_counter()
         while not session.HasDone():

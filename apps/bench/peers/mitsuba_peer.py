@@ -21,8 +21,6 @@ mi.set_variant("llvm_ad_rgb")
 
 
 class SolidChecker(mi.Texture):
-    """A three-dimensional checkerboard."""
-
     def __init__(self, props):
         super().__init__(props)
         self.cell = props["cell"]
@@ -53,24 +51,20 @@ def texture(color, raw=False):
 
 
 def bsdf(material):
-    kind, alpha = material["kind"], float(material.get("alpha", 0))
     glass = {"int_ior": float(material.get("index", 1)), "ext_ior": 1.0}
-    if kind == "lambertian":
-        told = {"type": "diffuse", "reflectance": texture(material["color"])}
-    elif kind == "mirror":
-        told = {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])}
-    elif kind == "glass":
-        told = {"type": "dielectric", **glass}
-    elif kind == "rough-conductor":
-        eta, k = index_of(material)
-        told = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": rgb(eta), "k": rgb(k)}
-    elif kind == "rough-glass":
-        told = {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha, **glass}
-    else:
-        told = {"type": "diffuse", "reflectance": rgb([0, 0, 0])}  # a lamp
+    rough = {"distribution": "ggx", "alpha": float(material.get("alpha", 0))}
+    kinds = {
+        "lambertian": lambda: {"type": "diffuse", "reflectance": texture(material["color"])},
+        "mirror": lambda: {"type": "conductor", "material": "none", "specular_reflectance": rgb(material["color"])},
+        "glass": lambda: {"type": "dielectric", **glass},
+        "rough-conductor": lambda: {"type": "roughconductor", **rough,
+                                    **dict(zip(("eta", "k"), map(rgb, index_of(material))))},
+        "rough-glass": lambda: {"type": "roughdielectric", **rough, **glass},
+        "light": lambda: {"type": "diffuse", "reflectance": rgb([0, 0, 0])}}
+    told = kinds[material["kind"]]()
     if "normal_map" in material:
         told = {"type": "normalmap", "normalmap": texture(material["normal_map"], raw=True), "nested": told}
-    if kind == "lambertian":
+    if material["kind"] == "lambertian":
         told = {"type": "twosided", "nested": told}
     if "opacity" in material:
         told = {"type": "mask", "opacity": texture(material["opacity"], raw=True), "nested": told}
@@ -157,13 +151,11 @@ class Peer:
 
     def render(self, path, size, spp, seed, threads):
         """Returns the seconds that the kernels take, without those of recording and compiling them."""
-        # Set the camera, the film and the sampler.
         c = self.camera
         told = {"type": "perspective", "fov": c["vertical_fov"], "fov_axis": "y", "near_clip": 1e-3, "far_clip": 1e5,
                 "to_world": mi.ScalarTransform4f().look_at(c["look_from"], c["look_at"], c["up"]),
                 "film": {"type": "hdrfilm", "width": size, "height": size, "pixel_format": "rgb",
-                         "component_format": "float32", "rfilter": {"type": "box"}},
-                "sampler": {"type": "multijitter"}}
+                         "component_format": "float32", "rfilter": {"type": "box"}}, "sampler": {"type": "multijitter"}}
         if c["lens_radius"] > 0:
             told.update(type="thinlens", aperture_radius=c["lens_radius"], focus_distance=c["focus_distance"])
         sensor = mi.load_dict(told)
@@ -172,7 +164,6 @@ class Peer:
         spp = sensor.sampler().sample_count()  # rounded up to a product of rows and columns of strata
         passes = next(n for n in range(1, spp + 1) if spp % n == 0 and spp // n * size**2 <= LANES)
         integrator = mi.load_dict({**self.integrator, "samples_per_pass": spp // passes})
-        # Render.
         dr.kernel_history_clear()
         picture = mi.render(self.scene, sensor=sensor, integrator=integrator, spp=spp, seed=seed)
         dr.eval(picture)

@@ -101,7 +101,7 @@ void check_writable(const std::string& path);
 /// too short or the machine's memory too small, before it allocates memory. JPEG, HDR, BMP and TGA have no checksums:
 /// damage is not noticed if the file stays readable. Only regular files are read, no pipes or devices.
 ///
-/// \throws FileError that names the file, if it is missing, truncated or too large, is no picture (the message says
+/// \throws FileError that names the file, if it is missing, truncated or too large, isn't a picture (the message says
 /// what it appears to be), has a wrong checksum, or is an EXR with subsampled channels
 Image load_image(const std::string& path, Encoding encoding = Encoding::automatic);
 

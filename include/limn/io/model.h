@@ -28,8 +28,8 @@ struct ModelOptions {
 /// the format. The name matters only for a damaged binary STL. The result does not depend on the locale. docs/models.md
 /// says how materials are translated and what gives a warning. Only regular files are read, no pipes or devices.
 ///
-/// \throws FileError that names the file and, if there is one, the place in it. The file is unreadable, no model (the
-/// message says what it appears to be) or damaged, or has no usable face.
+/// \throws FileError that names the file and, if there is one, the place in it, if the file is unreadable or damaged,
+/// isn't a model (the message says what it appears to be), or has no usable face
 ///
 /// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_model(const std::string& path, const ModelOptions& options = {});

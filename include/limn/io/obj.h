@@ -45,9 +45,12 @@ using ObjOptions = ModelOptions;  ///< options of load_obj
 /// If a material is missing or unreadable, the default one is used, with a warning. If a picture is missing or
 /// unreadable, Kd or Ks is used, with a warning, and (0.6, 0.6, 0.6) if there is no Kd.
 ///
-/// \throws FileError that names the file and, if there is one, the line. The file is unreadable or no OBJ (the message
-/// says what it appears to be), has no usable face, an index out of range or a coordinate that is not a finite float32,
-/// or the OBJ or MTL has a malformed number.
+/// \throws FileError that names the file and, if there is one, the line, if
+/// - the file is unreadable or isn't an OBJ (the message says what it appears to be),
+/// - it has no usable face,
+/// - an index is out of range,
+/// - a coordinate is not a finite float32,
+/// - the OBJ or the MTL has a malformed number.
 ///
 /// \throws ArgumentError if the crease angle is outside [0, 180]
 Model load_obj(const std::string& path, const ObjOptions& options = {});

@@ -16,7 +16,7 @@ struct Ray {
     Vec3 direction;            ///< finite and not zero, of any length
     double t_min = 0;          ///< excluded: a hit at t_min is not found
     double t_max = kInfinity;  ///< included: a hit at t_max is found
-    /// The time in shutter units: 0 when the shutter opens, 1 when it closes. Moving objects clamp it to [0, 1].
+    /// The time. Objects move from time 0 to time 1, and clamp it to [0, 1].
     double time = 0;
     /// Internal data of a ray inside an instance; null in a ray that you make. The origin and the direction in the
     /// space of an instance are rounded. The frame describes the exact ray, so that limn's shapes can decide exactly

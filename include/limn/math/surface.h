@@ -16,7 +16,7 @@ struct MaterialThunks;
 /// The material of a surface: a row of the compiled scene's table of materials, or a user-defined object and the
 /// functions to call on it. It owns nothing, and is valid as long as the scene that it came from.
 struct MaterialRef {
-    static constexpr std::uint32_t kNone = 0xffffffff;    ///< the id of no material
+    static constexpr std::uint32_t kNone = 0xffffffff;    ///< the id if there is no material
     static constexpr std::uint32_t kObject = 0xfffffffe;  ///< the id of a user-defined material
 
     std::uint32_t id = kNone;                ///< row of the table of materials, kObject or kNone
@@ -46,7 +46,7 @@ struct Surface {
     /// error bound, towards the side that the direction points to. So it cannot hit the same flat or convex surface
     /// again (Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., section 6.8).
     /// \param direction the direction of the ray, of any length and towards either side
-    /// \param time the time of the ray, in shutter units
+    /// \param time the time of the ray, see Ray::time
     Ray spawn_ray(const Vec3& direction, double time) const;
 
     /// Returns a ray from this point to `target`, to test for obstacles. Its direction is target - origin. Its t_max is

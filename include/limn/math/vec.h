@@ -133,8 +133,8 @@ inline double max_abs(const Vec3& a) {
 inline double max_abs(const Point3& a) { return max_abs(Vec3{a.x, a.y, a.z}); }
 ///@}
 
-/// Returns `a` times a power of two such that the largest magnitude of a coordinate is in [1/2, 1). Its squared length
-/// cannot overflow. The zero vector stays zero.
+/// Returns `a` times a power of two such that the largest magnitude of a coordinate is in [1/2, 1). The squared length
+/// of the result cannot overflow. The zero vector stays zero.
 /// \pre a is finite
 inline Vec3 scale_to_one(const Vec3& a) {
     int exponent = 0;
@@ -145,14 +145,15 @@ inline Vec3 scale_to_one(const Vec3& a) {
 /// Returns the unit vector along (x, y, z). `normalize` calls it if the squared length may overflow or underflow.
 Vec3 normalize_extreme(double x, double y, double z);
 
-/// Returns the unit vector along `a`. The length of `a` may be any finite number but zero; the zero vector gives NaN.
+/// Returns the unit vector along `a`. `a` may be any finite vector, however short or long. The zero vector gives NaN.
 inline Vec3 normalize(const Vec3& a) {
     const double squared = dot(a, a);
     if (squared > 1e-200 && squared < 1e200) return a / std::sqrt(squared);
     return normalize_extreme(a.x, a.y, a.z);
 }
 
-/// Returns the unit vector along cross(a, b). The vectors may have any finite length. Parallel vectors give NaN.
+/// Returns the unit vector along cross(a, b). The vectors may be any finite ones, however short or long. Parallel
+/// vectors give NaN.
 inline Vec3 unit_cross(const Vec3& a, const Vec3& b) {
     const Vec3 c = cross(a, b);
     const double squared = dot(c, c);

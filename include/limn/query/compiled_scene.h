@@ -91,7 +91,7 @@ public:
     /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
     /// is unspecified. A point with a coordinate that isn't finite counts as outside.
     /// \param point in world space
-    /// \param time of moving objects, in shutter units, 0 to 1
+    /// \param time the time, see Ray::time
     PointLocation locate(const Point3& point, double time = 0) const;
     /// Returns PointLocation::is_inside of `locate`: true if the point is inside or exactly on a surface.
     bool contains(const Point3& point, double time = 0) const;
@@ -194,8 +194,8 @@ CompiledScene compile(const Scene& scene);
 /// instanced objects are kept. The tree over all objects, the lights and the media are built again. So it is fast if
 /// moving objects and large static meshes are Instances.
 /// \pre no render or query of `scene` is running
-/// \throws ArgumentError if an object does not exist, is no Instance, is an Instance without primitives or is moved
-/// twice, or if its matrices are not allowed for an Instance; `scene` is then unchanged
+/// \throws ArgumentError if an object does not exist, isn't an Instance, is an Instance without primitives or is moved
+/// twice, or if its matrices are invalid for an Instance; `scene` is then unchanged
 CompiledScene recompile(CompiledScene&& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn

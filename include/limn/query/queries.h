@@ -18,7 +18,7 @@ inline constexpr std::uint64_t kNoPrimitive = ~std::uint64_t{0};  ///< a number 
 struct RayHit {
     double t = kInfinity;      ///< in units of the ray's direction; kInfinity for a miss
     std::uint32_t object = 0;  ///< number of the object, in the order of Scene::add
-    /// The number of the primitive within the object: of the triangle in a mesh, of the shape in a list.
+    /// The number of the primitive within the object, for example of the triangle in a mesh or of the shape in a list.
     std::uint64_t element = 0;
     /// Parameters of the point on the primitive.
     ///
@@ -42,8 +42,8 @@ struct RayCrossing : RayHit {
 
 /// The location of a point: inside, outside or on surfaces.
 struct PointLocation {
-    /// The sum over all surfaces of how often they enclose the point. A closed surface with the point inside counts 1,
-    /// or -1 if its normals point inward. Otherwise it counts 0.
+    /// The number of times that surfaces wind around the point: 1 for each closed surface around it, or -1 if the
+    /// normals of that surface point inward.
     std::int64_t winding_number = 0;
     bool on_surface = false;                 ///< true if the point is exactly on a sphere, triangle or quad
     std::uint64_t primitive = kNoPrimitive;  ///< the lowest number of a primitive that the point is on
@@ -78,8 +78,8 @@ struct RayFilter {
     /// One value for each object of the scene, by RayHit::object. An object whose value is 0 is ignored. If the span is
     /// empty, no object is ignored.
     std::span<const std::uint8_t> objects = {};
-    /// One value of `without` for each ray of a batch, which replaces it. If the span is empty, `without` holds for all
-    /// rays. Queries of a single ray don't use it.
+    /// A value for each ray of a batch, which is used in place of `without`. If the span is empty, `without` is used
+    /// for all rays. Queries of a single ray ignore the span.
     std::span<const std::uint64_t> without_each = {};
 
     /// Returns true if no primitive is ignored.

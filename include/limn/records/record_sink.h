@@ -42,7 +42,7 @@ public:
 
     /// Adds a shape to the current BLAS, which is the scene itself except inside `blas`. The ids in the record must
     /// come from this sink. The arrays of a mesh must be valid as long as `owner`. A user-defined shape must live as
-    /// long as the compiled scene. That scene keeps alive the objects of the Scene and the objects given to `blas`.
+    /// long as the compiled scene, which keeps alive the objects of the Scene and the objects given to `blas`.
     ///
     /// \throws ArgumentError if there are too many primitives
     ///@{
@@ -72,8 +72,8 @@ public:
         (records_.*table).push_back(record);
     }
 
-    /// Returns the BLAS of an object that instances or media refer to. Calls `fill` the first time only. Shapes that
-    /// `fill` adds belong to that BLAS. The records keep the object alive.
+    /// Returns the BLAS of an object that instances or media refer to. Calls `fill` the first time only. While `fill`
+    /// runs, this is the current BLAS, to which shapes are added. The records keep the object alive.
     ///
     /// \throws ArgumentError if an object contains itself, or there are too many BLASes
     BlasId blas(const std::shared_ptr<const void>& object, const std::function<void(RecordSink&)>& fill);
@@ -81,8 +81,9 @@ public:
     /// Records the tag of a user-defined object. A null pointer records that an object has no tag.
     void identify(const Tagged* object);
 
-    /// Marks the begin or the end of the description of an object that contains others. The object calls `enter(this)`
-    /// before it describes them and `leave(this)` afterwards, so that cycles are found.
+    /// Mark the beginning and the end of the description of an object that contains others. The object calls
+    /// `enter(this)` before it describes the others and `leave(this)` afterwards. An object that contains itself is
+    /// found that way.
     ///
     /// \throws ArgumentError if the object contains itself: it was entered and not left
     ///@{

@@ -100,8 +100,8 @@ public:
     Film(const FilmInfo& info, std::vector<std::uint32_t> tiles);
 
     /// Reads a film.
-    /// \throws FileError if the file is missing, damaged, truncated or no film, or if it is from a version of limn that
-    /// has another format or other samples
+    /// \throws FileError if the file is missing, damaged, truncated or isn't a film, or if it is from a version of limn
+    /// that has another format or other samples
     static Film load(const std::string& path);
     /// Reads films whose tiles together make the whole picture, and returns the whole film. The order of the files does
     /// not matter. The function needs the memory of one film.
@@ -256,7 +256,7 @@ private:
     double seconds_ = 0;
 };
 
-/// Returns true if the file begins as a film does. Returns false if it is no regular file.
+/// Returns true if the file begins as a film does. Returns false if it isn't a regular file.
 bool is_film_file(const std::string& path);
 
 }  // namespace limn

@@ -25,7 +25,7 @@ namespace limn {
 /// - the film is not whole,
 /// - a pixel has fewer than 8 samples,
 /// - the squares of samples are not finite,
-/// - too much of the noise comes from samples that alone in their pixel found light.
+/// - too much of the noise comes from pixels in which a single sample found most of the light.
 struct ErrorEstimate {
     double estimate = 0;  ///< the relMSE; NaN if there is no estimate
     /// The 95 % interval of the picture's true error; NaN if there is no estimate.

@@ -13,7 +13,7 @@ namespace limn {
 
 /// The progress of a render.
 struct Progress {
-    double fraction = 0;  ///< finished part, 0 to 1, never decreasing; estimated with `error` or `time_limit`
+    double fraction = 0;  ///< finished part, 0 to 1, never decreasing; an estimate if `error` or `time_limit` is set
     double seconds = 0;   ///< time since the run began
 };
 
@@ -25,7 +25,7 @@ enum class Estimator : std::uint8_t { path, naive };
 /// number of samples. `independent` is a counter-based random number generator. Both are unbiased.
 enum class SamplerKind : std::uint8_t { sobol, independent };
 
-/// The value of RenderSettings::max_depth without a limit: only Russian roulette ends paths.
+/// The value of RenderSettings::max_depth for which paths have no limit: only Russian roulette ends them.
 inline constexpr int kUnlimitedDepth = std::numeric_limits<int>::max();
 /// The largest RenderSettings::width and height, in pixels.
 inline constexpr int kMaxSide = 1 << 20;
@@ -43,8 +43,8 @@ struct Shard {
 struct RenderSettings {
     int width = 400;   ///< width in pixels, 1 to 1048576
     int height = 400;  ///< height in pixels, 1 to 1048576
-    /// The number of samples per pixel, at least 1. The error is estimated from 8 on. If `error` or `time_limit` is
-    /// set, this number is ignored.
+    /// The number of samples per pixel, at least 1. The error is estimated from 8 samples on. If `error` or
+    /// `time_limit` is set, this number is ignored.
     int samples_per_pixel = 64;
     int max_depth = 10;      ///< largest number of ray segments in a path, at least 1, or kUnlimitedDepth
     std::uint64_t seed = 0;  ///< seed of the random numbers; another seed gives independent noise
@@ -69,9 +69,8 @@ struct RenderSettings {
     /// is unbiased in both cases. Without `error` and `time_limit` all pixels get the same number in any case.
     bool uniform = false;
     /// The crop window: the pixels to render. It must be inside the picture of `width` x `height` and not empty. By
-    /// default all pixels are rendered. A pixel with the same number of samples is the same as in the whole picture,
-    /// bit for bit. If `error` or `time_limit` is set, the numbers of samples depend on the pixels of the crop window
-    /// alone.
+    /// default all pixels are rendered. A pixel has the same bits as in the whole picture if it has as many samples
+    /// there. If `error` or `time_limit` is set, the numbers of samples depend on the pixels of the crop window alone.
     std::optional<PixelBounds> crop{};
     /// True if the camera does not see the background. The background still lights the scene. PixelMaps::alpha tells
     /// how much of each pixel is not background.

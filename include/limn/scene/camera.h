@@ -15,7 +15,8 @@ namespace limn {
 enum class Projection : std::uint8_t {
     /// Rays start at the eye and pass through a flat frame.
     perspective,
-    /// Rays are parallel to the view axis. They start on the plane through the eye that is perpendicular to it.
+    /// Rays are parallel to the view axis. They start on the plane that is perpendicular to the axis and contains the
+    /// eye.
     orthographic,
     /// Rays start at the eye and go in all directions (equirectangular). The longitude runs across the picture, over
     /// 360 degrees, and the latitude runs down it, over 180 degrees. `look_at` is at the centre. The poles are along
@@ -23,11 +24,11 @@ enum class Projection : std::uint8_t {
     panorama
 };
 
-/// A thin-lens camera. Angles are in degrees and lengths in world units. Times are in shutter units: the motion of
-/// objects runs from time 0 to time 1. The view axis is the line from `look_from` to `look_at`.
+/// A thin-lens camera. Angles are in degrees and lengths in world units. Objects move from time 0 to time 1. The view
+/// axis is the line from `look_from` to `look_at`.
 struct Camera {
     Point3 look_from{0, 0, 1};  ///< the eye: the centre of the lens
-    Point3 look_at{0, 0, 0};    ///< the point at the centre of the picture; not look_from
+    Point3 look_at{0, 0, 0};    ///< the point at the centre of the picture; must differ from look_from
     Vec3 up{0, 1, 0};           ///< direction that is upward in the picture; not zero, not parallel to the view axis
     double vertical_fov = 40;   ///< full angle between the top and the bottom edge of a perspective, in (0, 180)
     /// Width over height of the frame. By default it is the ratio of the picture's sides in pixels. A panorama ignores
@@ -38,8 +39,8 @@ struct Camera {
     double aperture_angle = 0;
     /// Distance from the eye to the plane in focus, along the view axis. By default it is |look_at - look_from|.
     std::optional<double> focus_distance{};
-    double shutter_open = 0;                          ///< lower bound of the times of rays, which are uniform
-    double shutter_close = 1;                         ///< upper bound: 0 <= shutter_open <= shutter_close <= 1
+    double shutter_open = 0;                          ///< earliest time of a ray
+    double shutter_close = 1;                         ///< latest time of a ray: 0 <= shutter_open <= shutter_close <= 1
     Projection projection = Projection::perspective;  ///< mapping from the picture to rays
     /// Height of an orthographic picture in world units. By default it is the height that vertical_fov covers at
     /// look_at. Other projections ignore it.
@@ -63,7 +64,7 @@ public:
     ///
     /// \param x,y point of the picture, in pixels from the left and top edge: pixel (i, j) covers [i, i+1) x [j, j+1)
     /// \param lens_u,lens_v in [0, 1): point of the lens, by Shirley and Chiu's map, which keeps areas
-    /// \param time_u in [0, 1): time between shutter_open and shutter_close
+    /// \param time_u in [0, 1): the time of the ray is shutter_open + time_u * (shutter_close - shutter_open)
     Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
 
     bool has_lens() const { return view_.lens_radius > 0; }                        ///< true if lens_u and lens_v matter
@@ -77,7 +78,7 @@ public:
         double width, height;                ///< size of the picture, in pixels
         double shutter_open, shutter_close;  ///< as in Camera
         Vec3 right, up, forward;             ///< orthonormal
-        double half_width, half_height;      ///< half the size of the frame; that of a perspective is at distance 1
+        double half_width, half_height;      ///< half the size of the frame, at distance 1 if perspective
         double lens_radius, focus_distance;  ///< in world units
     };
     /// \endcond
@@ -88,7 +89,8 @@ private:
 };
 
 /// Returns a pinhole camera with a vertical field of view of 30 degrees. It looks down on `box` from the front right
-/// (+x, +z). The bounding sphere of the box fits into a picture of the given width over height.
+/// (+x, +z). The bounding sphere of the box fits into the picture. `aspect_ratio` is the picture's width over its
+/// height.
 ///
 /// \throws ArgumentError if the box is empty or not finite, or the ratio is not positive and finite
 Camera frame_box(const Box& box, double aspect_ratio = 1);

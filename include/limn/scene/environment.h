@@ -29,7 +29,7 @@ public:
     /// \throws ArgumentError if
     /// - the image is null or empty, or has 2^30 pixels or more
     /// - a pixel is negative, infinite or NaN; the message names the pixel
-    /// - the matrix is no rotation or reflection, or has a translation
+    /// - the matrix has a translation, or is neither a rotation nor a rotation with a reflection
     /// - the scale is negative or not finite
     explicit EnvironmentMap(std::shared_ptr<const Image> image, const Transform& world_from_map = {}, double scale = 1);
     /// Makes a map that owns its image. The parameters and errors are as above.

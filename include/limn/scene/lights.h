@@ -1,5 +1,5 @@
 /// \file
-/// Lights that are no shapes. They illuminate surfaces and media.
+/// Lights that aren't shapes. They illuminate surfaces and media.
 ///
 /// Point, spot and directional lights have no extent. They cast sharp shadows, and only light sampling finds them:
 /// mirrors and cameras do not see them, and Estimator::naive renders without them. Scene::add throws ArgumentError if a
@@ -44,7 +44,7 @@ struct SunLight {
     double angular_radius = 0.2666;  ///< degrees, in (0, 90]; the Sun seen from the Earth has 0.262 to 0.271
 };
 
-/// A light that is no shape.
+/// A light that isn't a shape.
 using LightSource = std::variant<PointLight, SpotLight, DirectionalLight, SunLight>;
 
 }  // namespace limn

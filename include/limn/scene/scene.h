@@ -40,13 +40,13 @@ public:
     ///
     /// \throws ArgumentError if an instance has a singular matrix, or a light has a field outside its range
     std::size_t add(const Model& model);
-    /// Adds a light that is no shape, as in `scene.add(PointLight{...})`. A light is no object and has no number.
+    /// Adds a light that isn't a shape, as in `scene.add(PointLight{...})`. A light isn't an object and has no number.
     ///
     /// \throws ArgumentError if a field is outside the range that limn/scene/lights.h states; the message names the
     /// field
     void add(const LightSource& light);
     const std::vector<std::shared_ptr<const Hittable>>& objects() const { return objects_; }  ///< objects by number
-    const std::vector<LightSource>& lights() const { return lights_; }  ///< lights that are no shapes, in order
+    const std::vector<LightSource>& lights() const { return lights_; }  ///< lights that aren't shapes, in order
     Box bounds() const;  ///< a box around all objects at all times from 0 to 1
 
     /// Returns Model::materials of the model that an object was added with, as they were then. Returns null if the

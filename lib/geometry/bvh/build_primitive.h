@@ -31,9 +31,10 @@ inline constexpr Vec4 kEndless{std::numeric_limits<float>::infinity(), std::nume
                                std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
 inline constexpr Bounds kEmpty{kEndless, -kEndless};
 
-// A box with the index of its primitive, or a cell of a grid with the bounds of the boxes whose centres are in it. The
-// fourth lane of `lower` holds the index. The fourth lane of `upper` holds the number of boxes, the weight. Arithmetic
-// is done on all lanes and is slow on subnormal floats; kNormal keeps the index from being one.
+// A box with the index of its primitive, or a cell of a grid. The bounds of a cell are those of the boxes whose centres
+// are in it. The fourth lane of `lower` holds the index. The fourth lane of `upper` holds the number of boxes, the
+// weight. Arithmetic is done on all lanes, and it is slow if a lane is a subnormal float. Small integers have the bits
+// of subnormal floats, so the index is stored with the bit kNormal flipped.
 struct BuildPrimitive : Bounds {
     static constexpr std::uint32_t kNormal = 0x40000000u;
 

@@ -49,7 +49,7 @@ private:
     std::string target_;   // the file to replace, behind all links
     std::string name_;     // the temporary file; empty once it is renamed
     int descriptor_ = -1;  // the open temporary file
-    Checksum written_;     // of all bytes written
+    Checksum written_;     // checksum of all bytes written
 };
 
 // Makes `bytes` the contents of the file `path`, as FileReplacement does. \throws FileError

@@ -13,8 +13,8 @@ void save_text(std::string_view text, const std::string& path);
 
 /// Throws the error that save_text would throw, as far as it can be known beforehand. Writes a temporary file in the
 /// folder and deletes it.
-/// \throws FileError if the folder is missing, the folder or the file may not be written, `path` is no regular file, or
-/// the disk is full
+/// \throws FileError if the folder is missing, the folder or the file may not be written, `path` isn't a regular file,
+/// or the disk is full
 void check_text_writable(const std::string& path);
 
 /// Returns the absolute path of the file that save_text and save_image write for `path`: all links are resolved. The

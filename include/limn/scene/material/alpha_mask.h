@@ -6,8 +6,8 @@
 
 namespace limn {
 
-/// Wraps another material and gives it an opacity. The surface stops that share of the light and scatters it like the
-/// wrapped material. The rest of the light goes straight on, as if there were no surface.
+/// Wraps another material and gives it an opacity. The opacity is the share of the light that the surface stops. The
+/// wrapped material scatters this share. The rest of the light goes straight on, as if there were no surface.
 ///
 /// - Renders apply the opacity to all rays, shadow rays included.
 /// - Queries of a CompiledScene ignore it and report the whole surface.

@@ -12,10 +12,10 @@ namespace limn {
 /// distribution of Trowbridge and Reitz (GGX) and the masking of Smith. If the interface is smooth or its index is 1,
 /// it is a Dielectric, bit for bit.
 ///
-/// Radiance is not scaled by 1/n^2, as in Dielectric. Transmission is therefore reciprocal except for a factor, the
-/// ratio of the squared indices. Light that facets scatter more than once is lost. At an index of 1.5 and normal
-/// incidence from outside, the loss is 0.1 % at a roughness of 0.3, 0.8 % at 0.5 and 11 % at 1. From inside it is 58 %
-/// at a roughness of 1.
+/// Like Dielectric, it doesn't scale radiance by 1/n^2. Transmission is therefore reciprocal up to a factor, the ratio
+/// of the squared indices. Light that facets scatter more than once is lost. At an index of 1.5 and normal incidence
+/// from outside, the loss is 0.1 % at a roughness of 0.3, 0.8 % at 0.5 and 11 % at 1. From inside it is 58 % at a
+/// roughness of 1.
 class RoughDielectric final : public Material {
 public:
     /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
