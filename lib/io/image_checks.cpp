@@ -19,12 +19,12 @@ FileFormat require_sound(std::span<const std::byte> file, const std::string& pat
     std::string known;
     for (const PictureFormat& row : kPictureFormats) {
         if (!row.format) continue;
-        known += (known.empty() ? "" : ", ") + std::string(row.name);
+        known += (known.empty() ? "" : ", ") + row.name();
         if (kind.format != row.format) continue;
         try {
             row.check(file);
         } catch (const Fault& fault) {
-            throw FileError(path, "is not a whole " + std::string(row.name) + ": " + fault.text);
+            throw FileError(path, "is not a whole " + row.name() + ": " + fault.text);
         }
         return *row.format;
     }

@@ -7,15 +7,16 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace limn {
 
 enum class FileFormat { exr, png, jpeg, hdr, bmp, tga };
 
-// These check a file before a library decodes it, and throw a Fault if it is not sound: its header must be valid and of
-// a kind that limn reads, and the file must be able to hold the picture. For EXR the chunks are not checked. For JPEG
-// and PNG everything is checked from the first segment or chunk to the last, with the checksums of a PNG.
+// These check a file before a library decodes it, and throw a Fault if it is not sound. Its header must be valid and of
+// a kind that limn reads, and the file must be large enough for the picture. The chunks of an EXR are not checked. A
+// JPEG or a PNG is checked from its first segment or chunk to its last, with the checksums of a PNG.
 void check_exr(std::span<const std::byte> file);
 void check_png(std::span<const std::byte> file);
 void check_jpeg(std::span<const std::byte> file);
@@ -26,6 +27,8 @@ void check_tga(std::span<const std::byte> file);
 // These recognise formats without a mark. The fields of a TGA's header must have values that TGA allows.
 bool looks_like_pnm(std::span<const std::byte> file);
 bool looks_like_tga(std::span<const std::byte> file);
+
+constexpr bool kMayBeText = true;
 
 // The bytes by which a kind of file is recognised: `beginning` at its start and `also` at byte `place`. `also` never
 // decides alone, because a text might have the same bytes there.
@@ -45,72 +48,50 @@ struct PictureFormat {
     std::string_view kind;                                     // "a PNG picture"
     std::array<Mark, 3> marks{};                               // those without a beginning don't count
     bool (*looks_like)(std::span<const std::byte>) = nullptr;  // recognises a format without a mark
+    std::optional<FileFormat> format{};                        // unset if limn does not read the format
+    void (*check)(std::span<const std::byte>) = nullptr;       // see above
+    const char* suffix = nullptr;       // of the names of pictures that limn writes; null if it writes none
+    const char* openimageio = nullptr;  // OpenImageIO's name of the format; null if stb decodes it in every build
+    bool stb = true;                    // false if stb cannot decode the format
 
-    std::optional<FileFormat> format{};                   // unset if limn does not read the format
-    const char* name = nullptr;                           // "PNG"
-    void (*check)(std::span<const std::byte>) = nullptr;  // see above
-    const char* suffix = nullptr;                         // of the names of pictures that are written; null: none is
-    const char* openimageio = nullptr;                    // OpenImageIO's name of the format; null: stb decodes it
-    bool stb = true;                                      // false if stb cannot decode the format
+    // Returns "PNG".
+    std::string name() const {
+        const std::size_t begin = kind.find(' ') + 1;
+        return std::string(kind.substr(begin, kind.rfind(' ') - begin));
+    }
 };
 
 // OpenImageIO 2.4 has errors in three formats, which stb therefore decodes in every build: it reads outside of the
 // palette of a damaged TGA, takes the unused bytes of a BMP for alpha, and reads the numbers of an HDR in the locale of
 // the C library. AVIF and HEIF begin with the size of a box in four bytes.
 inline constexpr PictureFormat kPictureFormats[] = {
-    {.kind = "an EXR picture",
-     .marks = {{{"\x76\x2f\x31\x01"}}},
-     .format = FileFormat::exr,
-     .name = "EXR",
-     .check = check_exr,
-     .suffix = ".exr",
-     .openimageio = "openexr",
-     .stb = false},
-    {.kind = "a PNG picture",
-     .marks = {{{"\x89PNG"}}},
-     .format = FileFormat::png,
-     .name = "PNG",
-     .check = check_png,
-     .suffix = ".png",
-     .openimageio = "png"},
-    {.kind = "a JPEG picture",
-     .marks = {{{"\xff\xd8"}}},
-     .format = FileFormat::jpeg,
-     .name = "JPEG",
-     .check = check_jpeg,
-     .openimageio = "jpeg"},
-    {.kind = "an HDR picture",
-     .marks = {{{"#?RADIANCE"}, {"#?RGBE"}, {.beginning = "#?", .may_be_text = true}}},
-     .format = FileFormat::hdr,
-     .name = "HDR",
-     .check = check_hdr,
-     .suffix = ".hdr"},
-    {.kind = "a BMP picture",
-     .marks = {{{"BM", 6, {"\0\0\0\0", 4}}, {.beginning = "BM", .may_be_text = true}}},
-     .format = FileFormat::bmp,
-     .name = "BMP",
-     .check = check_bmp},
-    {.kind = "a TGA picture",
-     .looks_like = looks_like_tga,
-     .format = FileFormat::tga,
-     .name = "TGA",
-     .check = check_tga},
-    {.kind = "a PNM picture", .looks_like = looks_like_pnm},
-    {.kind = "a GIF picture", .marks = {{{"GIF8"}}}},
-    {.kind = "a TIFF picture", .marks = {{{{"II*\0", 4}}, {{"MM\0*", 4}}}}},
-    {.kind = "a Photoshop picture", .marks = {{{"8BPS"}}}},
-    {.kind = "a DDS picture", .marks = {{{"DDS "}}}},
-    {.kind = "a KTX picture", .marks = {{{"\xabKTX"}}}},
-    {.kind = "a QOI picture", .marks = {{{"qoif"}}}},
-    {.kind = "a JPEG XL picture", .marks = {{{"\xff\x0a"}, {{"\0\0\0\x0cJXL ", 8}}}}},
-    {.kind = "a JPEG 2000 picture", .marks = {{{"\xff\x4f\xff\x51"}, {{"\0\0\0\x0cjP  ", 8}}}}},
-    {.kind = "a WebP picture", .marks = {{{"RIFF", 8, "WEBP"}}}},
-    {.kind = "an AVIF picture", .marks = {{{{"\0\0", 2}, 4, "ftypavif"}}}},
-    {.kind = "a HEIF picture", .marks = {{{{"\0\0", 2}, 4, "ftyphei"}, {{"\0\0", 2}, 4, "ftypmif1"}}}},
+    {"an EXR picture", {{{"\x76\x2f\x31\x01"}}}, nullptr, FileFormat::exr, check_exr, ".exr", "openexr", false},
+    {"a PNG picture", {{{"\x89PNG"}}}, nullptr, FileFormat::png, check_png, ".png", "png"},
+    {"a JPEG picture", {{{"\xff\xd8"}}}, nullptr, FileFormat::jpeg, check_jpeg, nullptr, "jpeg"},
+    {"an HDR picture",
+     {{{"#?RADIANCE"}, {"#?RGBE"}, {"#?", 0, {}, kMayBeText}}},
+     nullptr,
+     FileFormat::hdr,
+     check_hdr,
+     ".hdr"},
+    {"a BMP picture", {{{"BM", 6, {"\0\0\0\0", 4}}, {"BM", 0, {}, kMayBeText}}}, nullptr, FileFormat::bmp, check_bmp},
+    {"a TGA picture", {}, looks_like_tga, FileFormat::tga, check_tga},
+    {"a PNM picture", {}, looks_like_pnm},
+    {"a GIF picture", {{{"GIF8"}}}},
+    {"a TIFF picture", {{{{"II*\0", 4}}, {{"MM\0*", 4}}}}},
+    {"a Photoshop picture", {{{"8BPS"}}}},
+    {"a DDS picture", {{{"DDS "}}}},
+    {"a KTX picture", {{{"\xabKTX"}}}},
+    {"a QOI picture", {{{"qoif"}}}},
+    {"a JPEG XL picture", {{{"\xff\x0a"}, {{"\0\0\0\x0cJXL ", 8}}}}},
+    {"a JPEG 2000 picture", {{{"\xff\x4f\xff\x51"}, {{"\0\0\0\x0cjP  ", 8}}}}},
+    {"a WebP picture", {{{"RIFF", 8, "WEBP"}}}},
+    {"an AVIF picture", {{{{"\0\0", 2}, 4, "ftypavif"}}}},
+    {"a HEIF picture", {{{{"\0\0", 2}, 4, "ftyphei"}, {{"\0\0", 2}, 4, "ftypmif1"}}}},
 };
 
 // Returns the row of a format.
-constexpr const PictureFormat& row_of(FileFormat format) {
+inline const PictureFormat& row_of(FileFormat format) {
     return *std::ranges::find(kPictureFormats, std::optional(format), &PictureFormat::format);
 }
 

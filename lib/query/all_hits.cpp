@@ -42,15 +42,14 @@ std::size_t CompiledScene::all_hits(std::span<const Ray> rays, RayHits& hits, in
     const std::size_t part = query::part_size(rays.size(), threads);
     std::vector<std::vector<RayHit>> parts((rays.size() + part - 1) / part);
     hits.first.assign(rays.size() + 1, 0);
-    const std::size_t unusable = query::for_each_ray(
-        flat(), rays, filter, threads, "all_hits",
-        [&](std::size_t i, const auto& excluded) {
-            std::vector<RayHit>& here = parts[i / part];
-            const std::size_t before = here.size();
-            append_hits(flat(), rays[i], excluded, here);
-            hits.first[i + 1] = here.size() - before;
-        },
-        [](std::size_t) {});
+    const std::span numbers = std::span(hits.first).subspan(1);
+    const auto collect = [&](std::size_t i, const query::Excluded& excluded) {
+        std::vector<RayHit>& here = parts[i / part];
+        const std::size_t before = here.size();
+        append_hits(flat(), rays[i], excluded, here);
+        return here.size() - before;
+    };
+    const std::size_t unusable = query::answer_rays(flat(), rays, numbers, threads, filter, "all_hits", collect);
     // Sum up the numbers of hits, and concatenate the hits of all parts.
     for (std::size_t i = 0; i < rays.size(); ++i) hits.first[i + 1] += hits.first[i];
     hits.hits.clear();

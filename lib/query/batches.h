@@ -41,12 +41,17 @@ void for_all_parts(std::size_t size, int threads, const char* who, const Work& w
         with_threads(threads, run);
 }
 
-// Calls work(i, filter) for each usable ray i of a batch, and refuse(i) for each unusable one. `filter` is that of the
-// ray in the form of checked(). Returns the number of unusable rays.
+// Throws an ArgumentError if the lengths of a batch and of its results differ. \param names "rays and hits"
+inline void check_length(std::size_t queries, std::size_t results, const char* who, const char* names) {
+    if (queries != results) throw ArgumentError(std::string(who) + ": " + names + " differ in length");
+}
+
+// Sets results[i] to answer(i, filter) for each usable ray i of a batch, and to a default-constructed result for each
+// unusable one. `filter` is that of the ray in the form of checked(). Returns the number of unusable rays.
 // \throws ArgumentError as checked() and for_all_parts() do, and if `filter.without_each` does not fit the batch
-template <class Work, class Refuse>
-std::size_t for_each_ray(const flat::Scene& scene, std::span<const Ray> rays, const RayFilter& filter, int threads,
-                         const char* who, const Work& work, const Refuse& refuse) {
+template <class Result, class Answer>
+std::size_t answer_rays(const flat::Scene& scene, std::span<const Ray> rays, std::span<Result> results, int threads,
+                        const RayFilter& filter, const char* who, const Answer& answer) {
     // Check the filter.
     const std::span<const std::uint64_t> each = filter.without_each;
     if (!each.empty() && each.size() != rays.size())
@@ -57,21 +62,13 @@ std::size_t for_each_ray(const flat::Scene& scene, std::span<const Ray> rays, co
     for_all_parts(rays.size(), threads, who, [&](std::size_t first, std::size_t count) {
         Excluded of_ray = of_all;
         for (std::size_t i = first; i < first + count; ++i) {
-            if (!is_fit(rays[i])) {
-                refuse(i);
-                ++unusable;
-                continue;
-            }
             if (!each.empty()) of_ray->without = each[i];
-            work(i, of_ray);
+            const bool is_usable = is_fit(rays[i]);
+            results[i] = is_usable ? static_cast<Result>(answer(i, of_ray)) : Result{};
+            if (!is_usable) ++unusable;
         }
     });
     return unusable;
-}
-
-// Throws an ArgumentError with `message` if the two lengths differ.
-inline void check_length(std::size_t queries, std::size_t results, const char* message) {
-    if (queries != results) throw ArgumentError(message);
 }
 
 }  // namespace limn::query

@@ -49,27 +49,48 @@ namespace {
     return trace::any_hit(scene, ray) || (!scene.media.empty() && meets_boundary(scene, ray));
 }
 
-// Calls work(first, count) for each run of consecutive usable rays from `begin` to `end`, of at most trace::kMostRays
-// rays. Calls refuse(i) for each unusable ray i. Returns the number of unusable rays.
-template <class Work, class Refuse>
-std::size_t for_each_run(std::span<const Ray> rays, std::size_t begin, std::size_t end, const Work& work,
-                         const Refuse& refuse) {
-    std::size_t unusable = 0;
-    for (std::size_t first = begin, last = begin; first < end; first = last) {
-        while (last < end && last - first < trace::kMostRays && is_fit(rays[last])) ++last;
-        if (last > first) work(first, last - first);
-        if (last < end && !is_fit(rays[last])) {
-            refuse(last++);
+// Sets results[i] to answer(scene, rays[i], filter) for each usable ray of a batch, and to a default-constructed result
+// for each unusable one. Rays are traced together, by Together, unless there are media or a filter. Returns the number
+// of unusable rays. \throws ArgumentError as answer_rays() does
+template <class Together, class Result, class Answer>
+std::size_t answer_together(const flat::Scene& scene, std::span<const Ray> rays, std::span<Result> results, int threads,
+                            const RayFilter& filter, const char* who, const Answer& answer) {
+    if (!scene.media.empty() || !filter.is_empty())
+        return query::answer_rays(
+            scene, rays, results, threads, filter, who,
+            [&](std::size_t i, const Excluded& excluded) { return answer(scene, rays[i], excluded); });
+    std::atomic<std::size_t> unusable = 0;
+    query::for_all_parts(rays.size(), threads, who, [&](std::size_t begin, std::size_t size) {
+        Together together;
+        const std::size_t end = begin + size;
+        for (std::size_t first = begin, last = begin; first < end; first = last) {
+            // Trace a run of usable rays.
+            while (last < end && last - first < trace::kMostRays && is_fit(rays[last])) ++last;
+            if (last > first) together(scene, rays.subspan(first, last - first), &results[first]);
+            // Pass the unusable ray that ends it.
+            if (last == end || is_fit(rays[last])) continue;
+            results[last++] = {};
             ++unusable;
         }
-    }
+    });
     return unusable;
 }
 
-// Returns true if the rays of a batch can be traced together. Otherwise they are traced one by one.
-bool can_trace_together(const flat::Scene& scene, const RayFilter& filter) {
-    return scene.media.empty() && filter.is_empty();
-}
+// Find the closest hits of usable rays, and whether they have any hit.
+struct ClosestTogether {
+    std::array<trace::Hit, trace::kMostRays> found;
+
+    void operator()(const flat::Scene& scene, std::span<const Ray> rays, RayHit* hits) {
+        trace::closest_hits(scene, rays, found.data());
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            hits[i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found[i]);
+    }
+};
+struct AnyTogether {
+    void operator()(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* occluded) const {
+        trace::any_hits(scene, rays, occluded);
+    }
+};
 
 }  // namespace
 
@@ -83,49 +104,16 @@ bool CompiledScene::any_hit(const Ray& ray, const RayFilter& filter) const {
 
 std::size_t CompiledScene::closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads,
                                        const RayFilter& filter) const {
-    constexpr const char* kWho = "closest_hit";
-    query::check_length(rays.size(), hits.size(), "closest_hit: rays and hits differ in length");
-    const flat::Scene& scene = flat();
-    const auto refuse = [&](std::size_t i) { hits[i] = {}; };
-    if (!can_trace_together(scene, filter))
-        return query::for_each_ray(
-            scene, rays, filter, threads, kWho,
-            [&](std::size_t i, const Excluded& excluded) {
-                hits[i] = find_closest(scene, rays[i], excluded).value_or(RayHit{});
-            },
-            refuse);
-    std::atomic<std::size_t> unusable = 0;
-    query::for_all_parts(rays.size(), threads, kWho, [&](std::size_t begin, std::size_t size) {
-        std::array<trace::Hit, trace::kMostRays> found;
-        const auto trace_run = [&](std::size_t first, std::size_t count) {
-            trace::closest_hits(scene, rays.subspan(first, count), found.data());
-            for (std::size_t i = 0; i < count; ++i)
-                hits[first + i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found[i]);
-        };
-        unusable += for_each_run(rays, begin, begin + size, trace_run, refuse);
-    });
-    return unusable;
+    query::check_length(rays.size(), hits.size(), "closest_hit", "rays and hits");
+    const auto answer = [](const auto&... query) { return find_closest(query...).value_or(RayHit{}); };
+    return answer_together<ClosestTogether>(flat(), rays, hits, threads, filter, "closest_hit", answer);
 }
 
 std::size_t CompiledScene::any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads,
                                    const RayFilter& filter) const {
-    constexpr const char* kWho = "any_hit";
-    query::check_length(rays.size(), occluded.size(), "any_hit: rays and occluded differ in length");
-    const flat::Scene& scene = flat();
-    const auto refuse = [&](std::size_t i) { occluded[i] = 0; };
-    if (!can_trace_together(scene, filter))
-        return query::for_each_ray(
-            scene, rays, filter, threads, kWho,
-            [&](std::size_t i, const Excluded& excluded) { occluded[i] = find_any(scene, rays[i], excluded) ? 1 : 0; },
-            refuse);
-    std::atomic<std::size_t> unusable = 0;
-    query::for_all_parts(rays.size(), threads, kWho, [&](std::size_t begin, std::size_t size) {
-        const auto trace_run = [&](std::size_t first, std::size_t count) {
-            trace::any_hits(scene, rays.subspan(first, count), &occluded[first]);
-        };
-        unusable += for_each_run(rays, begin, begin + size, trace_run, refuse);
-    });
-    return unusable;
+    query::check_length(rays.size(), occluded.size(), "any_hit", "rays and occluded");
+    const auto answer = [](const auto&... query) { return find_any(query...) ? 1 : 0; };
+    return answer_together<AnyTogether>(flat(), rays, occluded, threads, filter, "any_hit", answer);
 }
 
 }  // namespace limn

@@ -41,11 +41,10 @@ std::int64_t CompiledScene::winding_number(const Ray& ray, const RayFilter& filt
 
 std::size_t CompiledScene::count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads,
                                                const RayFilter& filter) const {
-    query::check_length(rays.size(), counts.size(), "count_intersections: rays and counts differ in length");
-    return query::for_each_ray(
-        flat(), rays, filter, threads, "count_intersections",
-        [&](std::size_t i, const auto& excluded) { counts[i] = count(flat(), rays[i], excluded).count; },
-        [&](std::size_t i) { counts[i] = 0; });
+    constexpr const char* kWho = "count_intersections";
+    query::check_length(rays.size(), counts.size(), kWho, "rays and counts");
+    const auto answer = [&](std::size_t i, const auto& excluded) { return count(flat(), rays[i], excluded).count; };
+    return query::answer_rays(flat(), rays, counts, threads, filter, kWho, answer);
 }
 
 }  // namespace limn

@@ -40,8 +40,8 @@ void prefetch(const flat::Scene& scene, std::span<const RayHit> hits) {
 
 void outward_normals(const CompiledScene& scene, std::span<const Ray> rays, std::span<const RayHit> hits,
                      std::span<Vec3> normals) {
-    query::check_length(rays.size(), hits.size(), "outward_normals: rays and hits differ in length");
-    query::check_length(rays.size(), normals.size(), "outward_normals: rays and normals differ in length");
+    query::check_length(rays.size(), hits.size(), "outward_normals", "rays and hits");
+    query::check_length(rays.size(), normals.size(), "outward_normals", "rays and normals");
     query::ask(scene, [&](const flat::Scene& tables) {
         query::SurfaceHit found;
         for (std::size_t first = 0; first < rays.size(); first += kTogether) {

@@ -36,13 +36,13 @@ Feature feature_of(NearestPoint::Part part) {
     return part == Part::a || part == Part::b || part == Part::c ? Feature::vertex : Feature::edge;
 }
 
-// Sets results[i] to answer(points[i]) for each point. \throws ArgumentError if the lengths differ; the message begins
-// with `who`, and calls the results `what`
+// Sets results[i] to answer(points[i]) for each point.
+// \throws ArgumentError as check_length() and for_all_parts() do
 template <class Result, class Answer>
-void answer_all(std::span<const Point3> points, std::span<Result> results, int threads, const std::string& who,
-                const char* what, const Answer& answer) {
-    if (points.size() != results.size()) throw ArgumentError(who + ": points and " + what + " differ in length");
-    query::for_all_parts(points.size(), threads, who.c_str(), [&](std::size_t first, std::size_t count) {
+void answer_points(std::span<const Point3> points, std::span<Result> results, int threads, const char* who,
+                   const char* names, const Answer& answer) {
+    query::check_length(points.size(), results.size(), who, names);
+    query::for_all_parts(points.size(), threads, who, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) results[i] = static_cast<Result>(answer(points[i]));
     });
 }
@@ -91,21 +91,23 @@ double CompiledScene::signed_distance(const Point3& point, double time) const {
 }
 
 void CompiledScene::locate(std::span<const Point3> points, std::span<PointLocation> locations, int threads) const {
-    answer_all(points, locations, threads, "locate", "locations", [&](const Point3& p) { return locate(p); });
+    answer_points(points, locations, threads, "locate", "points and locations",
+                  [&](const Point3& p) { return locate(p); });
 }
 
 void CompiledScene::contains(std::span<const Point3> points, std::span<std::uint8_t> inside, int threads) const {
-    answer_all(points, inside, threads, "contains", "inside", [&](const Point3& p) { return contains(p) ? 1 : 0; });
+    answer_points(points, inside, threads, "contains", "points and inside",
+                  [&](const Point3& p) { return contains(p) ? 1 : 0; });
 }
 
 void CompiledScene::closest_point(std::span<const Point3> points, std::span<ClosestPoint> nearest, int threads) const {
-    answer_all(points, nearest, threads, "closest_point", "nearest",
-               [&](const Point3& p) { return closest_point(p).value_or(ClosestPoint{}); });
+    answer_points(points, nearest, threads, "closest_point", "points and nearest",
+                  [&](const Point3& p) { return closest_point(p).value_or(ClosestPoint{}); });
 }
 
 void CompiledScene::signed_distance(std::span<const Point3> points, std::span<double> distances, int threads) const {
-    answer_all(points, distances, threads, "signed_distance", "distances",
-               [&](const Point3& p) { return signed_distance(p); });
+    answer_points(points, distances, threads, "signed_distance", "points and distances",
+                  [&](const Point3& p) { return signed_distance(p); });
 }
 
 }  // namespace limn
