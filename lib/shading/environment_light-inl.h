@@ -46,9 +46,8 @@ HWY_INLINE Doubles mix(Doubles a, Doubles b, Doubles weight) { return (1.0 - wei
 template <>
 struct InLanes<flat::EnvironmentLight> {
     const flat::Environment& map;  // the same in all lanes, because a scene has only one
-    Mask<Doubles> lanes;
 
-    HWY_INLINE explicit InLanes(const LightsOf<flat::EnvironmentLight>& of) : map(*of[0].map), lanes(of.lanes()) {}
+    HWY_INLINE explicit InLanes(const LightsOf<flat::EnvironmentLight>& of) : map(*of[0].map) {}
 
     // Both inversions are monotonic, so points that are evenly spread stay so.
     HWY_INLINE LightPoints sample(const Vector<Doubles>&, Doubles a, Doubles b) const {
@@ -91,9 +90,8 @@ struct InLanes<flat::EnvironmentLight> {
         return s;
     }
 
-    HWY_INLINE Doubles pdf(const Vector<Doubles>&, const Vector<Doubles>& position) const {
-        // Find the place in the map. Lanes without a direction get one, because tables are looked up by it.
-        const Vector<Doubles> direction = select(lanes, position, {0.0, 1.0, 0.0});
+    HWY_INLINE Doubles pdf(const Vector<Doubles>&, const Vector<Doubles>& direction) const {
+        // Find the place in the map.
         const double height = map.image->height(), width = map.image->width();
         const Vector<Doubles> own{dot(direction, broadcast<Doubles>(map.axes.x)),
                                   dot(direction, broadcast<Doubles>(map.axes.y)),

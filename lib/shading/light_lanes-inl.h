@@ -30,27 +30,13 @@ using namespace sampling::HWY_NAMESPACE;
 template <class Kind>
 struct InLanes;
 
-// Points on lights: the results in LightSamples.
+// Points on lights, as in the rows of LightSamples.
 struct LightPoints {
     Vector<Doubles> position{0.0, 0.0, 0.0}, position_error{0.0, 0.0, 0.0}, normal{0.0, 0.0, 0.0};
     Vector<Doubles> direction{0.0, 0.0, 0.0};
     Doubles pdf = 0.0, u = 0.0, v = 0.0, end = 1 - kShadowEnd;
 
     HWY_INLINE LightPoints() {}
-
-    friend LIMN_ALWAYS_INLINE LightPoints select(const Mask<Doubles>& mask, const LightPoints& a,
-                                                 const LightPoints& b) {
-        LightPoints s;
-        s.position = select(mask, a.position, b.position);
-        s.position_error = select(mask, a.position_error, b.position_error);
-        s.normal = select(mask, a.normal, b.normal);
-        s.direction = select(mask, a.direction, b.direction);
-        s.pdf = select(mask, a.pdf, b.pdf);
-        s.u = select(mask, a.u, b.u);
-        s.v = select(mask, a.v, b.v);
-        s.end = select(mask, a.end, b.end);
-        return s;
-    }
 };
 
 // The lights of one kind. Lanes without a light of this kind repeat the light of another lane; what is computed for
@@ -60,17 +46,17 @@ class LightsOf {
 public:
     // \param lights one for each lane
     // \param lanes the lanes that have a light of this kind, as bits; at least one
-    HWY_INLINE LightsOf(const flat::Light* const* lights, std::uint32_t lanes) : lanes_(lanes) {
-        const int first = std::countr_zero(lanes);
-        for (std::size_t i = 0; i < kLanes<Doubles>; ++i) {
-            const flat::Light* const light = lights[(lanes >> i & 1) != 0 ? i : static_cast<std::size_t>(first)];
-            is_single_ = is_single_ && light == lights[first];
-            lights_[i] = std::get_if<Kind>(light);
-        }
+    HWY_INLINE LightsOf(const flat::Light* const* lights, std::uint32_t lanes) {
+        const flat::Light* const first = lights[std::countr_zero(lanes)];
+        lights_[0] = std::get_if<Kind>(first);
+        for (std::size_t i = 0; i < kLanes<Doubles>; ++i)
+            is_single_ = is_single_ && ((lanes >> i & 1) == 0 || lights[i] == first);
+        if (is_single_) return;
+        for (std::size_t i = 0; i < kLanes<Doubles>; ++i)
+            lights_[i] = std::get_if<Kind>((lanes >> i & 1) != 0 ? lights[i] : first);
     }
 
-    HWY_INLINE Mask<Doubles> lanes() const { return mask_of<Doubles>(lanes_); }
-    HWY_INLINE const Kind& operator[](std::size_t lane) const { return *lights_[lane]; }
+    HWY_INLINE const Kind& operator[](std::size_t lane) const { return *lights_[is_single_ ? 0 : lane]; }
 
     // Returns a field of each light. Points and vectors become a Vector<Doubles>, numbers and enumerators Doubles.
     template <class Field, class Base>
@@ -95,8 +81,7 @@ public:
 
 private:
     const Kind* lights_[kLanes<Doubles>];
-    std::uint32_t lanes_;
-    bool is_single_ = true;  // true if all lanes have the same light
+    bool is_single_ = true;  // true if all lanes have the same light, which is in lights_[0]
 };
 
 }  // namespace limn::lights::HWY_NAMESPACE

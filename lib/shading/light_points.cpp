@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
+#include <bit>
 #include <type_traits>
 
 #include "shading/environment_light-inl.h"
@@ -69,88 +70,93 @@ struct InLanes<flat::SunLight> {
     }
 };
 
-inline constexpr std::size_t kKinds = std::variant_size_v<flat::Light>;
-template <std::size_t kind>
-using Kind = std::variant_alternative_t<kind, flat::Light>;
-
-// The lights of the lanes of a vector, sorted by their kinds.
-struct SortedLights {
-    const flat::Light* const* lights;
-    std::uint32_t lanes[kKinds] = {};  // by kind, the lanes that have a light of this kind, as bits
-    std::uint32_t all = 0;             // the lanes that have a light, as bits
-
-    // \param count number of lights, which may be less than a vector has lanes
-    HWY_INLINE SortedLights(const flat::Light* const* first, std::size_t count) : lights(first) {
-        for (std::size_t i = 0; i < std::min(count, kLanes<Doubles>); ++i) {
-            if (!lights[i]) continue;
-            lanes[lights[i]->index()] |= std::uint32_t{1} << i;
-            all |= std::uint32_t{1} << i;
-        }
-    }
-};
-
-// Samples the lights of one kind.
-template <std::size_t kind>
-HWY_INLINE void sample_kind(const SortedLights& sorted, const Vector<Doubles>& from, Doubles u, Doubles v,
-                            LightPoints& points) {
-    const std::uint32_t lanes = sorted.lanes[kind];
-    if (lanes == 0) return;
-    const LightsOf<Kind<kind>> lights(sorted.lights, lanes);
-    const LightPoints sampled = InLanes<Kind<kind>>(lights).sample(from, u, v);
-    points = lanes == sorted.all ? sampled : select(lights.lanes(), sampled, points);
+// Returns the first lanes of a vector as bits. \param count their number, which may be more than a vector has
+HWY_INLINE std::uint32_t first_bits(std::size_t count) {
+    return (std::uint32_t{1} << std::min(count, kLanes<Doubles>)) - 1;
 }
 
-template <std::size_t... kind>
-HWY_INLINE LightPoints sample_kinds(std::index_sequence<kind...>, const SortedLights& sorted,
-                                    const Vector<Doubles>& from, Doubles u, Doubles v) {
-    LightPoints points;
-    (sample_kind<kind>(sorted, from, u, v, points), ...);
-    return points;
+// Returns which of `lanes` have a light of this kind, as bits.
+HWY_INLINE std::uint32_t lanes_of_kind(const flat::Light* const* lights, std::uint32_t lanes, std::size_t kind) {
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < kLanes<Doubles>; ++i)
+        if ((lanes >> i & 1) != 0 && lights[i]->index() == kind) found |= std::uint32_t{1} << i;
+    return found;
 }
 
-// Finds the pdfs for the lights of one kind.
-template <std::size_t kind>
-HWY_INLINE void find_kind_pdf(const SortedLights& sorted, const Vector<Doubles>& from, const Vector<Doubles>& position,
-                              Doubles& pdf) {
-    const std::uint32_t lanes = sorted.lanes[kind];
-    if (lanes == 0) return;
-    if constexpr (requires(InLanes<Kind<kind>> in_lanes) { in_lanes.pdf(from, position); }) {
-        const LightsOf<Kind<kind>> lights(sorted.lights, lanes);
-        pdf = select(lights.lanes(), InLanes<Kind<kind>>(lights).pdf(from, position), pdf);
+// Calls visit() for a kind that is only known at run time.
+template <class Visit, class... Kind>
+HWY_INLINE void visit_kind(std::type_identity<std::variant<Kind...>>, std::size_t kind, const Visit& visit) {
+    std::size_t k = 0;
+    static_cast<void>(((kind == k++ && (visit(std::type_identity<Kind>()), true)) || ...));
+}
+
+// Calls visit(std::type_identity<Kind>(), lanes_of_kind) for each kind of light in `lanes`.
+template <class Visit>
+HWY_INLINE void for_each_kind(const flat::Light* const* lights, std::uint32_t lanes, const Visit& visit) {
+    while (lanes != 0) {
+        const std::size_t kind = lights[std::countr_zero(lanes)]->index();
+        const std::uint32_t of_kind = lanes_of_kind(lights, lanes, kind);
+        visit_kind(std::type_identity<flat::Light>(), kind, [&](auto k) HWY_ATTR { visit(k, of_kind); });
+        lanes &= ~of_kind;
     }
 }
 
-template <std::size_t... kind>
-HWY_INLINE Doubles find_kinds_pdf(std::index_sequence<kind...>, const SortedLights& sorted, const Vector<Doubles>& from,
-                                  const Vector<Doubles>& position) {
-    Doubles pdf = 0.0;
-    (find_kind_pdf<kind>(sorted, from, position, pdf), ...);
-    return pdf;
+// Calls visit(lanes, row) for each row of the results, from element i on.
+template <class Visit>
+HWY_INLINE void for_each_row(LightPoints& points, LightSamples& samples, std::size_t i, const Visit& visit) {
+    const auto three = [&](Vector<Doubles>& v, Rows3& rows) HWY_ATTR {
+        visit(v.x, rows.x + i);
+        visit(v.y, rows.y + i);
+        visit(v.z, rows.z + i);
+    };
+    three(points.position, samples.position);
+    three(points.position_error, samples.position_error);
+    three(points.normal, samples.normal);
+    three(points.direction, samples.direction);
+    visit(points.pdf, samples.pdf + i);
+    visit(points.u, samples.u + i);
+    visit(points.v, samples.v + i);
+    visit(points.end, samples.end + i);
 }
 
 void sample_points(const Receivers& receivers, LightSamples& samples) {
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
-        const SortedLights sorted(samples.light + i, receivers.count - i);
+        const flat::Light* const* const lights = samples.light + i;
+        const Vector<Doubles> from = load3<Doubles>(receivers.position, i);
         const Doubles u = load<Doubles>(samples.numbers[1] + i), v = load<Doubles>(samples.numbers[2] + i);
-        const LightPoints points =
-            sample_kinds(std::make_index_sequence<kKinds>(), sorted, load3<Doubles>(receivers.position, i), u, v);
-        store3(points.position, samples.position, i);
-        store3(points.position_error, samples.position_error, i);
-        store3(points.normal, samples.normal, i);
-        store3(points.direction, samples.direction, i);
-        store(points.pdf, samples.pdf + i);
-        store(points.u, samples.u + i);
-        store(points.v, samples.v + i);
-        store(points.end, samples.end + i);
+        const std::uint32_t all = first_bits(receivers.count - i);
+        for_each_kind(lights, all, [&]<class Kind>(std::type_identity<Kind>, std::uint32_t lanes) HWY_ATTR {
+            LightPoints points = InLanes<Kind>(LightsOf<Kind>(lights, lanes)).sample(from, u, v);
+            // Keep the lanes of other kinds.
+            if (lanes != all) {
+                const Mask<Doubles> kept = mask_of<Doubles>(lanes);
+                for_each_row(points, samples, i,
+                             [&](Doubles& x, const double* row) HWY_ATTR { x = select(kept, x, load<Doubles>(row)); });
+            }
+            for_each_row(points, samples, i, [](Doubles x, double* row) HWY_ATTR { store(x, row); });
+        });
     }
 }
 
 void find_point_pdf(const Receivers& receivers, const flat::Light* const* lights, const Rows3& position, Row& pdf) {
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
-        const SortedLights sorted(lights + i, receivers.count - i);
-        store(find_kinds_pdf(std::make_index_sequence<kKinds>(), sorted, load3<Doubles>(receivers.position, i),
-                             load3<Doubles>(position, i)),
-              pdf + i);
+        const Vector<Doubles> from = load3<Doubles>(receivers.position, i), at = load3<Doubles>(position, i);
+        std::uint32_t all = 0;
+        for (std::size_t k = 0; k < kLanes<Doubles> && i + k < receivers.count; ++k)
+            all |= (lights[i + k] != nullptr ? std::uint32_t{1} : 0) << k;
+        Doubles found = 0.0;
+        for_each_kind(lights + i, all, [&]<class Kind>(std::type_identity<Kind>, std::uint32_t lanes) HWY_ATTR {
+            const LightsOf<Kind> of_kind(lights + i, lanes);
+            const InLanes<Kind> in_lanes(of_kind);
+            if constexpr (requires { in_lanes.pdf(from, at); }) {
+                // Lanes of other kinds get some direction, because the tables of an environment map are looked up by
+                // it.
+                const Mask<Doubles> kept = mask_of<Doubles>(lanes);
+                const Vector<Doubles> place = select(kept, at, Vector<Doubles>{0.0, 1.0, 0.0});
+                found = select(kept, in_lanes.pdf(from, place), found);
+            }
+        });
+        store(found, pdf + i);
     }
 }
 
