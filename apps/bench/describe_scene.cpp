@@ -7,6 +7,10 @@
 #include "bench/transport_scenes.h"
 #include "limn/math/error.h"
 #include "limn/records/record_sink.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
+#include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
 
 namespace limn::bench {
 namespace {
@@ -67,7 +71,7 @@ public:
                 Json boundary = no_shapes();
                 add_shapes(m.boundary, place, boundary);
                 all["media"].push_back(
-                    {{"boundary", boundary}, {"density", m.density}, {"albedo", texture(phase.texture)}});
+                    {{"boundary", boundary}, {"density", m.density}, {"albedo", texture(phase.albedo)}});
             }
         }
     }
@@ -106,40 +110,45 @@ private:
     Json material(MaterialId id) const {
         const MaterialRecord& m = records_.materials.at(static_cast<std::size_t>(id));
         Json told = lobe(m);
-        if (!m.details) return told;
-        if (m.details->normal_map != TextureId::none) told["normal_map"] = texture(m.details->normal_map);
-        if (m.details->opacity != TextureId::none) told["opacity"] = texture(m.details->opacity);
-        require(m.details->opacity_cutoff == 0, "a cutoff of opacities");
+        if (m.normal_map != TextureId::none) told["normal_map"] = texture(m.normal_map);
+        if (m.opacity != TextureId::none) told["opacity"] = texture(m.opacity);
+        require(m.opacity_cutoff == 0, "a cutoff of opacities");
         return told;
     }
 
     // Returns the scattering or emission of a material.
     Json lobe(const MaterialRecord& m) const {
-        if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.texture)}};
+        if (m.kind == "lambertian") return {{"kind", "lambertian"}, {"color", texture(m.albedo)}};
         if (m.kind == "diffuse-light") {
             require(m.sides == Sides::both, "one-sided lamps");
             return {{"kind", "light"}, {"color", texture(m.emission)}};
         }
         if (m.kind == "metal") {
-            require(m.parameter == 0, "metal that is not a mirror");
-            return {{"kind", "mirror"}, {"color", texture(m.texture)}};
+            require(m.parameters.as<Metal::Parameters>().fuzz == 0, "metal that is not a mirror");
+            return {{"kind", "mirror"}, {"color", texture(m.albedo)}};
         }
         if (m.kind == "dielectric") {
-            require(m.fresnel == Fresnel::exact, "Schlick's approximation");
-            return {{"kind", "glass"}, {"index", m.parameter}};
+            const auto glass = m.parameters.as<Dielectric::Parameters>();
+            require(glass.exact_fresnel == 1, "Schlick's approximation");
+            return {{"kind", "glass"}, {"index", glass.index}};
         }
-        require(m.kind == "rough-conductor" || m.kind == "rough-dielectric", "materials of other classes");
-        // Microfacets remain. numbers[0] to [2] are the edge tint, [3] and [4] are alpha along u and across it.
-        const double alpha = m.details->numbers[3];
-        require(alpha != 0 && alpha == m.details->numbers[4], "brushed or smooth microfacets");
-        if (m.kind == "rough-dielectric") return {{"kind", "rough-glass"}, {"index", m.parameter}, {"alpha", alpha}};
-        const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.texture));
+        const auto require_plain = [](double alpha_x, double alpha_y) {
+            require(alpha_x != 0 && alpha_x == alpha_y, "brushed or smooth microfacets");
+        };
+        if (m.kind == "rough-dielectric") {
+            const auto glass = m.parameters.as<RoughDielectric::Parameters>();
+            require_plain(glass.alpha_x, glass.alpha_y);
+            return {{"kind", "rough-glass"}, {"index", glass.index}, {"alpha", glass.alpha_x}};
+        }
+        require(m.kind == "rough-conductor", "materials of other classes");
+        const auto metal = m.parameters.as<RoughConductor::Parameters>();
+        require_plain(metal.alpha_x, metal.alpha_y);
+        const TextureRecord& reflectance = records_.textures.at(static_cast<std::size_t>(m.albedo));
         require(reflectance.kind == TextureKind::solid, "metals that are not of one colour");
-        const auto& tint = m.details->numbers;
         return {{"kind", "rough-conductor"},
                 {"reflectance", triple(reflectance.color)},
-                {"edge_tint", {tint[0], tint[1], tint[2]}},
-                {"alpha", alpha}};
+                {"edge_tint", {metal.edge_tint_r, metal.edge_tint_g, metal.edge_tint_b}},
+                {"alpha", metal.alpha_x}};
     }
 
     Json texture(TextureId id) const {

@@ -13,7 +13,6 @@
 #include "limn/math/color.h"
 #include "limn/math/error.h"
 #include "limn/math/frame.h"
-#include "limn/math/fresnel.h"
 #include "limn/math/hash128.h"
 #include "limn/math/math.h"
 #include "limn/math/mesh_view.h"

@@ -1,4 +1,5 @@
-// What lobes of microfacets have in common beside the microsurface. Per-target include guard, as Highway has it.
+// The parts that lobes of microfacets share, except for the microsurface itself (microfacet-inl.h). The include guard
+// is per target, as Highway requires.
 #if defined(LIMN_BSDF_ROUGH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_BSDF_ROUGH_INL_H
 #undef LIMN_BSDF_ROUGH_INL_H
@@ -14,19 +15,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::bsdf::HWY_NAMESPACE {
 
-// Around the shading normal, x along dp_du; where that is none, along anything.
+// The frame of the shading normal. x is along dp_du, or along any tangent if dp_du is zero or parallel to the normal.
 template <class N>
 struct ShadingFrame {
-    Vector<N> x, y, z, out;
+    Vector<N> x, y, z;
+    Vector<N> out;  // direction to the viewer, in this frame
 
-    HWY_INLINE explicit ShadingFrame(const LobeInput<N>& s) : z(s.shading_normal) {
+    template <class Input>
+    HWY_INLINE explicit ShadingFrame(const Input& s) : z(s.shading_normal) {
         const Vector<N> along = s.dp_du - dot(s.dp_du, z) * z;
         const N squared = length_squared(along);
         const Mask<N> is_tangent = squared > 1e-12 * length_squared(s.dp_du);
         x = select(is_tangent, along / sqrt(squared), Basis<N>(z).x);
         y = cross(z, x);
-        // A surface that is seen around its interpolated normal's horizon looks as it does at the horizon: at the first
-        // cosine of the albedo tables.
+        // An interpolated normal may face away from the viewer. The surface then looks as it does at the horizon, which
+        // is the least cosine of the albedo tables.
         out = to_local(s.out);
         out.z = max(out.z, 1e-4);
         out = normalize(out);
@@ -35,14 +38,16 @@ struct ShadingFrame {
     HWY_INLINE Vector<N> to_world(const Vector<N>& w) const { return w.x * x + w.y * y + w.z * z; }
 };
 
-// What a table says of a direction in this frame. \param row see AlbedoTable
+// These return the albedo for a cosine, and the mean albedo of a row. \param row see AlbedoTable
 HWY_INLINE double albedo_at(const AlbedoTable* table, double row, double cosine) { return table->at(row, cosine); }
 HWY_INLINE double mean_albedo(const AlbedoTable* table, double row) { return table->mean_at(row); }
 
+// The same for vectors. A lane without a table gets 0.
 template <class D, class Function>
 HWY_INLINE Wide<D> of_each_lane(Wide<D> a, Wide<D> b, const Function& function) {
     HWY_ALIGN double first[hn::MaxLanes(D())], second[hn::MaxLanes(D())], result[hn::MaxLanes(D())];
-    store(a, first), store(b, second);
+    store(a, first);
+    store(b, second);
     for (std::size_t i = 0; i < hn::MaxLanes(D()); ++i) result[i] = function(i, first[i], second[i]);
     return load<Wide<D>>(result);
 }
@@ -57,38 +62,41 @@ HWY_INLINE Wide<D> mean_albedo(const AlbedoTable* const* tables, Wide<D> row) {
                         [&](std::size_t i, double r, double) { return tables[i] ? tables[i]->mean_at(r) : 0; });
 }
 
-// f |cos| of what is not scattered once: (1 - E(out)) (1 - E(in)) / (1 - mean E) cos / pi. More scattering among facets
-// (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, 2017), or a white base under a coat (Kelemen and
-// Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling, Eurographics 2001).
-// \param missing_out,missing_in 1 - the albedo of either direction
+// Returns f |cos| of light that isn't scattered once: (1 - E(out)) (1 - E(in)) / (1 - mean E) cos / pi, where E is the
+// albedo. It is either scattered among facets more than once (Kulla and Conty, Revisiting Physically Based Shading at
+// Imageworks, 2017), or by a white base under a coat (Kelemen and Szirmay-Kalos, A Microfacet Based Coupled
+// Specular-Matte BRDF Model with Importance Sampling, Eurographics 2001).
+// \param missing_out,missing_in 1 - E for either direction
 template <class N>
 HWY_INLINE N spread_evenly(N missing_out, N missing_in, N mean_albedo, N cosine_pdf) {
     return missing_out * missing_in / max(1.0 - mean_albedo, 1e-15) * cosine_pdf;
 }
-// What facets that reflect `mean` leave of that: each scattering more reflects `mean` of what did not leave (Hill, A
-// Multifaceted Exploration, part 4, 2018).
+// Returns the factor of that light for facets of mean reflectance `mean`. Every further scattering reflects the share
+// `mean` of the light that hasn't left (Hill, A Multifaceted Exploration, part 4, 2018).
 template <class N>
 HWY_INLINE N reflected_often(N mean, N mean_albedo) {
     return mean * mean * mean_albedo / (1.0 - mean * (1.0 - mean_albedo));
 }
 
-// A vertex on microfacets, whose alphas are the details 3 and 4, both 0 of a smooth surface.
-template <class N>
+// A vertex on microfacets. The lobe has the parameters alpha_x and alpha_y. Both are 0 if the surface is smooth.
+template <class Input>
 struct Facets {
-    const LobeInput<N>& s;
+    using N = typename Input::Number;
+
+    const Input& s;
     Mask<N> smooth;
     Microsurface<N> surface;
     ShadingFrame<N> frame;
 
-    HWY_INLINE explicit Facets(const LobeInput<N>& input)
+    HWY_INLINE explicit Facets(const Input& input)
         : s(input),
-          smooth(input.details[3] == 0.0),
-          surface{select(smooth, 1.0, input.details[3]), select(smooth, 1.0, input.details[4])},
-          frame(input) {}
+          smooth(s.parameters.alpha_x == 0.0),
+          surface{select(smooth, 1.0, s.parameters.alpha_x), select(smooth, 1.0, s.parameters.alpha_y)},
+          frame(s) {}
 
-    // In the table: of a brushed surface, the azimuth between the axes.
+    // Returns the row of the albedo table for a direction. The rows of a brushed surface are azimuths between the axes.
     HWY_INLINE N row_of(const Vector<N>& w) const {
-        if (!any(s.details[3] != s.details[4])) return 0.0;
+        if (!any(s.parameters.alpha_x != s.parameters.alpha_y)) return 0.0;
         return angle_of<N>({abs(w.y), max(abs(w.x), 1e-12)}) / (kPi / 2);
     }
     HWY_INLINE N albedo(const Vector<N>& w) const {

@@ -1,5 +1,4 @@
 #include "bsdf/lobe.h"
-#include "limn/records/records.h"
 
 namespace limn::bsdf {
 
@@ -11,7 +10,9 @@ void sample(Vertices& v) {
         const Vec3 out = -normalize(v.incoming.get<Vec3>(i));
         const Random3 random{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
         const auto s = thunks->sample(*object, surface, out, random).value_or(ScatterSample{});
-        v.direction.set(i, s.direction), v.weight.set(i, s.weight), v.pdf[i] = s.pdf;
+        v.direction.set(i, s.direction);
+        v.weight.set(i, s.weight);
+        v.pdf[i] = s.pdf;
     }
 }
 
@@ -20,7 +21,8 @@ void value(Vertices& v, const Rows3& in) {
         const auto& [surface, object, thunks] = v.user_defined[i];
         const Vec3 out = -normalize(v.incoming.get<Vec3>(i));
         const ScatterValue f = thunks->value(*object, surface, out, in.get<Vec3>(i));
-        v.value.set(i, f.value), v.value_pdf[i] = f.pdf;
+        v.value.set(i, f.value);
+        v.value_pdf[i] = f.pdf;
     }
 }
 

@@ -6,7 +6,6 @@
 
 #include "flat/steps.h"
 #include "math/require.h"
-#include "scene/lights.h"
 
 namespace limn::compiler {
 
@@ -50,7 +49,6 @@ void move_tables(SceneRecords&& records, flat::Scene& out) {
     out.textures = std::move(records.textures);
     out.images = std::move(records.images);
     out.lattices = std::move(records.lattices);
-    out.light_sources = std::move(records.lights);
     out.kept = std::move(records.kept);
 }
 
@@ -69,10 +67,10 @@ void gather_features(flat::Scene& s) {
     }
     for (const MaterialRecord& m : s.materials) {
         f.user_defined_materials |= m.kind == kUserDefinedMaterial;
-        f.tangents |= m.kind == kUserDefinedMaterial || (m.details && m.details->tangents);
+        f.tangents |= m.uses_tangents;
     }
     f.texture_coordinates |= f.user_defined_textures || f.user_defined_materials || f.user_defined_shapes;
-    const bool has_map = s.environment.image != nullptr;
+    const bool has_map = s.environment != nullptr;
     f.background = !has_map && (!is_black(s.background_bottom) || !is_black(s.background_top));
 
     // Write their names.
@@ -178,14 +176,16 @@ std::size_t memory_of(const flat::Scene& s) {
     sum += bytes(s.medium_shapes, s.media, s.medium_instances);
     const flat::LightTable& l = s.lights;
     sum += bytes(l.own, l.places, l.instances, l.refs, l.strength_before, l.guide, l.nodes, l.by_number, l.distant);
-    sum += bytes(s.light_sources, s.environment.row_luminance, s.environment.band_cosine, s.environment.band_before,
-                 s.environment.column_before);
+    sum += bytes(s.light_sources);
     for (const flat::Mesh& mesh : s.meshes) {
         const MeshView& a = mesh.arrays;
         sum += bytes(a.vertices, a.triangles, a.normals, a.uvs, a.material_slots, mesh.materials, mesh.places);
     }
     for (const auto& image : s.images) sum += image->values().size_bytes();
-    if (s.environment.image) sum += s.environment.image->values().size_bytes();
+    if (const flat::Environment* e = s.environment.get()) {
+        sum += sizeof(*e) + bytes(e->row_luminance, e->band_cosine, e->band_before, e->column_before);
+        sum += e->image->values().size_bytes();
+    }
     return sum + s.lattices.size() * sizeof(PerlinLattice);
 }
 
@@ -214,7 +214,7 @@ flat::Scene flatten(const limn::Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
     require(is_radiance(scene.background.bottom), "compile: Scene::background.bottom must be finite and not negative");
     require(is_radiance(scene.background.top), "compile: Scene::background.top must be finite and not negative");
-    // Describe the objects and lights as records.
+    // Describe the objects as records.
     RecordSink sink;
     flat::Scene out;
     for (const auto& object : scene.objects()) {
@@ -222,23 +222,21 @@ flat::Scene flatten(const limn::Scene& scene) {
         out.first_of_object.push_back(sink.primitives());
         object->lower(sink);
     }
-    for (const LightSource& light : scene.lights()) sink.light(record_of(light));
-    if (const auto& map = scene.environment) sink.environment({map->image(), map->world_from_map(), map->scale()});
-    // Digest the records and move them to the scene's tables.
-    out.unmoved_digest = digest_of_unmoved(sink.records(), scene.background);
+    // Digest the description and move the records to the scene's tables.
+    out.unmoved_digest = digest_of_unmoved(sink.records(), scene);
     out.untagged = sink.records().untagged;
-    const EnvironmentRecord environment = sink.records().environment;
     move_tables(std::move(sink).take(), out);
     if (!out.user_defined.empty())  // their records point into the described objects
         for (const auto& object : scene.objects()) out.kept.push_back(object);
     out.name = scene.name;
     out.background_bottom = scene.background.bottom;
     out.background_top = scene.background.top;
+    out.light_sources = scene.lights();
     // Build the trees and all that follows from them.
     reserve_places(out);
     build_trees(out);
     name_objects(out);
-    tabulate(environment, out.environment);
+    if (scene.environment) out.environment = tabulate(*scene.environment);
     count_unassigned(out);
     derive(out);
     out.compile_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

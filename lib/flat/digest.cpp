@@ -64,10 +64,8 @@ void add_textures(const SceneRecords& r, SceneChecksum& sum) {
     });
     sum.table(r.materials, [&](const MaterialRecord& m) {
         sum.text(std::string(m.kind));
-        sum.add(m.fresnel, m.texture, m.emission, m.sides, m.parameter, m.details != nullptr);
-        if (!m.details) return;
-        for (const double number : m.details->numbers) sum.add(number);
-        sum.add(m.details->texture, m.details->normal_map, m.details->opacity, m.details->opacity_cutoff);
+        for (const double number : m.parameters.numbers) sum.add(number);
+        sum.add(m.albedo, m.factors, m.emission, m.sides, m.normal_map, m.opacity, m.opacity_cutoff);
     });
 }
 
@@ -83,12 +81,18 @@ void add_meshes(const SceneRecords& r, SceneChecksum& sum) {
     });
 }
 
+// Adds the numbers of a light.
+template <class Light>
+void add_fields(const Light& light, SceneChecksum& sum) {
+    std::apply([&](const auto&... field) { sum.add(field...); }, light.fields());
+}
+
 }  // namespace
 
-Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
+Hash128 digest_of_unmoved(const SceneRecords& r, const limn::Scene& scene) {
     // Add the background, textures, materials and shapes.
     SceneChecksum sum;
-    sum.add(background.bottom, background.top);
+    sum.add(scene.background.bottom, scene.background.top);
     add_textures(r, sum);
     add_meshes(r, sum);
     primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
@@ -109,12 +113,14 @@ Hash128 digest_of_unmoved(const SceneRecords& r, const Background& background) {
     });
     sum.table(r.tags, [&](const std::string& tag) { sum.text(tag); });
     // Add the lights and the environment map.
-    sum.table(r.lights, [&](const LightRecord& l) {
-        sum.add(l.kind, l.color, l.position, l.direction, l.cos_inner, l.cos_outer, l.one_minus_cos);
+    sum.table(scene.lights(), [&](const LightSource& source) {
+        sum.add(std::uint64_t{source.index()});
+        std::visit([&](const auto& described) { add_fields(flat::light_from(described), sum); }, source);
     });
-    if (const EnvironmentRecord& map = r.environment; map.image) {
-        sum.add(map.image->width(), map.image->height(), map.world_from_map, map.scale);
-        sum.array(map.image->values());
+    if (const EnvironmentMap* map = scene.environment.get()) {
+        const Image& image = *map->image();
+        sum.add(image.width(), image.height(), map->world_from_map(), map->scale());
+        sum.array(image.values());
     }
     return sum.digest();
 }

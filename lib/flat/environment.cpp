@@ -34,12 +34,13 @@ double tabulate_row(const Image& image, int y, std::int32_t* before) {
 
 }  // namespace
 
-void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
+std::unique_ptr<const flat::Environment> tabulate(const EnvironmentMap& map) {
     // Sum up each row.
-    if (!record.image) return;
-    e.image = record.image;
-    e.axes = pattern::axes_of(record.world_from_map);
-    e.scale = record.scale;
+    auto environment = std::make_unique<flat::Environment>();
+    flat::Environment& e = *environment;
+    e.image = map.image();
+    e.axes = pattern::axes_of(map.world_from_map());
+    e.scale = map.scale();
     const Image& image = *e.image;
     const auto height = static_cast<std::size_t>(image.height()), width = static_cast<std::size_t>(image.width());
     e.row_luminance.resize(height);
@@ -62,11 +63,13 @@ void tabulate(const EnvironmentRecord& record, flat::Environment& e) {
     e.band_before.push_back(sum);
     e.luminance = 2 * kPi / static_cast<double>(width) * sum;
     // Clear the tables if the map is black.
-    if (e.luminance > 0 && e.scale > 0) return;
-    e.row_luminance = {};
-    e.band_cosine = {};
-    e.band_before = {};
-    e.column_before = {};
+    if (!(e.luminance > 0 && e.scale > 0)) {
+        e.row_luminance = {};
+        e.band_cosine = {};
+        e.band_before = {};
+        e.column_before = {};
+    }
+    return environment;
 }
 
 }  // namespace limn::compiler

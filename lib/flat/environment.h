@@ -17,7 +17,7 @@ namespace limn::flat {
 // h rows of pixels have h + 1 bands: h - 1 between the centres of neighbouring rows, and one from the first and the
 // last row to each pole. In these two the luminance is that of the row.
 struct Environment {
-    std::shared_ptr<const Image> image;  // null if the scene has no map
+    std::shared_ptr<const Image> image;
     pattern::MapAxes axes;
     double scale = 1;  // multiplies the radiance of the image
 
@@ -31,7 +31,7 @@ struct Environment {
     // The integer that represents the sum of a whole row in `column_before`. The sums are rounded to 5e-10 of it.
     static constexpr std::int32_t kWhole = 0x7fffffff;
 
-    // Returns true if directions can be sampled. There are none to sample if the map is black or null.
+    // Returns true if directions can be sampled: if the map isn't black.
     bool is_sampled() const { return !band_before.empty(); }
 };
 

@@ -16,6 +16,8 @@ namespace limn::compiler {
 
 namespace {
 
+using flat::Cone, flat::LightBounds;
+
 constexpr std::size_t kBins = 12;  // as in pbrt-v4
 // The depth from which on nodes are halved by the number of their lights, so that recursion ends. Sensible trees are
 // less deep.

@@ -1,116 +1,146 @@
 #include "flat/lights.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "flat/scene.h"
-#include "geometry/hit_error.h"
-#include "math/sphere_uv.h"
+#include "bsdf/environment.h"
+#include "geometry/registry.h"
+#include "limn/math/math.h"
+#include "math/elementary.h"
 
 namespace limn::flat {
 
 namespace {
 
-// Right angles but for rounding.
-bool is_rectangle(const Light& light) {
-    return std::abs(dot(light.edge_u, light.edge_v)) <= 1e-12 * length(light.edge_u) * length(light.edge_v);
-}
+// Returns the bounds of a light that looks alike from everywhere.
+LightBounds without_normals(const Box& box, double strength) { return {box, {{0, 0, 1}, kNoNormals}, strength}; }
 
-// Sets the corner and edges of a planar shape as they are described.
-void describe(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, Light& light) {
-    with_primitive(scene, range, element, [&]<class Kind>(const Kind& primitive) {
-        if constexpr (requires { primitive.patch(); }) {
-            const primitives::Patch patch = primitive.patch();
-            light.origin = patch.corner, light.edge_u = patch.edge_u, light.edge_v = patch.edge_v;
-            light.primitive = Kind::kKind, light.share = Kind::kShare;
-            light.kind = Kind::kShare == 1                        ? LightKind::parallelogram
-                         : Kind::kKind == PrimitiveKind::triangle ? LightKind::triangle
-                                                                  : LightKind::patch;
-        }
-    });
-}
+// Returns the radiance of a light without extent. \param irradiance arrives from it at a distance of 1. The pdf of its
+// samples grows with the square of the distance.
+Color radiance_without_extent(const Color& irradiance) { return irradiance / kNoSolidAngle; }
 
-// \param mirrored whether the edges' product is opposite to the outward normal
-void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, bool mirrored, Light& light) {
-    if (light.kind == LightKind::parallelogram && is_rectangle(light)) light.kind = LightKind::rectangle;
-    light.material = material_of(scene, range, element);
-    const MaterialRecord& material = scene.materials[static_cast<std::size_t>(light.material)];
-    light.textured = !is_plain(scene, material.emission);
-    light.side = side_of(material.sides, mirrored);
+// Returns the radiance of a disc of angular radius r: it gives a perpendicular plane the irradiance pi radiance
+// sin(r)^2.
+Color disc_radiance(const SunLight& sun) {
+    return sun.irradiance / (kPi * sun.one_minus_cos * (2 - sun.one_minus_cos));
 }
 
 }  // namespace
 
-std::int8_t side_of(Sides sides, bool mirrored) {
-    return static_cast<std::int8_t>(sides == Sides::both ? 0 : (sides == Sides::front) != mirrored ? 1 : -1);
+Box box_of(const Light& light) {
+    return std::visit(
+        []<class Kind>(const Kind& kind) {
+            if constexpr (requires { kind.box(); })
+                return kind.box();
+            else
+                return Box{};
+        },
+        light);
 }
 
-bool is_plain(const Scene& scene, TextureId texture) {
-    return scene.textures[static_cast<std::size_t>(texture)].kind == TextureKind::solid;
+Color seen_radiance(const Light& light, const Vec3& direction) {
+    return std::visit(
+        [&]<class Kind>(const Kind& kind) {
+            if constexpr (requires { kind.seen_radiance(direction); })
+                return kind.seen_radiance(direction);
+            else
+                return Color{};
+        },
+        light);
 }
 
-Box bounds_of(const Light& light) {
+// ---- triangles, quads and disks ------------------------------------------------------------------------------------
+
+Box PlanarLight::box() const {
     Box box;
-    if (light.kind == LightKind::sphere) {
-        for (const Point3& c : {light.origin, light.origin + light.edge_u})
-            for (const double r : {-light.radius, light.radius}) box.extend(c + along_every_axis(r));
-        return box;
-    }
-    box.extend(light.origin);
-    if (light.kind >= LightKind::point) return box;
-    box.extend(light.origin + light.edge_u);
-    box.extend(light.origin + light.edge_v);
-    if (light.kind != LightKind::triangle) box.extend(light.origin + light.edge_u + light.edge_v);
+    box.extend(corner);
+    box.extend(corner + edge_u);
+    box.extend(corner + edge_v);
+    if (shape != PlanarShape::triangle) box.extend(corner + edge_u + edge_v);
     return box;
 }
 
-Uv sample_area(const Light& light, double u, double v) {
-    return primitives::value_of_kind(light.primitive, Uv{},
+LightBounds PlanarLight::bounds(double radiance) const {
+    const Vec3 normal = cross(edge_u, edge_v), axis = normalize(normal);
+    return {box(), {axis, is_finite(axis) ? 1.0 : 0.0}, radiance * length(normal) * share};
+}
+
+Uv PlanarLight::sample_area(double u, double v) const {
+    return primitives::value_of_kind(primitive, Uv{},
                                      [&]<class Kind>(std::type_identity<Kind>) { return Kind::weights(u, v); });
 }
 
-Light planar_light(const Scene& scene, const PrimitiveRange& range, std::uint64_t element, const Transform& m,
-                   const Transform& inverse_of_m) {
-    Light light;
-    describe(scene, range, element, light);
-    const Vec3 error = planar_error(light.origin, light.edge_u, light.edge_v);
-    light.origin = transform_point(m, light.origin);
-    light.edge_u = transform_vector(m, light.edge_u);
-    light.edge_v = transform_vector(m, light.edge_v);
-    const double reach = max_abs(light.origin) + max_abs(light.edge_u) + max_abs(light.edge_v);
-    light.position_error = transformed_error(m, inverse_of_m, Point3{reach, reach, reach}, error);
-    finish(scene, range, element, determinant(m) < 0, light);
-    return light;
+// ---- spheres -------------------------------------------------------------------------------------------------------
+
+Box SphereLight::box() const {
+    Box box;
+    for (const Point3& c : {center, center + motion})
+        for (const double r : {-radius, radius}) box.extend(c + along_every_axis(r));
+    return box;
 }
 
-const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room) {
-    const LightTable& table = scene.lights;
-    if (rank >= table.size()) return table.distant[rank - table.size()].light;
-    const LightRef ref = table.refs[rank];
-    if (ref.place == LightRef::kOwn) {
-        const Light& own = table.own[ref.element];
-        if (own.kind != LightKind::sphere || own.edge_u == Vec3{}) return own;
-        room = own;
-        room.origin = interpolate(own.origin, own.origin + own.edge_u, time);
-        room.edge_u = {};
-        return room;
-    }
-    const LightPlace& place = table.places[ref.place];
-    const PrimitiveRange& range = scene.ranges[place.range];
-    room = {};
-    if (place.instance_count > 0) {
-        Transform m;
-        for (std::uint32_t i = 0; i < place.instance_count; ++i)
-            m = m * world_from_object(scene.instances[table.instances[place.first_instance + i]], time);
-        room = planar_light(scene, range, ref.element, m, inverse(m));
-    } else if (place.transformed) {
-        room = planar_light(scene, range, ref.element, place.world_from_object, place.object_from_world);
-    } else {
-        describe(scene, range, ref.element, room);
-        room.position_error = planar_error(room.origin, room.edge_u, room.edge_v);
-        finish(scene, range, ref.element, false, room);
-    }
-    room.number = place.first_number + ref.element;
-    return room;
+LightBounds SphereLight::bounds(double radiance) const {
+    return without_normals(box(), radiance * kPi * radius * radius);
+}
+
+// ---- points --------------------------------------------------------------------------------------------------------
+
+LightBounds LightAtPoint::bounds() const { return without_normals(box(), max_component(intensity)); }
+
+PointLight light_from(const limn::PointLight& source) { return {{source.position, source.intensity}}; }
+
+Color PointLight::sampled_radiance(const Vec3&, const Uv&) const { return radiance_without_extent(intensity); }
+
+SpotLight light_from(const limn::SpotLight& source) {
+    return {{source.position, source.intensity},
+            normalize(source.direction),
+            cosine(radians(source.inner_cone_angle)),
+            cosine(radians(source.outer_cone_angle))};
+}
+
+// The square makes the edge of the cone soft: KHR_lights_punctual, section "Inner and outer cone angles".
+Color SpotLight::sampled_radiance(const Vec3& direction, const Uv&) const {
+    const double cosine = -dot(direction, axis);
+    const double part = cosine >= cos_inner ? 1 : std::max(0.0, (cosine - cos_outer) / (cos_inner - cos_outer));
+    return part * part * radiance_without_extent(intensity);
+}
+
+// ---- distant lights ------------------------------------------------------------------------------------------------
+
+DirectionalLight light_from(const limn::DirectionalLight& source) {
+    return {-normalize(source.direction), source.irradiance};
+}
+
+DistantBounds DirectionalLight::bounds() const { return {max_component(irradiance), towards, 0}; }
+
+Color DirectionalLight::sampled_radiance(const Vec3&, const Uv&) const { return radiance_without_extent(irradiance); }
+
+SunLight light_from(const limn::SunLight& source) {
+    const double half_sine = sine(radians(source.angular_radius) / 2);
+    return {-normalize(source.direction), source.irradiance, 2 * half_sine * half_sine};
+}
+
+DistantBounds SunLight::bounds() const {
+    return {max_component(irradiance), towards, std::sqrt(one_minus_cos * (2 - one_minus_cos))};
+}
+
+Color SunLight::seen_radiance(const Vec3& direction) const {
+    // Half the squared difference of two unit vectors is 1 - cos of their angle.
+    const bool hits = length_squared(normalize(direction) - towards) / 2 <= one_minus_cos;
+    return hits ? disc_radiance(*this) : Color{};
+}
+
+Color SunLight::sampled_radiance(const Vec3&, const Uv&) const { return disc_radiance(*this); }
+
+// A plane receives a quarter of what arrives from all directions, in the mean over all planes.
+DistantBounds EnvironmentLight::bounds() const { return {map->scale * map->luminance / 4, {}, 1}; }
+
+Color EnvironmentLight::seen_radiance(const Vec3& direction) const {
+    return sampled_radiance(direction, pattern::map_uv(map->axes, direction));
+}
+
+Color EnvironmentLight::sampled_radiance(const Vec3&, const Uv& uv) const {
+    return pattern::map_radiance(*map->image, map->scale, uv);
 }
 
 }  // namespace limn::flat

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "flat/environment.h"
-#include "flat/lights.h"
+#include "flat/light_table.h"
 #include "flat/list.h"
 #include "flat/tree.h"
 #include "geometry/mesh_triangle.h"
@@ -130,9 +130,9 @@ struct Scene {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    std::vector<LightRecord> light_sources;
-    Color background_bottom, background_top;  // used if there is no environment map
-    Environment environment;
+    std::vector<LightSource> light_sources;
+    Color background_bottom, background_top;         // used if there is no environment map
+    std::unique_ptr<const Environment> environment;  // null if the scene has no map
 
     // Scene::material_names of each object, or null.
     std::vector<std::shared_ptr<const std::vector<std::string>>> material_names;
@@ -179,9 +179,7 @@ inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element);
 
 // Returns true if the material has an opacity (limn/scene/material/alpha_mask.h).
-inline bool has_holes(const MaterialRecord& material) {
-    return material.details && material.details->opacity != TextureId::none;
-}
+inline bool has_holes(const MaterialRecord& material) { return material.opacity != TextureId::none; }
 
 // Returns the vertices of a triangle of a mesh, exactly as described.
 // \pre if the mesh has no arrays, the triangle is in the tree

@@ -1,18 +1,21 @@
 // The steps of compilation, each in a file of its own. compile.cpp calls them.
 #pragma once
 
+#include <memory>
+
 #include "flat/scene.h"
 #include "limn/math/hash128.h"
 #include "limn/records/records.h"
-#include "limn/scene/background.h"
+#include "limn/scene/scene.h"
 
 namespace limn::compiler {
 
 // The digest of a scene covers everything that its pictures depend on. It is the same for every compiler, instruction
 // set and number of threads.
 
-// Returns the digest of a description without the matrices of its instances.
-Hash128 digest_of_unmoved(const SceneRecords& records, const Background& background);
+// Returns the digest of a description without the matrices of its instances. \param records those of the scene's
+// objects
+Hash128 digest_of_unmoved(const SceneRecords& records, const limn::Scene& scene);
 
 // Returns the digest of `unmoved_digest` and the matrices of the scene's instances.
 Hash128 digest_of(const flat::Scene& scene);
@@ -35,13 +38,14 @@ void build_blas_tree(flat::Scene& scene, flat::Blas& blas);
 // Fills Scene::media with every occurrence of a medium. \pre the trees are built
 void place_media(flat::Scene& scene);
 
-// Fills the tables for sampling directions towards the map. They stay empty if it's black or there is none.
-void tabulate(const EnvironmentRecord& record, flat::Environment& environment);
+// Computes the tables for sampling directions towards a map. They are empty if it's black.
+std::unique_ptr<const flat::Environment> tabulate(const EnvironmentMap& map);
 
 // Fills Scene::lights with every emitter that can be sampled:
 // - light sources and the environment map
 // - up to 2^22 triangles, quads, disks and spheres whose material emits. Exceptions are materials with a user-defined
-//   texture or opacity, and primitives in more than four moving instances. lights.cpp has more exceptions for spheres.
+//   texture or opacity, and primitives in more than four moving instances. collect_lights.cpp has more exceptions for
+//   spheres.
 // All other emitters are found by scattering alone.
 void collect_lights(flat::Scene& scene);
 

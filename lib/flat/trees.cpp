@@ -99,8 +99,8 @@ private:
     double largest_albedo(MaterialId phase) const {
         if (phase == MaterialId::none) return 1;
         const MaterialRecord& m = scene_.materials[static_cast<std::size_t>(phase)];
-        if (m.kind != "isotropic" || !flat::is_plain(scene_, m.texture)) return 1;
-        return std::min(1.0, max_component(scene_.textures[static_cast<std::size_t>(m.texture)].color));
+        if (m.kind != "isotropic" || !flat::is_plain(scene_, m.albedo)) return 1;
+        return std::min(1.0, max_component(scene_.textures[static_cast<std::size_t>(m.albedo)].color));
     }
 
     flat::Scene& scene_;

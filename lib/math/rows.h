@@ -1,8 +1,12 @@
 // Rows: arrays with one number for each of many paths. The stages of path tracing read and write them.
+//
+// The state of n paths is a struct of such arrays, its columns. Its function each_column(a, b, f) lists them: it calls
+// f(column of a, the same column of b) for each. Copies follow from this list: see copy_row().
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "limn/math/color.h"
 
@@ -22,6 +26,12 @@ template <std::size_t n>
 struct Rows3Of {
     alignas(64) double x[n] = {};
     double y[n] = {}, z[n] = {};
+
+    static constexpr void each_column(auto& a, auto& b, const auto& f) {
+        f(a.x, b.x);
+        f(a.y, b.y);
+        f(a.z, b.z);
+    }
 
     // Sets element i to a point, direction or normal.
     template <class Three>
@@ -45,30 +55,43 @@ struct Rows3Of {
 using Row = double[kShaded];
 using Rows3 = Rows3Of<kShaded>;
 
-// The state of n paths: their numbers, their position in the Sobol sequence, time and throughput.
+// Returns the size of the columns of Rows<16> that each_column() lists.
+template <template <std::size_t> class Rows>
+consteval std::size_t size_of_columns() {
+    std::size_t size = 0;
+    Rows<16> rows;
+    Rows<16>::each_column(rows, rows, [&size](auto& column, auto&) { size += sizeof(column); });
+    return size;
+}
+
+// Copies element `at` of each column of `from` to element i of `to`. If the arguments are structs derived from Rows,
+// only the columns of Rows are copied.
+template <template <std::size_t> class Rows, std::size_t n, std::size_t m>
+inline void copy_row(Rows<n>& to, std::size_t i, const Rows<m>& from, std::size_t at) {
+    static_assert(size_of_columns<Rows>() == sizeof(Rows<16>), "each_column() must list every column");
+    Rows<n>::each_column(to, from, [i, at](auto& column, const auto& source) {
+        if constexpr (std::is_array_v<std::remove_reference_t<decltype(column)>>)
+            column[i] = source[at];
+        else
+            copy_row(column, i, source, at);
+    });
+}
+
+// The state of n paths: their numbers, their position in the Sobol sequence, and time.
 template <std::size_t n>
 struct PathRows {
-    std::uint32_t path[n] = {};    // number of the path in the batch
-    std::uint32_t vertex[n] = {};  // number of the path's next vertex; the first is 1
-    std::uint64_t base[n] = {};    // Sampler::base() (render/sampler.h): identifies the Sobol sequence
-    std::uint32_t index[n] = {};   // Sampler::index(): identifies the point of the sequence
-    double time[n] = {};           // in shutter units
-    Rows3Of<n> throughput;
+    alignas(64) std::uint32_t path[n] = {};  // number of the path in the batch
+    std::uint32_t vertex[n] = {};            // number of the path's next vertex; the first is 1
+    std::uint64_t base[n] = {};              // Sampler::base() (render/sampler.h): identifies the Sobol sequence
+    std::uint32_t index[n] = {};             // Sampler::index(): identifies the point of the sequence
+    double time[n] = {};                     // in shutter units
 
-    // Copies row `at` of `from` to row i, except for the throughput.
-    template <std::size_t m>
-    void copy(std::size_t i, const PathRows<m>& from, std::size_t at) {
-        path[i] = from.path[at];
-        vertex[i] = from.vertex[at];
-        base[i] = from.base[at];
-        index[i] = from.index[at];
-        time[i] = from.time[at];
-    }
-    // Copies a row as copy() does and advances its path to the next vertex.
-    template <std::size_t m>
-    void follow(std::size_t i, const PathRows<m>& from, std::size_t at) {
-        copy(i, from, at);
-        ++vertex[i];
+    static constexpr void each_column(auto& a, auto& b, const auto& f) {
+        f(a.path, b.path);
+        f(a.vertex, b.vertex);
+        f(a.base, b.base);
+        f(a.index, b.index);
+        f(a.time, b.time);
     }
 };
 

@@ -47,7 +47,7 @@ LightsAsPivot::LightsAsPivot(const flat::Scene& scene) : any_(scene.lights.size(
     Vec3 half;
     if (scene.lights.nodes.empty()) {
         flat::Light room;
-        const Box box = flat::bounds_of(flat::light_at(scene, 0, 0.5, room));
+        const Box box = flat::box_of(flat::light_at(scene, 0, 0.5, room));
         pivot_ = box.center();
         half = box.diagonal() / 2;
     } else {

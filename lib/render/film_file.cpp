@@ -20,7 +20,7 @@ namespace limn::transport {
 namespace {
 
 constexpr ChunkFormat kFilms{"film", "limnfilm", "filmlimn"};
-constexpr std::uint32_t kFormat = 3;
+constexpr std::uint32_t kFormat = 4;
 constexpr std::array kVersions = {kFormat, kSampleVersion};
 
 // The largest stored value of an enumeration or bool.

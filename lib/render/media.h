@@ -6,6 +6,7 @@
 
 #include "flat/scene.h"
 #include "limn/math/ray.h"
+#include "limn/math/surface.h"
 #include "trace/traverse.h"
 
 namespace limn::transport {
@@ -19,6 +20,15 @@ struct FreeFlight {
     double weight = 1;                    // what the throughput is multiplied by
     double density = 0;                   // per world unit of length, of its scattering there
 };
+
+// Returns the point of the ray at which the flight ends, with the phase function of the medium as its material.
+// \pre flight.scatters
+inline Surface point_in_medium(const Ray& ray, const FreeFlight& flight) {
+    Surface point;
+    point.position = ray.at(flight.t);
+    point.material.id = static_cast<std::uint32_t>(flight.phase);
+    return point;
+}
 
 // From one t of a ray to another.
 struct Stretch {

@@ -1,8 +1,6 @@
 #include "render/path.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include "limn/math/warp.h"
@@ -16,45 +14,14 @@ namespace {
 
 using sampling::kShaded, sampling::kSlack;
 
-// A path that may end in a sky brings all its light at once, and mostly soon, so that ending it costs more and saves
-// less than where lamps are sampled at each vertex. Measured by time times error against no roulette up to depth 10:
-// under lamps (figures 12, 15, 16) 0.93, 0.73, 0.72, under skies (1, 11, 18) 0.93, 0.99, 0.98. Factors of 2 to 4 under
-// lamps and 4 to 10 under skies are within 5 %.
-constexpr std::uint32_t kRouletteStart = 2;
-constexpr double kSurvivalUnderLamps = 3, kSurvivalUnderSky = 6;
-// Even a path that loses nothing must end some day where there is no limit; at 0.999 the variance that this adds is not
-// measurable.
-constexpr double kLargestSurvival = 0.999;
-
 constexpr sampling::Rows3 kFromEverywhere{};
-
-// The naive estimator, which is a check, does without where a limit ends its paths.
-shade::Roulette roulette_of(const flat::Scene& scene, int max_depth, Estimator estimator) {
-    const bool never = estimator == Estimator::naive && max_depth != kUnlimitedDepth;
-    return {.start = never ? std::numeric_limits<std::uint32_t>::max() : kRouletteStart,
-            .factor = scene.features.background ? kSurvivalUnderSky : kSurvivalUnderLamps,
-            .largest = max_depth == kUnlimitedDepth ? kLargestSurvival : 1};
-}
-
-// Where a medium scatters, with its phase function for a material.
-Surface point_in_medium(const Ray& ray, const FreeFlight& flight) {
-    Surface point;
-    point.position = ray.at(flight.t);
-    point.material.id = static_cast<std::uint32_t>(flight.phase);
-    return point;
-}
 
 }  // namespace
 
 PathTracer::PathTracer(const flat::Scene& scene, int max_depth, Estimator estimator, bool transparent)
-    : scene_(scene),
-      max_depth_(max_depth == kUnlimitedDepth ? std::numeric_limits<std::uint32_t>::max()
-                                              : static_cast<std::uint32_t>(max_depth)),
-      sample_lights_(estimator == Estimator::path && !scene.lights.empty()),
-      transparent_(transparent),
+    : settings_(scene, max_depth, estimator, transparent),
+      scene_(scene),
       has_holes_(std::any_of(scene.materials.begin(), scene.materials.end(), flat::has_holes)),
-      pivot_(scene),
-      roulette_(roulette_of(scene, max_depth, estimator)),
       now_(std::make_unique<shade::Segments>()),
       next_(std::make_unique<shade::Segments>()) {}
 
@@ -81,7 +48,7 @@ void PathTracer::begin(std::span<Path> paths) {
     paths_ = paths;
     // What user-defined code that threw left behind.
     emitters_.count = shadows_.count = 0;
-    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.folds = 0;
+    for (Queue& queue : queues_) queue.vertices.count = queue.vertices.tangent_facets = 0;
     shade::Segments& s = *next_;
     s.count = 0;
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
@@ -183,11 +150,12 @@ void PathTracer::find_vertex(std::size_t row) {
 // Out of the scene: to the environment or the background, and the suns before it.
 void PathTracer::escape(std::size_t row, const Color& throughput) {
     Path& path = paths_[now_->path[row]];
-    if (transparent_ && now_->vertex[row] == 1) {
+    if (settings_.transparent && now_->vertex[row] == 1) {
         path.clear = (throughput.r + throughput.g + throughput.b) / 3;
         return;
     }
-    if (scene_.environment.image == nullptr) [[likely]] {  // unsaid, compilers take null for rare
+    // Compilers assume that a null pointer is rare; here it is the usual case.
+    if (scene_.environment == nullptr) [[likely]] {
         const Background background{scene_.background_bottom, scene_.background_top};
         path.radiance += throughput * background.radiance(ray_list_[row].direction);
     }
@@ -199,37 +167,28 @@ void PathTracer::add_distant_emission(std::size_t row, const Color& throughput) 
     const Vec3& direction = ray_list_[row].direction;
     const std::vector<flat::DistantLight>& distant = scene_.lights.distant;
     for (std::size_t k = 0; k < distant.size(); ++k) {
-        const flat::Light& light = distant[k].light;
-        const std::uint64_t number = flat::kFirstDistant + k;
-        if (light.kind == flat::LightKind::environment)
-            add_emission(row, throughput * shade::environment_radiance(scene_, direction), number, direction);
-        if (light.kind != flat::LightKind::sun) continue;
-        const LightRecord& sun = scene_.light_sources[light.number];
-        if (shade::sun_covers(sun, direction))
-            add_emission(row, throughput * shade::sun_radiance(sun), number, direction);
+        const Color radiance = flat::seen_radiance(distant[k].light, direction);
+        add_emission(row, throughput * radiance, flat::kFirstDistant + k, direction);
     }
 }
 
 void PathTracer::pass_boundary(std::size_t row, const Surface& boundary, const Color& throughput, double depth) {
     const Ray beyond = leave(boundary, ray_list_[row].direction, now_->time[row]);
     if (!count(beyond)) return;
-    const shade::Segments& s = *now_;
     shade::Segments& next = *next_;
     const std::size_t i = next.count++;
-    next.copy(i, s, row);
+    sampling::copy_row<shade::SegmentRows>(next, i, *now_, row);
     next.throughput.set(i, throughput);
-    next.origin.set(i, beyond.origin), next.direction.set(i, beyond.direction);
-    next.receiver.set(i, s.receiver.get<Vec3>(row)), next.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
-    next.scatter_pdf[i] = s.scatter_pdf[row], next.light_odds[i] = s.light_odds[row];
-    next.depth[i] = depth, next.choose[i] = s.choose[row], next.hole[i] = s.hole[row];
+    next.set_ray(i, beyond);
+    next.depth[i] = depth;
 }
 
 // A vertex for light that media scatter once on their way to the segment's begin. Where that is worth while the vertex
 // at which the path itself is scattered samples none: both draw the same light. Returns how much more densely its
 // place was drawn for lights; 0 where it has to sample.
 double PathTracer::want_light_on_the_way(std::size_t row, const FreeFlight& flown) {
-    if (!sample_lights_ || now_->vertex[row] == max_depth_) return 0;
-    const std::optional<Equiangular> along = pivot_.along(ray_list_[row], media_);
+    if (!settings_.sample_lights || now_->vertex[row] == settings_.max_depth) return 0;
+    const std::optional<Equiangular> along = settings_.pivot.along(ray_list_[row], media_);
     if (!along) return 0;
     const Sampler& sampler = paths_[now_->path[row]].sampler;
     const auto [t, choose, pick, u, v] = sampler.numbers_of(Sampler::group_of(now_->vertex[row], Use::segment));
@@ -252,7 +211,7 @@ template <class Place>
 void PathTracer::add_emission(std::size_t row, const Color& emission, std::uint64_t primitive, const Place& place) {
     const shade::Segments& s = *now_;
     if (is_black(emission)) return;
-    if (!sample_lights_ || s.scatter_pdf[row] == 0) {
+    if (!settings_.sample_lights || s.scatter_pdf[row] == 0) {
         paths_[s.path[row]].radiance += emission;
         return;
     }
@@ -260,8 +219,8 @@ void PathTracer::add_emission(std::size_t row, const Color& emission, std::uint6
     const std::size_t i = e.count++;
     e.paths[i] = s.path[row];
     e.emission[i] = emission;
-    e.receiver.set(i, s.receiver.get<Vec3>(row)), e.receiver_normal.set(i, s.receiver_normal.get<Vec3>(row));
-    e.time[i] = s.time[row], e.scatter_pdf[i] = s.scatter_pdf[row], e.light_odds[i] = s.light_odds[row];
+    e.time[i] = s.time[row];
+    sampling::copy_row<shade::LastVertexRows>(e, i, s, row);
     e.hits.primitive[i] = primitive, e.hits.position.set(i, place);
     if (e.count == kShaded) add_weighed_emission();
 }
@@ -282,10 +241,10 @@ void PathTracer::add_weighed_emission() {
 void PathTracer::add_vertex(std::size_t row, const Surface& vertex, const Color& throughput, double light_odds) {
     const MaterialRef& material = vertex.material;
     const bsdf::Lobe* lobe = shade::lobe_of(scene_, material);
-    if (!lobe || now_->vertex[row] == max_depth_ || is_black(throughput)) return;
+    if (!lobe || now_->vertex[row] == settings_.max_depth || is_black(throughput)) return;
     Queue& queue = queue_of(lobe, false);
     const std::size_t i = push(queue, row, vertex, throughput);
-    queue.wants_light[i] = sample_lights_ && light_odds == 0 && !shade::is_specular(scene_, material) ? 1 : 0;
+    queue.wants_light[i] = settings_.sample_lights && light_odds == 0 && !shade::is_specular(scene_, material) ? 1 : 0;
     queue.light_odds[i] = light_odds > 0 ? light_odds : 1;
     if (queue.vertices.count == kShaded) shade(queue);
 }
@@ -298,7 +257,7 @@ PathTracer::Queue& PathTracer::queue_of(const bsdf::Lobe* lobe, bool for_light_a
 
 std::size_t PathTracer::push(Queue& queue, std::size_t row, const Surface& vertex, const Color& throughput) {
     const std::size_t i = queue.vertices.count++;
-    queue.paths.copy(i, *now_, row);
+    sampling::copy_row<sampling::PathRows>(queue.paths, i, *now_, row);
     queue.paths.throughput.set(i, throughput);
     shade::set_vertex(scene_, vertex, ray_list_[row].direction, queue.vertices, i);
     return i;
@@ -315,7 +274,7 @@ void PathTracer::shade(Queue& queue) {
     if (std::any_of(queue.wants_light, queue.wants_light + count, [](double odds) { return odds > 0; }))
         sample_lights(queue);
     if (!queue.for_light_alone) scatter(queue);
-    queue.vertices.count = 0, queue.vertices.folds = 0;
+    queue.vertices.count = queue.vertices.tangent_facets = 0;
 }
 
 void PathTracer::sample_lights(Queue& queue) {
@@ -340,7 +299,7 @@ void PathTracer::scatter(Queue& queue) {
     draw(queue.paths, 0, vertices.count, Use::scattering, queue.lobe->numbers, vertices.numbers);
     bsdf::sample(*queue.lobe, vertices);
     sampling::Row survival, numbers = {};
-    if (shade::scatter(roulette_, vertices, queue.paths, survival))
+    if (shade::scatter(settings_.roulette, vertices, queue.paths, survival))
         draw(queue.paths, 0, vertices.count, Use::roulette, 1, &numbers);
     const std::size_t first = next_->count;
     count(

@@ -9,11 +9,10 @@
 #include "bsdf/lobe.h"
 #include "flat/scene.h"
 #include "limn/math/ray.h"
-#include "limn/render/settings.h"
 #include "query/surface_at.h"
-#include "render/equiangular.h"
 #include "render/holes.h"
 #include "render/media.h"
+#include "render/path_settings.h"
 #include "render/sampler.h"
 #include "shading/lights.h"
 #include "shading/stages.h"
@@ -67,12 +66,11 @@ private:
         sampling::Row light_odds = {};   // how much more densely lights were sampled on the way to it
     };
     // Lights that were met by scattering, and could have been drawn.
-    struct Emitters {
+    struct Emitters : shade::LastVertexRows<bsdf::kShaded> {
         std::size_t count = 0;
         std::uint32_t paths[bsdf::kShaded] = {};
         Color emission[bsdf::kShaded];
-        sampling::Rows3 receiver, receiver_normal;
-        sampling::Row time = {}, scatter_pdf = {}, light_odds = {};
+        sampling::Row time = {};
         lights::LightHits hits;
     };
 
@@ -101,12 +99,9 @@ private:
     void scatter(Queue& queue);
     void add_direct_light();
 
+    const PathSettings settings_;
     const flat::Scene& scene_;
-    const std::uint32_t max_depth_;
-    const bool sample_lights_, transparent_;
     const bool has_holes_;  // in surfaces: materials with an opacity
-    const LightsAsPivot pivot_;
-    const shade::Roulette roulette_;
     std::uint64_t rays_ = 0, unusable_rays_ = 0;
     MediaAlongRay media_;
     Holes holes_;

@@ -1,12 +1,11 @@
-// Converts light sources to records.
+// Checks light sources.
 #pragma once
 
-#include "limn/records/records.h"
 #include "limn/scene/lights.h"
 
 namespace limn {
 
-/// Returns the record of a light source. \throws ArgumentError that names the field if a value is out of range
-LightRecord record_of(const LightSource& light);
+// Throws ArgumentError that names the field if a value of a light source is out of range.
+void check(const LightSource& light);
 
 }  // namespace limn

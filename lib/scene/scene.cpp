@@ -49,7 +49,7 @@ std::size_t Scene::add(const Model& model) {
 }
 
 void Scene::add(const LightSource& light) {
-    record_of(light);  // throws if the light is invalid
+    check(light);
     lights_.push_back(light);
 }
 

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t kSamples = 16;
 
-// The golden ratio's relatives (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018): even in the
-// unit cube.
+// Steps of a sequence that fills the unit cube evenly. They generalise the golden ratio (Roberts, The unreasonable
+// effectiveness of quasirandom sequences, 2018).
 constexpr double kSteps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
 
 bsdf::Vertices& vertices_of_thread() {
-    thread_local const auto vertices = std::make_unique<bsdf::Vertices>();  // too large for a stack
+    thread_local const auto vertices = std::make_unique<bsdf::Vertices>();  // too large for the stack
     return *vertices;
 }
 
@@ -25,9 +25,10 @@ Color albedo(const flat::Scene& scene, const Surface& surface) {
     const bsdf::Lobe* lobe = lobe_of(scene, surface.material);
     if (!lobe) return {};
     Surface flat = surface;
-    flat.normal = flat.shading_normal;  // no direction goes below it
+    flat.normal = flat.shading_normal;  // no direction is below the surface
     bsdf::Vertices& vertices = vertices_of_thread();
-    vertices.count = kSamples, vertices.folds = 0;
+    vertices.count = kSamples;
+    vertices.tangent_facets = 0;
     for (std::size_t i = 0; i < kSamples; ++i) {
         set_vertex(scene, flat, -Vec3(flat.normal), vertices, i);
         for (std::size_t d = 0; d < 3; ++d) {

@@ -5,8 +5,8 @@
 
 namespace limn::shade {
 
-// The light that a surface scatters of what comes from straight above, or goes there: the mean weight of its lobe's
-// samples for a few fixed numbers, which is exact where all weigh the same.
+// Returns the albedo of a surface: the share of the light from along its normal that it scatters. It is the mean weight
+// of samples of the lobe for a few fixed random numbers. If all samples have the same weight, the albedo is exact.
 Color albedo(const flat::Scene& scene, const Surface& surface);
 
 }  // namespace limn::shade

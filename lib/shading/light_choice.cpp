@@ -170,11 +170,11 @@ HWY_INLINE void descend_by(const flat::LightTable& lights, const Receivers& rece
     }
 }
 
-// What a distant light gives a receiver if nothing is in the way. Zero only if all of it is behind.
-HWY_INLINE Doubles irradiance_of(const flat::DistantLight& distant, const Receiver& receiver) {
-    if (distant.light.kind == flat::LightKind::environment) return distant.irradiance;
-    const Doubles cosine = dot(receiver.normal, broadcast<Doubles>(distant.light.edge_u)) + distant.spread;
-    return distant.irradiance * select(receiver.everywhere, 1.0, at_most_one(max(cosine, 0.0)));
+// Returns the irradiance that a receiver gets from a distant light if nothing is in the way. It is 0 only if the whole
+// light is behind the receiver.
+HWY_INLINE Doubles irradiance_of(const flat::DistantBounds& light, const Receiver& receiver) {
+    const Doubles cosine = dot(receiver.normal, broadcast<Doubles>(light.towards)) + light.sine_radius;
+    return light.irradiance * select(receiver.everywhere, 1.0, at_most_one(max(cosine, 0.0)));
 }
 
 // With which probability distant lights are chosen: as their part of all light, but for bounds, since nothing is known
@@ -196,12 +196,12 @@ HWY_INLINE void choose_distant_by(const flat::LightTable& lights, const Receiver
     for (std::size_t i = 0; i < receivers.count; i += kLanes<Doubles>) {
         const Receiver receiver(receivers, i);
         Doubles sum = 0.0;
-        for (const flat::DistantLight& distant : lights.distant) sum = sum + irradiance_of(distant, receiver);
+        for (const flat::DistantLight& distant : lights.distant) sum = sum + irradiance_of(distant.bounds, receiver);
         const Doubles share = share_of_distant(lights, receiver, sum), number = load<Doubles>(wanted + i);
         const Doubles target = number / share * sum;
         Doubles before = 0.0, rank = first, probability = 0.0;
         for (std::size_t k = 0; k < lights.distant.size(); ++k) {
-            const Doubles of_it = irradiance_of(lights.distant[k], receiver);
+            const Doubles of_it = irradiance_of(lights.distant[k].bounds, receiver);
             const Doubles its_rank = first + static_cast<double>(k);
             const Mask<Doubles> found = to_ranks ? number == its_rank : (of_it > 0.0) & (before <= target);
             rank = select(found, its_rank, rank);

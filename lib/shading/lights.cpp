@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "shading/distant_lights.h"
 #include "shading/light_choice.h"
 #include "shading/light_points.h"
 
@@ -14,7 +13,6 @@ void sample(const flat::Scene& scene, const Receivers& receivers, LightSamples& 
     for (std::size_t i = 0; i < receivers.count; ++i)
         samples.light[i] = &flat::light_at(scene, choices[i].rank, receivers.time[i], samples.own[i]);
     sample_points(receivers, samples);
-    if (!scene.lights.distant.empty()) sample_distant(scene.environment, receivers, samples);
     for (std::size_t i = 0; i < receivers.count; ++i) samples.pdf[i] *= choices[i].probability;
 }
 
@@ -36,7 +34,6 @@ void find_pdf(const flat::Scene& scene, const Receivers& receivers, LightHits& h
         lights[i] = &flat::light_at(scene, found->rank, receivers.time[i], own[i]);
     }
     find_point_pdf(receivers, lights, hits.position, hits.pdf);
-    if (!scene.lights.distant.empty()) find_distant_pdf(scene.environment, receivers.count, lights, hits);
     Row probability;
     find_probability(scene.lights, receivers, rank, probability);
     for (std::size_t i = 0; i < receivers.count; ++i) hits.pdf[i] *= lights[i] ? probability[i] : 0;

@@ -1,13 +1,11 @@
 // Directions towards emitters for many receivers at once, each with its density per solid angle.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "flat/scene.h"
 #include "math/rows.h"
-#include "math/spawn.h"
 
 namespace limn::lights {
 
@@ -26,14 +24,12 @@ struct LightSamples {
 
     // Results; nothing else counts where the pdf is 0, and no light was drawn.
     Row pdf = {};  // per solid angle at the receiver, the choice of the light included; without extent: kNoSolidAngle
-    Row end = {};  // t of the shadow ray's end: just before 1, at the position; infinity where the light is distant
+    Row end = {};  // t of the shadow ray's end: just before 1, at the position; infinity if the light is distant
     Rows3 position, position_error, normal;  // the normal is on the receiver's side
     Rows3 direction;                         // unit, from the receiver
     Row u = {}, v = {};                      // of planar lights: weights of the edges; of the environment: of its map
     const flat::Light* light[kShaded] = {};
     flat::Light own[kShaded];  // those that are not kept anywhere
-
-    LightSamples() { std::fill_n(end, kShaded, 1 - kShadowEnd); }
 };
 
 // Chooses a light about in proportion to what it would give if nothing were in the way, and a point on it: uniform per

@@ -8,38 +8,34 @@
 
 namespace limn::shade {
 
+// Returns the value of a texture at a surface.
 Color texture_value(const flat::Scene& scene, TextureId id, const Surface& s);
 
-// How the material scatters; null: it absorbs all light.
+// Returns the lobe of a material, or null if the material absorbs all light.
 const bsdf::Lobe* lobe_of(const flat::Scene& scene, const MaterialRef& material);
 
-// Whether the material's value is zero for all directions.
+// Returns true if the material's value is zero for all directions.
 bool is_specular(const flat::Scene& scene, const MaterialRef& material);
 
-// False where the surface does not emit.
+// Returns false if the material never emits.
 bool can_emit(const flat::Scene& scene, const MaterialRef& material);
+// Returns the radiance that a surface emits towards the viewer.
 Color emitted(const flat::Scene& scene, const Surface& s);
 
-// Of a direction of any length. \pre there is an environment
-Color environment_radiance(const flat::Scene& scene, const Vec3& direction);
-
-// Of a sun's disc.
-Color sun_radiance(const LightRecord& sun);
-// Whether the disc covers a direction of any length.
-bool sun_covers(const LightRecord& sun, const Vec3& direction);
-
-// As a normal map bends it. \param incoming direction of the ray that came here
+// Returns the shading normal, bent by the normal map of the material if it has one. \param incoming direction of the
+// ray that arrived at the surface, of any length
 Normal3 shading_normal(const flat::Scene& scene, const Surface& s, const Vec3& incoming);
 
-// How much of the light it stops, by the opacity of its material.
+// Returns the share of the light that the surface stops, by the opacity of its material.
 double opacity(const flat::Scene& scene, const Surface& s);
 
-// A sample of a light.
+// Returns the texture coordinates of sample i. \pre its light is a surface
 Uv texture_coordinates_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
+// Returns the radiance of sample i towards the receiver.
 Color radiance_of(const flat::Scene& scene, const lights::LightSamples& samples, std::size_t i);
 
-// Sets what the lobe needs of vertex i. \param incoming direction of the ray that came here, of any length
-// \pre lobe_of(scene, s.material)
+// Sets the fields of vertex i that the lobe of its material uses. \param incoming direction of the ray that arrived at
+// the surface, of any length \pre lobe_of(scene, s.material) is not null
 void set_vertex(const flat::Scene& scene, const Surface& s, const Vec3& incoming, bsdf::Vertices& vertices,
                 std::size_t i);
 

@@ -104,8 +104,11 @@ RayCounts add_segments(const Paths& paths, const bsdf::Vertices& v, bool one_sid
         compress3(load3<Doubles>(paths.throughput, i) / survives, kept, next.throughput, at);
         store(kept(load<Doubles>(v.pdf + i)), next.scatter_pdf + at);
         store(kept(load<Doubles>(odds + i)), next.light_odds + at);
-        for (std::uint32_t rest = bits(leaves); rest != 0; rest &= rest - 1)
-            next.follow(next.count++, paths, i + static_cast<std::size_t>(std::countr_zero(rest)));
+        for (std::uint32_t rest = bits(leaves); rest != 0; rest &= rest - 1) {
+            const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(rest));
+            sampling::copy_row<sampling::PathRows>(next, next.count, paths, k);
+            ++next.vertex[next.count++];
+        }
     }
     return counts;
 }

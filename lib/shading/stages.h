@@ -12,22 +12,50 @@ namespace limn::shade {
 
 using sampling::kBatch, sampling::kShaded, sampling::kSlack, sampling::Row, sampling::Rows3;
 
-// Paths at the beginning of a segment.
-struct Segments : sampling::PathRows<kBatch + kSlack> {
-    static constexpr std::size_t kRows = kBatch + kSlack;
+// The vertices where n segments begin, as multiple importance sampling must know them.
+template <std::size_t n>
+struct LastVertexRows {
+    sampling::Rows3Of<n> receiver, receiver_normal;  // the vertex as lights saw it: see lights::Receivers
+    double scatter_pdf[n] = {};  // of the direction; 0: specular or from the camera, no light sampling competes
+    double light_odds[n] = {};   // how much more densely the vertex was drawn for lights than for scattering
 
+    static constexpr void each_column(auto& a, auto& b, const auto& f) {
+        f(a.receiver, b.receiver);
+        f(a.receiver_normal, b.receiver_normal);
+        f(a.scatter_pdf, b.scatter_pdf);
+        f(a.light_odds, b.light_odds);
+    }
+};
+
+// n paths at the beginning of a segment.
+template <std::size_t n>
+struct SegmentRows : sampling::PathRows<n>, LastVertexRows<n> {
+    sampling::Rows3Of<n> throughput, origin, direction;
+    double depth[n] = {};   // optical, in scattering, to where media scatter the path
+    double choose[n] = {};  // the medium that does
+    double hole[n] = {};    // uniform: whether surfaces with an opacity stop the path
+
+    static constexpr void each_column(auto& a, auto& b, const auto& f) {
+        sampling::PathRows<n>::each_column(a, b, f);
+        LastVertexRows<n>::each_column(a, b, f);
+        f(a.throughput, b.throughput);
+        f(a.origin, b.origin);
+        f(a.direction, b.direction);
+        f(a.depth, b.depth);
+        f(a.choose, b.choose);
+        f(a.hole, b.hole);
+    }
+};
+
+// The segments that are traced next.
+struct Segments : SegmentRows<kBatch + kSlack> {
     std::size_t count = 0;
-    sampling::Rows3Of<kRows> origin, direction;
-    sampling::Rows3Of<kRows> receiver, receiver_normal;  // the vertex before, as lights saw it: see lights::Receivers
-    double scatter_pdf[kRows] = {};  // of the direction; 0: specular or from the camera, no light sampling competes
-    double light_odds[kRows] = {};   // how much more densely that vertex was drawn for lights than for scattering
-    double depth[kRows] = {};        // optical, in scattering, to where media scatter the path
-    double choose[kRows] = {};       // the medium that does
-    double hole[kRows] = {};         // uniform: whether surfaces with an opacity stop the path
 
     Ray ray(std::size_t i) const { return {origin.get<Point3>(i), direction.get<Vec3>(i), 0, kInfinity, time[i]}; }
     void set_ray(std::size_t i, const Ray& ray) {
-        origin.set(i, ray.origin), direction.set(i, ray.direction), time[i] = ray.time;
+        origin.set(i, ray.origin);
+        direction.set(i, ray.direction);
+        time[i] = ray.time;
     }
 };
 
@@ -48,7 +76,10 @@ struct RayCounts {
     std::size_t all = 0, unusable = 0;
 };
 
-using Paths = sampling::PathRows<kShaded>;
+// Paths at their next vertices.
+struct Paths : sampling::PathRows<kShaded> {
+    Rows3 throughput;
+};
 
 // Adds a ray for each vertex at which light arrives: throughput f |cos| emission / pdf, weighed against finding it by
 // scattering. \param vertices with the value for the direction of each light

@@ -168,7 +168,7 @@ def check_flat(tree):
     """The tables of lib/flat have no virtual function and no pointer to a described object."""
     kinds = r"(Hittable|Material|Texture)\b"
     for file in tree:
-        if re.fullmatch(r"lib/flat/(environment|lights|list|scene|tree)\.h", file.path):
+        if re.fullmatch(r"lib/flat/(environment|light_table|lights|list|scene|tree)\.h", file.path):
             yield from find_all(file, r"(?P<found>\bvirtual\b)", "dispatch in the flat scene")
             yield from find_all(file, rf"(?P<found>\b{kinds}(\s*const\b)?\s*[*&]|_ptr\s*<\s*(const\s+)?(limn::)?{kinds})",
                                 "a described object in the flat scene")
@@ -185,6 +185,16 @@ def check_pointers(tree):
         yield from find_all(file, r"(?P<allowed>\bGatherIndex\((?:[^();]|\(\))*)?(?P<found>\breinterpret_cast\s*<(?!\s*"
                                   r"(const\s+)?(char|unsigned char|std::byte|std::u?int8_t|std::u?intptr_t)\b)[^>]*>)",
                             "objects are read as what they are, or as bytes")
+
+
+def check_lobes(tree):
+    """The materials that tests/render compares have every lobe."""
+    examples = "".join(file.code for file in tree if file.path == "tests/render/lobe_examples.h")
+    for file in tree:
+        if file.path.startswith("lib/scene/material/") and "LIMN_LOBE(" in file.code:
+            name = re.search(r"\bMaterialRecord (\w+)::lower\b", file.code)[1]
+            if f"<{name}>(" not in examples:
+                yield at(file, 1, f"{name} is not in tests/render/lobe_examples.h")
 
 
 def check_clocks(tree):

@@ -18,7 +18,8 @@ class TheHouse(unittest.TestCase):
         for rule in (lambda tree: rules.check_floors(tree, FLOORS), rules.check_description,
                      rules.check_quoted_includes, rules.check_libraries,
                      rules.check_umbrella, rules.check_once, rules.check_virtuals, rules.check_flat,
-                     rules.check_pointers, rules.check_clocks, rules.check_elementary, rules.check_lengths):
+                     rules.check_pointers, rules.check_lobes, rules.check_clocks, rules.check_elementary,
+                     rules.check_lengths):
             self.assertEqual(list(rule(HOUSE)), [])
 
     def test_it_is_read_whole(self):
@@ -164,6 +165,14 @@ class MadeUpHouses(unittest.TestCase):
                                               "auto* f = reinterpret_cast<const float*>(nodes);\n",
                 "lib/trace/c.h": "bool b = a.y && p.x;\nauto n = bits & m.x;\nauto* q = &x;\nfloat& r = v.x;\n",
                 "apps/bench/d.cpp": "double d = (&v.x)[1];\n"})
+
+    def test_a_lobe_that_is_not_compared(self):
+        source = "LIMN_LOBE(Diffuse)\nMaterialRecord {}::lower(RecordSink& sink) const {{}}\n"
+        self.reports(rules.check_lobes, ["lib/scene/material/b.cpp:1: B is not in tests/render/lobe_examples.h"], {
+            "lib/scene/material/a.cpp": source.format("A"),
+            "lib/scene/material/b.cpp": source.format("B"),
+            "lib/scene/material/c.cpp": "MaterialRecord C::lower(RecordSink& sink) const {}\n",
+            "tests/render/lobe_examples.h": "return {std::make_shared<A>(1)};  // std::make_shared<B>(1)\n"})
 
     def test_a_question_for_the_date(self):
         self.reports(rules.check_clocks, [

@@ -4,6 +4,8 @@
 #include "catch.h"
 #include "figure_data.h"
 #include "limn/records/record_sink.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metal.h"
 #include "support.h"
 
 namespace limn::test_contents {
@@ -82,12 +84,15 @@ private:
 
     std::string material(MaterialId id) const {
         const MaterialRecord& m = r_.materials[static_cast<std::size_t>(id)];
-        if (m.kind == "lambertian") return texture(m.texture);
-        if (m.kind == "metal") return fmt::format("metal {} {:g}", texture(m.texture), m.parameter);
-        if (m.kind == "dielectric")
-            return fmt::format("glass {:g}{}", m.parameter, m.fresnel == Fresnel::schlick ? " by Schlick" : "");
+        if (m.kind == "lambertian") return texture(m.albedo);
+        if (m.kind == "metal")
+            return fmt::format("metal {} {:g}", texture(m.albedo), m.parameters.as<Metal::Parameters>().fuzz);
+        if (m.kind == "dielectric") {
+            const auto glass = m.parameters.as<Dielectric::Parameters>();
+            return fmt::format("glass {:g}{}", glass.index, glass.exact_fresnel == 1 ? "" : " by Schlick");
+        }
         if (m.kind == "diffuse-light") return "lamp " + texture(m.emission);
-        if (m.kind == "isotropic") return "smoke " + texture(m.texture);
+        if (m.kind == "isotropic") return "smoke " + texture(m.albedo);
         return "something else";
     }
 

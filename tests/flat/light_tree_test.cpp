@@ -10,7 +10,6 @@ namespace limn::light_tree_test {
 
 using namespace test;
 using flat::Light;
-using flat::LightKind;
 using flat::LightNode;
 
 namespace {
@@ -78,17 +77,18 @@ TEST_CASE("Light tree: a node's box holds its lights at all times, its cone thei
             for (std::size_t rank = begin; rank < node.end; ++rank) {
                 const double time = random.uniform();
                 const Light light = light_of(scene, rank, time);
-                if (light.kind == LightKind::sphere) {
-                    const Point3& c = light.origin;
-                    const Vec3 reach{light.radius, light.radius, light.radius};
+                if (const auto* sphere = std::get_if<flat::SphereLight>(&light)) {
+                    const Point3& c = sphere->center;
+                    const Vec3 reach{sphere->radius, sphere->radius, sphere->radius};
                     RC_ASSERT(holds_point(c + reach) && holds_point(c - reach));
                     RC_ASSERT(node.cos_spread == flat::kNoNormals || node.cos_spread == 0);
                     continue;
                 }
                 RC_ASSERT(node.cos_spread != flat::kNoNormals);
-                const Vec3 u = light.edge_u, v = light.edge_v;
-                for (const Vec3& corner : {Vec3{}, u, v, light.kind == LightKind::triangle ? u : u + v})
-                    RC_ASSERT(holds_point(light.origin + corner));
+                const auto& planar = std::get<flat::PlanarLight>(light);
+                const Vec3 u = planar.edge_u, v = planar.edge_v;
+                for (const Vec3& corner : {Vec3{}, u, v, planar.shape == flat::PlanarShape::triangle ? u : u + v})
+                    RC_ASSERT(holds_point(planar.corner + corner));
                 // The cosine is a float.
                 RC_ASSERT(std::abs(dot(normalize(cross(u, v)), axis)) >= node.cos_spread - 1e-7 ||
                           node.cos_spread == 0);
@@ -106,7 +106,7 @@ TEST_CASE("Light tree: each light has one rank, and its number leads to it", "[c
         for (const flat::LightNumber& n : scene.lights.by_number) {
             RC_ASSERT(!seen[n.rank] && n.number + 1 > last);
             seen[n.rank] = true, last = n.number + 1;
-            RC_ASSERT(light_of(scene, n.rank, 0).number == n.number);
+            RC_ASSERT(surface_of(light_of(scene, n.rank, 0))->number == n.number);
         }
         RC_ASSERT(std::count(seen.begin(), seen.end(), false) == 0);
     });
@@ -134,13 +134,13 @@ TEST_CASE("Light tree: a large mesh that shines takes less than 100 bytes a tria
 
     REQUIRE(lit.lights.size() == grid.triangles.size());
     for (std::size_t rank = 0; rank < lit.lights.size(); rank += 97) {
-        const flat::Light light = light_of(lit, rank, 0);
+        const auto light = std::get<flat::PlanarLight>(light_of(lit, rank, 0));
         const Index3 t = grid.triangles[light.number];
         const auto at = [&](std::uint32_t i) {
             return Point3{grid.vertices[i].x, grid.vertices[i].y, grid.vertices[i].z};
         };
-        REQUIRE(light.kind == flat::LightKind::triangle);
-        REQUIRE((light.origin == at(t.a) && light.edge_u == at(t.b) - at(t.a) && light.edge_v == at(t.c) - at(t.a)));
+        REQUIRE(light.shape == flat::PlanarShape::triangle);
+        REQUIRE((light.corner == at(t.a) && light.edge_u == at(t.b) - at(t.a) && light.edge_v == at(t.c) - at(t.a)));
     }
 }
 

@@ -15,7 +15,7 @@ namespace limn::lights_test {
 
 using namespace test;
 using flat::Light;
-using flat::LightKind;
+using flat::PlanarShape;
 
 namespace {
 
@@ -38,10 +38,13 @@ std::vector<Light> lights_of(const std::vector<Object>& objects, double time = 0
     std::vector<Light> lights;
     for (const flat::LightNumber& n : scene.lights.by_number) {
         lights.push_back(light_of(scene, n.rank, time));
-        CHECK(lights.back().number == n.number);
+        CHECK(surface_of(lights.back())->number == n.number);
     }
     return lights;
 }
+
+const flat::PlanarLight& planar(const Light& light) { return std::get<flat::PlanarLight>(light); }
+const flat::SphereLight& ball(const Light& light) { return std::get<flat::SphereLight>(light); }
 
 TexturePtr solid(double value) { return std::make_shared<SolidColor>(Color{value, value, value}); }
 
@@ -72,32 +75,33 @@ TEST_CASE("Lights: each emitting shape is one, with its primitive's number, in t
     const auto lights = lights_of(objects);
     REQUIRE(lights.size() == 5);
     const std::uint64_t numbers[] = {1, 2 + 4, 15, 16, 17};
-    const LightKind kinds[] = {LightKind::rectangle, LightKind::triangle, LightKind::triangle, LightKind::sphere,
-                               LightKind::sphere};
-    for (std::size_t i = 0; i < 5; ++i) CHECK((lights[i].number == numbers[i] && lights[i].kind == kinds[i]));
-    CHECK((lights[0].origin == Point3{1, 2, 3} && lights[0].edge_u == Vec3{1, 0, 0} &&
-           lights[0].edge_v == Vec3{0, 1, 0}));
+    for (std::size_t i = 0; i < 5; ++i) CHECK(surface_of(lights[i])->number == numbers[i]);
+    const flat::PlanarLight &quad = planar(lights[0]), &of_mesh = planar(lights[1]), &triangle = planar(lights[2]);
+    CHECK(quad.shape == PlanarShape::rectangle);
+    CHECK((quad.corner == Point3{1, 2, 3} && quad.edge_u == Vec3{1, 0, 0} && quad.edge_v == Vec3{0, 1, 0}));
     const Index3 t = data.triangles[4];
-    CHECK(lights[1].origin == vertex(data, t.a));
-    CHECK(lights[1].edge_u == vertex(data, t.b) - vertex(data, t.a));
-    CHECK(lights[1].edge_v == vertex(data, t.c) - vertex(data, t.a));
-    CHECK((lights[2].origin == Point3{} && lights[2].edge_u == Vec3{0, 0, 2} && lights[2].edge_v == Vec3{3, 0, 0}));
-    CHECK((lights[3].origin == Point3{4, 5, 6} && lights[3].radius == 2));
-    CHECK((lights[4].origin == Point3{7, 8, 9} && lights[4].radius == 0.5));
-    CHECK(lights_of(objects, 1)[4].origin == Point3{8, 10, 8});
+    CHECK(of_mesh.shape == PlanarShape::triangle);
+    CHECK(of_mesh.corner == vertex(data, t.a));
+    CHECK(of_mesh.edge_u == vertex(data, t.b) - vertex(data, t.a));
+    CHECK(of_mesh.edge_v == vertex(data, t.c) - vertex(data, t.a));
+    CHECK(triangle.shape == PlanarShape::triangle);
+    CHECK((triangle.corner == Point3{} && triangle.edge_u == Vec3{0, 0, 2} && triangle.edge_v == Vec3{3, 0, 0}));
+    CHECK((ball(lights[3]).center == Point3{4, 5, 6} && ball(lights[3]).radius == 2));
+    CHECK((ball(lights[4]).center == Point3{7, 8, 9} && ball(lights[4]).radius == 0.5));
+    CHECK(ball(lights_of(objects, 1)[4]).center == Point3{8, 10, 8});
 }
 
 TEST_CASE("Lights: a quad is a rectangle where its corners are right angles, sheared it is a parallelogram",
           "[compile][lights]") {
-    const auto kind = [](const Vec3& u, const Vec3& v, const Transform& m = {}) {
-        return lights_of({seen(std::make_shared<Quad>(Point3{}, u, v, white_lamp()), m)}).at(0).kind;
+    const auto shape = [](const Vec3& u, const Vec3& v, const Transform& m = {}) {
+        return planar(lights_of({seen(std::make_shared<Quad>(Point3{}, u, v, white_lamp()), m)}).at(0)).shape;
     };
-    CHECK(kind({3, 0, 0}, {0, 0, -5}) == LightKind::rectangle);
-    CHECK(kind({3, 0, 0}, {1e-9, 0, -5}) == LightKind::parallelogram);
-    CHECK(kind({3, 0, 0}, {-1e-9, 0, -5}) == LightKind::parallelogram);
-    CHECK(kind({1, 1, 0}, {-1, 1, 0}, Transform::rotate({1, 2, 3}, 40)) == LightKind::rectangle);
-    CHECK(kind({1, 1, 0}, {-1, 1, 0}, Transform::scale(2, 1, 1)) == LightKind::parallelogram);
-    CHECK(kind({2, 1, 0}, {-2, 1, 0}, Transform::scale(1, 2, 1)) == LightKind::rectangle);
+    CHECK(shape({3, 0, 0}, {0, 0, -5}) == PlanarShape::rectangle);
+    CHECK(shape({3, 0, 0}, {1e-9, 0, -5}) == PlanarShape::parallelogram);
+    CHECK(shape({3, 0, 0}, {-1e-9, 0, -5}) == PlanarShape::parallelogram);
+    CHECK(shape({1, 1, 0}, {-1, 1, 0}, Transform::rotate({1, 2, 3}, 40)) == PlanarShape::rectangle);
+    CHECK(shape({1, 1, 0}, {-1, 1, 0}, Transform::scale(2, 1, 1)) == PlanarShape::parallelogram);
+    CHECK(shape({2, 1, 0}, {-2, 1, 0}, Transform::scale(1, 2, 1)) == PlanarShape::rectangle);
 }
 
 TEST_CASE("Lights: seen through instances they stand where the instances put them", "[compile][lights]") {
@@ -110,13 +114,15 @@ TEST_CASE("Lights: seen through instances they stand where the instances put the
     const auto lights = lights_of(objects);
     REQUIRE(lights.size() == 2);
     // A quarter turn around z takes x to y and y to -x.
-    CHECK(lights[0].number == 2);
-    CHECK(lights[0].origin == Point3{10 - 4, 20 + 2, 30 + 6});
-    CHECK((lights[0].edge_u == Vec3{0, 2, 0} && lights[0].edge_v == Vec3{-2, 0, 0}));
-    CHECK(lights[1].number == 3);
-    CHECK(lights[1].origin == Point3{10, 22, 30});
-    CHECK(lights_of(objects, 1)[1].origin == Point3{8, 22, 30});
-    CHECK(lights[1].radius == Approx(6).epsilon(1e-15));
+    const flat::PlanarLight& quad = planar(lights[0]);
+    CHECK(quad.number == 2);
+    CHECK(quad.corner == Point3{10 - 4, 20 + 2, 30 + 6});
+    CHECK((quad.edge_u == Vec3{0, 2, 0} && quad.edge_v == Vec3{-2, 0, 0}));
+    const flat::SphereLight& sphere = ball(lights[1]);
+    CHECK(sphere.number == 3);
+    CHECK(sphere.center == Point3{10, 22, 30});
+    CHECK(ball(lights_of(objects, 1)[1]).center == Point3{8, 22, 30});
+    CHECK(sphere.radius == Approx(6).epsilon(1e-15));
 }
 
 TEST_CASE("Lights: a BLAS that was described before the one that holds it is found there as well",
@@ -143,8 +149,9 @@ TEST_CASE("Lights: under moving instances they are where the matrices of each ti
                             interpolate(Transform::translate({1, 0, 0}), turned, time);
         const auto lights = lights_of({outer}, time);
         REQUIRE(lights.size() == 14);
-        const auto check = [&](const Light& light, const Point3& a, const Vec3& u, const Vec3& v) {
-            CHECK(length(light.origin - transform_point(m, a)) <= 1e-13);
+        const auto check = [&](const Light& found, const Point3& a, const Vec3& u, const Vec3& v) {
+            const flat::PlanarLight& light = planar(found);
+            CHECK(length(light.corner - transform_point(m, a)) <= 1e-13);
             CHECK(length(light.edge_u - transform_vector(m, u)) <= 1e-13);
             CHECK(length(light.edge_v - transform_vector(m, v)) <= 1e-13);
         };
@@ -157,16 +164,16 @@ TEST_CASE("Lights: under moving instances they are where the matrices of each ti
 }
 
 TEST_CASE("Lights: a ball that instances only push about is one, moving in a straight line", "[compile][lights]") {
-    const Object ball = std::make_shared<Sphere>(Point3{1, 2, 3}, Point3{2, 2, 3}, 2.0, white_lamp());
+    const Object sphere = std::make_shared<Sphere>(Point3{1, 2, 3}, Point3{2, 2, 3}, 2.0, white_lamp());
     const Transform still = Transform::rotate_z(90) * Transform::scale(3, 3, 3),
                     later = Transform::translate({5, 0, 0}) * still;
-    const Object moved = std::make_shared<Instance>(ball, still, later);
+    const Object moved = std::make_shared<Instance>(sphere, still, later);
     const std::vector<Object> objects{std::make_shared<Instance>(moved, Transform{}, Transform::translate({0, 0, 4}))};
     const auto lights = lights_of(objects);
     REQUIRE(lights.size() == 1);
-    CHECK(length(lights[0].origin - Point3{-6, 3, 9}) <= 1e-14);
-    CHECK(length(lights_of(objects, 1)[0].origin - Point3{-1, 6, 13}) <= 1e-14);
-    CHECK(lights[0].radius == Approx(6).epsilon(1e-15));
+    CHECK(length(ball(lights[0]).center - Point3{-6, 3, 9}) <= 1e-14);
+    CHECK(length(ball(lights_of(objects, 1)[0]).center - Point3{-1, 6, 13}) <= 1e-14);
+    CHECK(ball(lights[0]).radius == Approx(6).epsilon(1e-15));
 }
 
 TEST_CASE("Lights: a ball that an instance bends, or turns or stretches as it moves, is left to scattering",
@@ -187,7 +194,7 @@ TEST_CASE("Lights: a ball that an instance bends, or turns or stretches as it mo
         CHECK(lights_of({seen(ball, Transform::scale(s.x, s.y, s.z))}).empty());
     const auto mirrored = lights_of({seen(ball, Transform::rotate({1, 2, 3}, 50) * Transform::scale(-3, 3, 3))});
     REQUIRE(mirrored.size() == 1);
-    CHECK(mirrored[0].radius == Approx(3).epsilon(1e-12));
+    CHECK(std::get<flat::SphereLight>(mirrored[0]).radius == Approx(3).epsilon(1e-12));
 }
 
 TEST_CASE("Lights: a textured ball is sampled on its own axes alone, its texture coordinates follow no instance",
@@ -274,9 +281,9 @@ TEST_CASE("Lights: points computed on one lie within its error bound of the true
         const Vec3 e = random.in_cube(3), f = random.in_cube(3);
         const auto lights = lights_of({seen(seen(std::make_shared<Quad>(a, e, f, white_lamp()), inner), outer)});
         REQUIRE(lights.size() == 1);
-        const Light& light = lights[0];
+        const flat::PlanarLight& light = planar(lights[0]);
         const double u = random.uniform(), v = random.uniform();
-        const Real3 p(light.origin + (u * light.edge_u + v * light.edge_v));
+        const Real3 p(light.corner + (u * light.edge_u + v * light.edge_v));
         const auto world = [&](const Vec3& edge) {
             return transform_point(outer, transform_point(inner, Real3(a) + Real3(edge)));
         };
@@ -297,7 +304,7 @@ TEST_CASE("Lights: a ball's error bound covers its whole way, its radius and wha
     const auto bound = [](const Point3& from, const Point3& to, double radius, const Transform& m = {}) {
         const auto lights = lights_of({seen(std::make_shared<Sphere>(from, to, radius, white_lamp()), m)});
         REQUIRE(lights.size() == 1);
-        return lights[0].position_error;
+        return surface_of(lights[0])->position_error;
     };
     const Point3 near{0, 0, 0}, far{0, -1024, 0};
     for (const Vec3& e : {bound(near, far, 1), bound(far, near, 1), bound(far, far, 1), bound(near, near, 1024),

@@ -89,7 +89,7 @@ TEST_CASE("RecordSink: a shared BLAS, material, texture, image or lattice is wri
     CHECK((first == BlasId{1} && second == BlasId{2}));
     CHECK((sink.blas(a, fill) == first && described == 2));
     CHECK(sink.primitives() == 0);  // they are of their BLASes, not of the scene
-    const auto material = [&] { return ++described, MaterialRecord{.parameter = 7}; };
+    const auto material = [&] { return ++described, MaterialRecord{.opacity_cutoff = 7}; };
     const auto texture = [&] { return ++described, scaled(9); };
     described = 0;
     CHECK((sink.material(a, material) == MaterialId{0} && sink.material(b, material) == MaterialId{1}));
@@ -98,7 +98,7 @@ TEST_CASE("RecordSink: a shared BLAS, material, texture, image or lattice is wri
     CHECK((sink.texture(a, texture) == TextureId{0} && described == 4));
     CHECK((sink.material(nullptr, material) == MaterialId::none && sink.texture(nullptr, texture) == TextureId::none));
     CHECK(described == 4);
-    CHECK((sink.records().materials.size() == 2 && sink.records().materials[1].parameter == 7));
+    CHECK((sink.records().materials.size() == 2 && sink.records().materials[1].opacity_cutoff == 7));
     CHECK((sink.records().textures.size() == 2 && sink.records().textures[1].scale == 9));
     const auto image = std::make_shared<Image>(1, 1), other = std::make_shared<Image>(2, 1);
     CHECK((sink.image(image) == 0 && sink.image(other) == 1 && sink.image(image) == 0));

@@ -3,8 +3,11 @@
 
 #include "gltf_files.h"
 #include "limn/math/vec.h"
+#include "limn/scene/material/dielectric.h"
+#include "limn/scene/material/metallic_roughness.h"
 #include "limn/scene/material/plastic.h"
 #include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
 #include "lowered_material.h"
 
 namespace limn::gltf_materials_test {
@@ -19,13 +22,13 @@ TEST_CASE("glTF: factors and the index are those of the material", "[io][gltf]")
     const auto ior = [](double n) { return R"({"KHR_materials_ior": {"ior": )" + std::to_string(n) + "}}"; };
     const LoweredMaterial mixture = lowered(R"("metallicFactor": 0.25, "roughnessFactor": 0.5)", ior(1.25));
     CHECK(mixture.record.kind == "metallic-roughness");
-    CHECK(mixture.record.parameter == 1.25);
-    CHECK(mixture.details.numbers[0] == 0.5);
-    CHECK(mixture.details.numbers[1] == 0.25);
+    const auto mixed = mixture.record.parameters.as<MetallicRoughness::Parameters>();
+    CHECK((mixed.index == 1.25 && mixed.metallic == 0.25 && mixed.roughness == 0.5));
     const LoweredMaterial plastic = lowered(R"("metallicFactor": 0, "roughnessFactor": 0.5)", ior(0));
-    CHECK(plastic.record.parameter == 1.5);
-    CHECK(plastic.details.numbers[3] == 0.25);
-    CHECK(lowered(R"("metallicFactor": 0, "roughnessFactor": 0)").details.numbers[3] == 0);
+    CHECK(plastic.record.parameters.as<Plastic::Parameters>().index == 1.5);
+    CHECK(plastic.record.parameters.as<Plastic::Parameters>().alpha_x == 0.25);
+    const MaterialRecord smooth = lowered(R"("metallicFactor": 0, "roughnessFactor": 0)").record;
+    CHECK(smooth.parameters.as<Plastic::Parameters>().alpha_x == 0);
     CHECK(lowered(R"("roughnessFactor": 0)").record.specular);  // a mirror
 }
 
@@ -38,10 +41,10 @@ TEST_CASE("glTF: what transmits half of its light or more is glass, as rough as 
     const std::string smooth = R"("metallicFactor": 0, "roughnessFactor": 0)";
     const Model clear = glass(1, smooth), rough = glass(1, R"("metallicFactor": 0, "roughnessFactor": 0.5)");
     CHECK(LoweredMaterial(clear).record.kind == "dielectric");
-    CHECK(LoweredMaterial(clear).record.parameter == 1.25);
+    CHECK(LoweredMaterial(clear).record.parameters.as<Dielectric::Parameters>().index == 1.25);
     CHECK(clear.warnings.empty());
     CHECK(LoweredMaterial(rough).record.kind == "rough-dielectric");
-    CHECK(LoweredMaterial(rough).details.numbers[3] == 0.25);
+    CHECK(LoweredMaterial(rough).record.parameters.as<RoughDielectric::Parameters>().alpha_x == 0.25);
     CHECK(is_of<RoughConductor>(glass(1, "\"roughnessFactor\": 0")));  // of metal nothing transmits
     CHECK(is_of<Plastic>(glass(0.25, smooth)));
     CHECK(glass(0.75, R"("metallicFactor": 0, "baseColorFactor": [1, 0, 0, 1])").warnings ==
@@ -60,18 +63,18 @@ TEST_CASE("glTF: alphaMode says what the alpha of the base colour means", "[io][
         return LoweredMaterial(load_model(folder.write("a.gltf", with_texture("\"uri\": \"a.png\"", material))));
     };
     const std::string half = R"(, "baseColorFactor": [1, 1, 1, 0.5])";
-    CHECK(mask("\"OPAQUE\"", half, true).details.opacity == TextureId::none);
-    CHECK(mask("\"BLEND\"", "", false).details.opacity == TextureId::none);
+    CHECK(mask("\"OPAQUE\"", half, true).record.opacity == TextureId::none);
+    CHECK(mask("\"BLEND\"", "", false).record.opacity == TextureId::none);
     CHECK(mask("\"BLEND\"", half, false).opacity(0.25) == 0.5);
     CHECK(mask("\"BLEND\"", half, true).opacity(0.25) == Approx(0.125).margin(0.002));
     CHECK(mask("\"BLEND\"", half, true).opacity(0.75) == Approx(0.375).margin(0.002));
-    CHECK(mask("\"BLEND\"", "", true).details.opacity_cutoff == 0);
+    CHECK(mask("\"BLEND\"", "", true).record.opacity_cutoff == 0);
     CHECK(mask("\"MASK\"", "", true).opacity(0.75) == Approx(0.75).margin(0.002));
-    CHECK(mask("\"MASK\"", "", true).details.opacity_cutoff == 0.5);
-    CHECK(mask(R"("MASK", "alphaCutoff": 0.25)", "", true).details.opacity_cutoff == 0.25);
-    CHECK(mask("\"MASK\"", half, false).details.opacity == TextureId::none);
+    CHECK(mask("\"MASK\"", "", true).record.opacity_cutoff == 0.5);
+    CHECK(mask(R"("MASK", "alphaCutoff": 0.25)", "", true).record.opacity_cutoff == 0.25);
+    CHECK(mask("\"MASK\"", half, false).record.opacity == TextureId::none);
     CHECK(mask(R"("MASK", "alphaCutoff": 0.75)", half, false).opacity(0.25) == 0);
-    CHECK(mask(R"("MASK", "alphaCutoff": 0)", half, true).details.opacity == TextureId::none);
+    CHECK(mask(R"("MASK", "alphaCutoff": 0)", half, true).record.opacity == TextureId::none);
 }
 
 TEST_CASE("glTF: pictures of normals and of roughness are read as they are, and each one once", "[io][gltf]") {
@@ -85,10 +88,10 @@ TEST_CASE("glTF: pictures of normals and of roughness are read as they are, and 
     CHECK(model.files == std::vector<std::string>{folder.path("a.gltf"), folder.path("a.png")});
     const LoweredMaterial lowered(model);
     CHECK(lowered.record.kind == "metallic-roughness");
-    CHECK(lowered.details.numbers[0] == 0.5);
-    CHECK(lowered.details.numbers[1] == 1);
-    const Color base = lowered.color(), raw = lowered.at(lowered.details.texture, 0.5, 0.5),
-                bent = lowered.at(lowered.details.normal_map, 0.5, 0.5);
+    CHECK(lowered.record.parameters.as<MetallicRoughness::Parameters>().roughness == 0.5);
+    CHECK(lowered.record.parameters.as<MetallicRoughness::Parameters>().metallic == 1);
+    const Color base = lowered.color(), raw = lowered.at(lowered.record.factors, 0.5, 0.5),
+                bent = lowered.at(lowered.record.normal_map, 0.5, 0.5);
     CHECK(distance(base, {srgb_decode(0.75), srgb_decode(0.5), srgb_decode(0.25)}) < 0.015);
     CHECK(distance(raw, {0.75, 0.5, 0.25}) < 0.015);
     const Vec3 normal = normalize(Vec3{0.25, 0, -0.5});  // half of 0.5, and as deep as before

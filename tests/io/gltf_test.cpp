@@ -27,7 +27,7 @@ Color albedo_at(const Model& model, double x, double y) {
     const auto hit = model.meshes.at(0)->hit({.origin = {x, y, 1}, .direction = {0, 0, -1}});
     REQUIRE(hit);
     const LoweredMaterial lowered(*hit->material);
-    const TextureRecord& texture = lowered.texture(lowered.record.texture);
+    const TextureRecord& texture = lowered.texture(lowered.record.albedo);
     if (texture.kind == TextureKind::solid) return texture.color;
     Surface s;
     s.uv = *hit->uv;

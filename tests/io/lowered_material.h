@@ -11,8 +11,7 @@ namespace limn::test {
 struct LoweredMaterial {
     // The first one that a file names.
     explicit LoweredMaterial(const Model& model) : LoweredMaterial(*model.meshes.at(0)->materials().at(1)) {}
-    explicit LoweredMaterial(const Material& material)
-        : record(material.lower(sink)), details(record.details ? *record.details : MaterialDetails{}) {}
+    explicit LoweredMaterial(const Material& material) : record(material.lower(sink)) {}
 
     const TextureRecord& texture(TextureId id) const {
         return sink.records().textures.at(static_cast<std::uint32_t>(id));
@@ -24,14 +23,13 @@ struct LoweredMaterial {
         const Image& image = *sink.records().images.at(t.data);
         return image.at(static_cast<int>(u * image.width()), static_cast<int>((1 - v) * image.height()));
     }
-    Color color() const { return at(record.emission != TextureId::none ? record.emission : record.texture, 0.5, 0.5); }
+    Color color() const { return at(record.emission != TextureId::none ? record.emission : record.albedo, 0.5, 0.5); }
     double opacity(double u = 0.5) const {
-        return details.opacity == TextureId::none ? 1 : at(details.opacity, u, 0.5).r;
+        return record.opacity == TextureId::none ? 1 : at(record.opacity, u, 0.5).r;
     }
 
     RecordSink sink;
     MaterialRecord record;
-    MaterialDetails details;
 };
 
 }  // namespace limn::test

@@ -28,7 +28,7 @@ TEST_CASE("MTL: Ks scales the coat of plastic, and map_Ks stands for it", "[io][
     const auto coat = [&](const std::string& mtl) {
         const LoweredMaterial lowered(load_one(folder, "illum 2\nKd .5 .5 .5\n" + mtl));
         CHECK(lowered.record.kind == "plastic");
-        return lowered.at(lowered.details.texture, 0.5, 0.5);
+        return lowered.at(lowered.record.factors, 0.5, 0.5);
     };
     CHECK(coat("Ks .25 .5 1\n") == Color{.25, .5, 1});
     CHECK(coat("Ks .25 .5 1\nmap_Ks a.png\n").b == Approx(0.125).margin(0.005));
@@ -46,7 +46,7 @@ TEST_CASE("MTL: map_d is opacity, by its alpha or else its grey, times d", "[io]
         CHECK(model.warnings.empty());
         const LoweredMaterial lowered(model);
         CHECK(lowered.record.kind == "lambertian");
-        return lowered.at(lowered.details.opacity, u, 0.5).r;
+        return lowered.at(lowered.record.opacity, u, 0.5).r;
     };
     CHECK(opacity("map_d grey.png\n", 0.25) == 1);
     CHECK(opacity("map_d grey.png\n", 0.75) == 0);
@@ -61,8 +61,8 @@ TEST_CASE("MTL: norm bends normals, and so do the heights of bump, of which whit
     const Folder folder;
     const auto normal = [&](const std::string& mtl, double u, double v) {
         const LoweredMaterial lowered(load_one(folder, mtl));
-        REQUIRE(lowered.details.normal_map != TextureId::none);
-        const Color c = lowered.at(lowered.details.normal_map, u, v);
+        REQUIRE(lowered.record.normal_map != TextureId::none);
+        const Color c = lowered.at(lowered.record.normal_map, u, v);
         return Vec3{2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1};
     };
     // One white row, and a column of half as much, on black: 16 texels of 1/16.

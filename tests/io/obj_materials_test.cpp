@@ -9,6 +9,10 @@
 #include "limn/records/record_sink.h"
 #include "limn/scene/material/dielectric.h"
 #include "limn/scene/material/lambertian.h"
+#include "limn/scene/material/metallic_roughness.h"
+#include "limn/scene/material/plastic.h"
+#include "limn/scene/material/rough_conductor.h"
+#include "limn/scene/material/rough_dielectric.h"
 #include "lowered_material.h"
 #include "support/folder.h"
 
@@ -40,7 +44,7 @@ struct Lowered {
     Color color(std::size_t i) const { return texture(i).color; }
     const TextureRecord& texture(std::size_t i) const {
         const MaterialRecord& m = materials.at(i);
-        const TextureId id = m.emission != TextureId::none ? m.emission : m.texture;
+        const TextureId id = m.emission != TextureId::none ? m.emission : m.albedo;
         return sink.records().textures.at(static_cast<std::uint32_t>(id));
     }
     RecordSink sink;
@@ -127,11 +131,21 @@ TEST_CASE("MTL: illum decides what a material is, Ke before it", "[io][obj][mtl]
             warnings.push_back(folder.path("a.mtl") + ": line " + word + " of material 'm' is not used");
         CHECK(model.warnings == warnings);
         CHECK(lowered.record.kind == row.kind);
-        CHECK(lowered.record.parameter == Approx(row.index).epsilon(1e-7));  // a float32
-        if (row.kind == kMixture)
-            CHECK(lowered.details.numbers == std::array<double, 6>{row.alpha, .25});  // the roughness itself, Pm
-        else
-            CHECK(lowered.details.numbers[3] == Approx(row.alpha).epsilon(1e-12));
+        const LobeParameters& p = lowered.record.parameters;
+        const auto check = [&row = row](double index, double alpha) {
+            CHECK(index == Approx(row.index).epsilon(1e-7));  // a float32
+            CHECK(alpha == Approx(row.alpha).epsilon(1e-12));
+        };
+        if (row.kind == kClear) check(p.as<Dielectric::Parameters>().index, 0);
+        if (row.kind == kGlass)
+            check(p.as<RoughDielectric::Parameters>().index, p.as<RoughDielectric::Parameters>().alpha_x);
+        if (row.kind == kPlastic) check(p.as<Plastic::Parameters>().index, p.as<Plastic::Parameters>().alpha_x);
+        if (row.kind == kMetal) check(0, p.as<RoughConductor::Parameters>().alpha_x);
+        if (row.kind == kMixture) {
+            const auto mixture = p.as<MetallicRoughness::Parameters>();
+            check(mixture.index, mixture.roughness);  // Pr itself
+            CHECK(mixture.metallic == .25);
+        }
         if (row.kind != kGlass && row.kind != kClear) check_color(lowered.color(), row.color);
         CHECK(lowered.opacity() == row.opacity);
     }
@@ -160,7 +174,7 @@ TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io
         const Model model = load_one(folder, "map_Kd a.png\n" + rest);
         const LoweredMaterial lowered(model);
         CHECK(lowered.record.kind == kind);
-        CHECK(lowered.texture(lowered.record.texture).kind == TextureKind::image);
+        CHECK(lowered.texture(lowered.record.albedo).kind == TextureKind::image);
         CHECK(lowered.opacity() == opacity);
         REQUIRE(model.warnings.size() == unused.size());
         for (std::size_t i = 0; i < unused.size(); ++i)

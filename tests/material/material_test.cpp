@@ -167,28 +167,30 @@ TEST_CASE("Material: records state what the built-in ones were made with", "[mat
 
     const MaterialRecord matte = pack(std::make_shared<Lambertian>(texture));
     CHECK(matte.kind == "lambertian");
-    CHECK(sink.records().textures.at(static_cast<std::size_t>(matte.texture)).color == Color{.1, .2, .3});
+    CHECK(sink.records().textures.at(static_cast<std::size_t>(matte.albedo)).color == Color{.1, .2, .3});
 
     const MaterialRecord metal = pack(std::make_shared<Metal>(texture, .3));
     CHECK(metal.kind == "metal");
-    CHECK(metal.texture == matte.texture);
-    CHECK(metal.parameter == .3);
+    CHECK(metal.albedo == matte.albedo);
+    CHECK(metal.parameters.as<Metal::Parameters>().fuzz == .3);
 
     const MaterialRecord glass = pack(std::make_shared<Dielectric>(1.5, Fresnel::schlick));
     CHECK(glass.kind == "dielectric");
-    CHECK(glass.fresnel == Fresnel::schlick);
-    CHECK(glass.parameter == 1.5);
-    CHECK(pack(std::make_shared<Dielectric>(1.5)).fresnel == Fresnel::exact);  // unless told otherwise
-    CHECK(pack(std::make_shared<Metal>(texture)).parameter == 0);
-    CHECK(pack(std::make_shared<Metal>(Color{.1, .2, .3})).parameter == 0);
+    const auto glass_parameters = glass.parameters.as<Dielectric::Parameters>();
+    CHECK(glass_parameters.index == 1.5);
+    CHECK(glass_parameters.exact_fresnel == 0);
+    CHECK(pack(std::make_shared<Dielectric>(1.5)).parameters.as<Dielectric::Parameters>().exact_fresnel == 1);
+    CHECK(pack(std::make_shared<Metal>(texture)).parameters.as<Metal::Parameters>().fuzz ==
+          0);  // unless told otherwise
+    CHECK(pack(std::make_shared<Metal>(Color{.1, .2, .3})).parameters.as<Metal::Parameters>().fuzz == 0);
 
     const MaterialRecord lamp = pack(std::make_shared<DiffuseLight>(texture));
     CHECK(lamp.kind == "diffuse-light");
-    CHECK(lamp.emission == matte.texture);
+    CHECK(lamp.emission == matte.albedo);
 
     const MaterialRecord fog = pack(std::make_shared<Isotropic>(texture));
     CHECK(fog.kind == "isotropic");
-    CHECK(fog.texture == matte.texture);
+    CHECK(fog.albedo == matte.albedo);
 }
 
 TEST_CASE("Material: one that is shared is packed once, and none for null", "[material][record]") {

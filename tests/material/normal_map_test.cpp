@@ -120,7 +120,7 @@ TEST_CASE("NormalMap: a direction that rounding leaves no density weighs nothing
             },
         .value = [](bsdf::Vertices& v, const sampling::Rows3&) { v.value.set(0, Color{}), v.value_pdf[0] = 0; }};
     const auto v = std::make_unique<bsdf::Vertices>();
-    v->count = 1, v->folds = 1;
+    v->count = 1, v->tangent_facets = 1;
     v->normal.set(0, Vec3{0, 0, 1}), v->shading_normal.set(0, normalize(Vec3{0.5, 0, 1}));
     bsdf::sample(lobe, *v);
     CHECK(v->weight.get<Color>(0) == Color{});

@@ -51,10 +51,12 @@ Receiver random_receiver(Random& random) {
 
 // A point on a light.
 Point3 point_on(const flat::Light& light, Random& random) {
-    if (light.kind == flat::LightKind::sphere) return light.origin + light.radius * random.unit();
+    if (const auto* sphere = std::get_if<flat::SphereLight>(&light))
+        return sphere->center + sphere->radius * random.unit();
+    const auto& planar = std::get<flat::PlanarLight>(light);
     double u = random.uniform(), v = random.uniform();
-    if (light.kind == flat::LightKind::triangle && u + v > 1) u = 1 - u, v = 1 - v;
-    return light.origin + (u * light.edge_u + v * light.edge_v);
+    if (planar.shape == flat::PlanarShape::triangle && u + v > 1) u = 1 - u, v = 1 - v;
+    return planar.corner + (u * planar.edge_u + v * planar.edge_v);
 }
 
 }  // namespace

@@ -2,61 +2,28 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 #include <memory>
 
 #include "catch.h"
-#include "known_lobes.h"
 #include "limn/limn.h"
+#include "lobe_examples.h"
 #include "math/sobol.h"
+#include "random_light.h"
 #include "render/sampler.h"
 #include "shading/stages.h"
 #include "support/random_geometry.h"
 #include "support/single_shading.h"
-#include "trace/targets.h"
+#include "support/targets.h"
 
 namespace limn::lobes_test {
 
 using namespace test;
 using bsdf::Vertices;
-using flat::Light;
-using flat::LightKind;
 using sampling::kShaded, sampling::Row, sampling::Rows3;
 using transport::Sampler;
 
 namespace {
-
-// Runs check(name) on each instruction set that this processor has, and goes back to the best.
-template <class Check>
-void on_every_target(const Check& check) {
-    const std::vector<std::string> names = trace::targets();
-    for (const std::string& name : names) {
-        REQUIRE(trace::force_target(name));
-        INFO(name);
-        check();
-    }
-    trace::force_target(names.front());
-}
-
-Light random_light(Random& random) {
-    Light light;
-    const double size = random.log_uniform(1e-3, 30);
-    light.kind = std::array{LightKind::triangle, LightKind::parallelogram, LightKind::rectangle, LightKind::sphere,
-                            LightKind::patch}[random.index(5)];
-    light.origin = Point3{} + random.in_cube(3);
-    if (light.kind == LightKind::sphere) {
-        light.radius = size;
-        return light;
-    }
-    if (light.kind == LightKind::triangle) light.primitive = PrimitiveKind::triangle, light.share = 0.5;
-    if (light.kind == LightKind::patch) light.primitive = PrimitiveKind::disk, light.share = kPi / 4;
-    light.edge_u = size * random.unit();
-    light.edge_v = size * random.unit();
-    if (light.kind == LightKind::rectangle || light.kind == LightKind::patch)
-        light.edge_v = random.log_uniform(0.1, 10) * cross(light.edge_u, random.unit());
-    const double error = random.uniform(0, 1e-13);
-    light.position_error = {error, error, error};
-    return light;
-}
 
 Surface random_surface(Random& random, bool inside) {
     Surface s;
@@ -73,38 +40,32 @@ Surface random_surface(Random& random, bool inside) {
 
 const Color kAlbedo{0.75, 0.5, 0.125};
 
-// Two of each lobe.
-using Materials = std::array<std::shared_ptr<const Material>, 2>;
-std::vector<Materials> materials() {
-    const Color other{0.2, 0.9, 1};
-    const Roughness uneven{.2, .9};
-    return {{std::make_shared<Lambertian>(kAlbedo), std::make_shared<Lambertian>(other)},
-            {std::make_shared<Isotropic>(kAlbedo), std::make_shared<Isotropic>(other)},
-            {std::make_shared<Metal>(kAlbedo, 0), std::make_shared<Metal>(other, 0.4)},
-            {std::make_shared<Metal>(kAlbedo, 1), std::make_shared<Metal>(other, 0.1)},
-            {std::make_shared<Dielectric>(1.5), std::make_shared<Dielectric>(0.7, Fresnel::schlick)},
-            {std::make_shared<Dielectric>(1), std::make_shared<Dielectric>(1.2)},
-            {std::make_shared<OrenNayar>(kAlbedo, 0.3), std::make_shared<OrenNayar>(other, 1)},
-            {std::make_shared<RoughConductor>(kAlbedo, 0.5), std::make_shared<RoughConductor>(other, uneven)},
-            {std::make_shared<RoughDielectric>(1.5, 0.4), std::make_shared<RoughDielectric>(0.7, uneven)},
-            {std::make_shared<Plastic>(kAlbedo, 0.1), std::make_shared<Plastic>(other, uneven, 1.3)},
-            {std::make_shared<MetallicRoughness>(kAlbedo, 0.3, 0.4),
-             std::make_shared<MetallicRoughness>(other, 0.9, 0.7, 1.3)}};
-}
-
-// Two materials in a scene of their own.
+// Materials of one lobe in a scene of their own.
 struct Compiled {
     CompiledScene scene;
-    Materials materials;
+    std::vector<MaterialPtr> materials;
 
-    explicit Compiled(const Materials& two) : scene(compile(of(two))), materials(two) {}
-    static Scene of(const Materials& two) {
+    explicit Compiled(const std::vector<MaterialPtr>& of_a_lobe)
+        : scene(compile(of(of_a_lobe))), materials(of_a_lobe) {}
+    static Scene of(const std::vector<MaterialPtr>& materials) {
         Scene scene;
-        for (const auto& m : two) scene.add(std::make_shared<Sphere>(Point3{}, 1, m));
+        for (const auto& m : materials) scene.add(std::make_shared<Sphere>(Point3{}, 1, m));
         return scene;
     }
     const bsdf::Lobe& lobe() const { return *scene.flat().materials[0].lobe; }
 };
+
+// The examples of each lobe.
+std::vector<Compiled> compiled_examples() {
+    std::map<const bsdf::Lobe*, std::vector<MaterialPtr>> of_lobe;
+    for (const MaterialPtr& material : lobe_examples()) {
+        RecordSink sink;
+        of_lobe[material->lower(sink).lobe].push_back(material);
+    }
+    std::vector<Compiled> all;
+    for (const auto& [lobe, materials] : of_lobe) all.emplace_back(materials);
+    return all;
+}
 
 struct Batch {
     std::array<Surface, kShaded> surfaces;
@@ -116,7 +77,7 @@ struct Batch {
         vertices.count = count;
         for (std::size_t i = 0; i < count; ++i) {
             surfaces[i] = random_surface(random, !compiled.lobe().one_sided && random.chance(0.5));
-            surfaces[i].material.id = static_cast<std::uint32_t>(random.index(2));
+            surfaces[i].material.id = static_cast<std::uint32_t>(random.index(compiled.materials.size()));
             outs[i] = random.unit();
             if (dot(outs[i], surfaces[i].normal) < 0) outs[i] = -outs[i];
             const Vec3 incoming = -random.log_uniform(1e-3, 1e3) * outs[i];
@@ -156,18 +117,8 @@ TEST_CASE("Lobes: many samplers at once draw what each draws alone", "[render][s
     });
 }
 
-TEST_CASE("Lobes: those of all of limn's materials are compared", "[render][shading][lobes]") {
-    const std::vector<Materials> all = materials();
-    for (const auto& [name, lobe] : kKnownLobes) {
-        CAPTURE(name);
-        const auto has_it = [&known = lobe](const Materials& two) { return &Compiled(two).lobe() == known; };
-        CHECK(std::ranges::any_of(all, has_it));
-    }
-}
-
 TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render][shading][lobes]") {
-    for (const Materials& two : materials()) {
-        const Compiled compiled(two);
+    for (const Compiled& compiled : compiled_examples()) {
         INFO(compiled.scene.flat().materials[0].kind);
         on_every_target([&] {
             Random random(5);
@@ -191,7 +142,7 @@ TEST_CASE("Lobes: vertices scatter as their materials do, bit for bit", "[render
                 CHECK((counts.all == next->count && counts.unusable == 0));
                 for (std::size_t i = 0; i < v.count; ++i) {
                     const Random3 numbers{v.numbers[0][i], v.numbers[1][i], v.numbers[2][i]};
-                    const Material* const material = two[b.surfaces[i].material.id].get();
+                    const Material* const material = compiled.materials[b.surfaces[i].material.id].get();
                     const auto alone = material->sample(b.surfaces[i], b.outs[i], numbers);
                     const Vec3 direction = v.direction.get<Vec3>(i);
                     samples += alone ? alone->direction != direction || alone->pdf != v.pdf[i] ||
@@ -257,51 +208,11 @@ TEST_CASE("Lobes: rays leave in lanes from where they leave alone, bit for bit, 
     });
 }
 
-TEST_CASE("Lobes: many receivers draw the light that each draws alone, on every instruction set",
-          "[render][lights][determinism][lobes]") {
-    std::vector<double> first;
-    on_every_target([&] {
-        Random random(6);
-        std::vector<double> all;
-        std::size_t wrong = 0;
-        const auto samples = std::make_unique<lights::LightSamples>();
-        for (int round = 0; round < 300; ++round) {
-            std::array<Light, kShaded> lights;
-            Rows3 position, normal;
-            Row time = {}, numbers[3] = {};
-            for (std::size_t i = 0; i < kShaded; ++i) {
-                lights[i] = i > 0 && random.chance(0.3) ? lights[i - 1] : random_light(random);
-                if (round % 8 == 0) lights[i] = lights[0];
-                samples->light[i] = &lights[i];
-                position.set(i, random.in_cube(2));
-                for (auto& number : numbers) number[i] = random.chance(0.05) ? 0 : random.uniform();
-            }
-            samples->numbers = numbers;
-            const std::size_t count = 1 + random.index(kShaded);
-            const lights::Receivers receivers{count, position, normal, time};
-            lights::sample_points(receivers, *samples);
-            Row pdf;
-            lights::find_point_pdf(receivers, samples->light, samples->position, pdf);
-            for (std::size_t i = 0; i < count; ++i) {
-                const auto alone = sample_point(lights[i], position.get<Point3>(i), numbers[1][i], numbers[2][i]);
-                wrong += alone.has_value() != (samples->pdf[i] > 0);
-                if (!alone) continue;
-                const Point3 at = samples->position.get<Point3>(i);
-                wrong += alone->pdf != samples->pdf[i] || alone->direction != samples->direction.get<Vec3>(i) ||
-                         alone->point.position != at || alone->point.normal != samples->normal.get<Normal3>(i);
-                wrong += pdf_point(lights[i], position.get<Point3>(i), at) != pdf[i];
-                for (const double x : {alone->pdf, pdf[i], at.x, at.y, at.z}) all.push_back(x);
-            }
-        }
-        CHECK(wrong == 0);
-        CHECK(all.size() > 5000);
-        if (first.empty()) first = all;
-        CHECK(all == first);
-    });
-}
-
 TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[render][lights][lobes]") {
-    const Compiled compiled(materials()[static_cast<std::size_t>(GENERATE(0, 1, 3))]);
+    const std::vector<MaterialPtr> matte{grey(0.7), std::make_shared<Lambertian>(kAlbedo)},
+        fog{std::make_shared<Isotropic>(kAlbedo)},
+        metal{std::make_shared<Metal>(kAlbedo, 1), std::make_shared<Metal>(kAlbedo, 0.1)};
+    const Compiled compiled(std::array{matte, fog, metal}[static_cast<std::size_t>(GENERATE(0, 1, 2))]);
     on_every_target([&] {
         Random random(7);
         std::size_t weights = 0, rays = 0, lit = 0;
@@ -310,7 +221,7 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
         const auto samples = std::make_unique<lights::LightSamples>();
         for (int round = 0; round < 300; ++round) {
             Batch b(random, compiled);
-            const Light light = random_light(random);
+            const flat::Light light = random_light(random);
             Row time = {}, odds = {};
             for (std::size_t i = 0; i < kShaded; ++i)
                 samples->light[i] = &light, odds[i] = random.chance(0.5) ? 1 : random.uniform(0.1, 10);
@@ -350,48 +261,6 @@ TEST_CASE("Lobes: light arrives weighed, along the ray from surface to lamp", "[
         CHECK(weights == 0);
         CHECK(rays == 0);
         CHECK(lit > 200);
-    });
-}
-
-TEST_CASE("Lobes: many receivers at once choose the lights that each chooses alone", "[render][lights][lobes]") {
-    const int count = GENERATE(1, 2, 3, 40);
-    Random random(8);
-    Scene scene;
-    for (int i = 0; i < count; ++i) {
-        const auto lamp = std::make_shared<DiffuseLight>(Color{1, 1, 1});
-        const Point3 at = Point3{} + random.in_cube(2);
-        if (random.chance(0.3)) {
-            scene.add(std::make_shared<Sphere>(at, 0.1, lamp));
-        } else {
-            scene.add(std::make_shared<Quad>(at, 0.2 * random.unit(), 0.2 * random.unit(), lamp));
-        }
-    }
-    const CompiledScene compiled = compile(scene);
-    const flat::LightTable& table = compiled.flat().lights;
-    on_every_target([&] {
-        std::size_t wrong = 0, none = 0;
-        for (int round = 0; round < 300; ++round) {
-            Rows3 position, normal;
-            Row time = {}, pick = {}, rank = {}, probability = {};
-            for (std::size_t i = 0; i < kShaded; ++i) {
-                position.set(i, random.in_cube(2)), normal.set(i, random.chance(0.3) ? Vec3{} : random.unit());
-                pick[i] = random.uniform(), rank[i] = static_cast<double>(random.index(table.size()));
-            }
-            std::array<lights::Choice, kShaded> together;
-            const std::size_t some = 1 + random.index(kShaded);
-            lights::choose(table, {some, position, normal, time}, pick, together.data());
-            lights::find_probability(table, {some, position, normal, time}, rank, probability);
-            for (std::size_t i = 0; i < some; ++i) {
-                const Receiver receiver{position.get<Point3>(i), normal.get<Vec3>(i)};
-                const auto alone = choose_light(table, receiver, pick[i]);
-                none += !alone;
-                wrong += alone ? alone->rank != together[i].rank || alone->probability != together[i].probability
-                               : together[i].probability != 0;
-                wrong += probability_of(table, receiver, static_cast<std::size_t>(rank[i])) != probability[i];
-            }
-        }
-        CHECK(wrong == 0);
-        CHECK((count < 3 || none > 0));
     });
 }
 

@@ -7,27 +7,28 @@
 namespace limn::planar_light_test {
 
 using namespace test;
-using flat::Light;
-using flat::LightKind;
+using flat::PlanarLight;
+using flat::PlanarShape;
 
 namespace {
 
-Light light_of(LightKind kind) {
-    Light light;
-    light.kind = kind;
-    if (kind == LightKind::triangle) light.primitive = PrimitiveKind::triangle, light.share = 0.5;
-    light.origin = {-0.4, 1, -0.3};
+PlanarLight light_of(PlanarShape shape) {
+    PlanarLight light;
+    light.shape = shape;
+    light.primitive = shape == PlanarShape::triangle ? PrimitiveKind::triangle : PrimitiveKind::quad;
+    if (shape == PlanarShape::triangle) light.share = 0.5;
+    light.corner = {-0.4, 1, -0.3};
     light.edge_u = {1.2, 0.1, 0.2};
-    light.edge_v = kind == LightKind::rectangle ? Vec3{-0.15, 0, 0.9} : Vec3{0.3, 0.4, 0.8};
+    light.edge_v = shape == PlanarShape::rectangle ? Vec3{-0.15, 0, 0.9} : Vec3{0.3, 0.4, 0.8};
     return light;
 }
 
 // The p-value that the cells of a grid over the light are met in proportion to the solid angle that they fill.
-double solid_angle_p(const Light& light, const Point3& from) {
+double solid_angle_p(const PlanarLight& light, const Point3& from) {
     constexpr std::size_t kSide = 12;
     std::vector<double> observed(kSide * kSide * 2), expected(kSide * kSide * 2);
-    const auto at = [&](double u, double v) { return light.origin + (u * light.edge_u + v * light.edge_v); };
-    const bool triangle = light.kind == LightKind::triangle;
+    const auto at = [&](double u, double v) { return light.corner + (u * light.edge_u + v * light.edge_v); };
+    const bool triangle = light.shape == PlanarShape::triangle;
     double total = 0;
     for (std::size_t i = 0; i < kSide; ++i)
         for (std::size_t j = 0; j < kSide; ++j) {
@@ -63,17 +64,17 @@ double solid_angle_p(const Light& light, const Point3& from) {
 
 TEST_CASE("Planar lights: near ones are drawn uniformly per solid angle, with the density of that",
           "[render][lights]") {
-    for (const LightKind kind : {LightKind::triangle, LightKind::parallelogram, LightKind::rectangle}) {
-        INFO("kind " << static_cast<int>(kind));
-        CHECK(solid_angle_p(light_of(kind), {0.3, 0.4, 0.5}) > kSamplerLevel);
+    for (const PlanarShape shape : {PlanarShape::triangle, PlanarShape::parallelogram, PlanarShape::rectangle}) {
+        INFO("shape " << static_cast<int>(shape));
+        CHECK(solid_angle_p(light_of(shape), {0.3, 0.4, 0.5}) > kSamplerLevel);
     }
 }
 
 TEST_CASE("Planar lights: distant ones are drawn uniformly per area, with the density of that", "[render][lights]") {
-    for (const LightKind kind : {LightKind::triangle, LightKind::parallelogram, LightKind::rectangle}) {
-        const Light light = light_of(kind);
+    for (const PlanarShape shape : {PlanarShape::triangle, PlanarShape::parallelogram, PlanarShape::rectangle}) {
+        const PlanarLight light = light_of(shape);
         const Vec3 scaled = cross(light.edge_u, light.edge_v);
-        const double area = length(scaled) * (kind == LightKind::triangle ? 0.5 : 1);
+        const double area = length(scaled) * (shape == PlanarShape::triangle ? 0.5 : 1);
         for (const Point3& from : {Point3{2, 9, -3}, Point3{5, -6, 1}}) {
             const auto s = sample_point(light, from, 0.3, 0.6);
             REQUIRE(s);
@@ -86,8 +87,8 @@ TEST_CASE("Planar lights: distant ones are drawn uniformly per area, with the de
 }
 
 TEST_CASE("Planar lights: from in their plane nothing is drawn", "[render][lights]") {
-    for (const LightKind kind : {LightKind::triangle, LightKind::parallelogram, LightKind::rectangle}) {
-        Light light = light_of(kind);
+    for (const PlanarShape shape : {PlanarShape::triangle, PlanarShape::parallelogram, PlanarShape::rectangle}) {
+        PlanarLight light = light_of(shape);
         light.edge_u.y = light.edge_v.y = 0;
         for (const double x : {-1.0, 0.0, 30.0}) {
             CHECK_FALSE(sample_point(light, {x, 1, 0.125}, 0.3, 0.6));

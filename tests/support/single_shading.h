@@ -1,34 +1,22 @@
-// The batches of lib/lights, lib/shade and lib/sampling for one receiver or vertex.
+// The batches of lib/shading and lib/math for one receiver. lib/shading/single.h has those for one vertex.
 #pragma once
 
 #include <array>
 #include <memory>
 #include <optional>
 
-#include "math/heuristic-inl.h"
 #include "math/spherical-inl.h"
 #include "shading/light_choice.h"
 #include "shading/light_points.h"
 #include "shading/lights.h"
 #include "shading/shading.h"
+#include "shading/single.h"
+#include "support/light_of.h"
 
 namespace limn::test {
 
-struct Receiver {
-    Point3 position;
-    Vec3 normal;  // zero: light counts from everywhere
-};
-
-// A receiver in the first row.
-struct OneReceiver {
-    sampling::Rows3 position, normal;
-    sampling::Row time = {};
-
-    explicit OneReceiver(const Receiver& r, double at_time = 0) {
-        position.set(0, r.position), normal.set(0, r.normal), time[0] = at_time;
-    }
-    lights::Receivers rows() const { return {1, position, normal, time}; }
-};
+using shade::material_value, shade::OneReceiver, shade::pdf_light, shade::power_heuristic, shade::Receiver,
+    shade::sample_material;
 
 struct LightSample {
     Surface point;
@@ -42,7 +30,8 @@ inline std::optional<LightSample> first_of(const lights::LightSamples& rows) {
     s.point.position = rows.position.get<Point3>(0), s.point.position_error = rows.position_error.get<Vec3>(0);
     s.point.normal = s.point.shading_normal = rows.normal.get<Normal3>(0);
     s.point.uv = {rows.u[0], rows.v[0]};
-    s.point.material.id = static_cast<std::uint32_t>(rows.light[0]->material);
+    if (const flat::SurfaceLight* light = surface_of(*rows.light[0]))
+        s.point.material.id = static_cast<std::uint32_t>(light->material);
     s.direction = rows.direction.get<Vec3>(0), s.pdf = rows.pdf[0];
     return s;
 }
@@ -54,16 +43,9 @@ inline std::optional<LightSample> sample_light(const flat::Scene& scene, const R
     rows->numbers = numbers;
     lights::sample(scene, OneReceiver(receiver, time).rows(), *rows);
     std::optional<LightSample> s = first_of(*rows);
-    if (s && rows->light[0]->textured) s->point.uv = shade::texture_coordinates_of(scene, *rows, 0);
+    const flat::SurfaceLight* light = surface_of(*rows->light[0]);
+    if (s && light && light->textured) s->point.uv = shade::texture_coordinates_of(scene, *rows, 0);
     return s;
-}
-
-inline double pdf_light(const flat::Scene& scene, const Receiver& receiver, double time, std::uint64_t number,
-                        const Point3& hit) {
-    lights::LightHits hits;
-    hits.primitive[0] = number, hits.position.set(0, hit);
-    lights::find_pdf(scene, OneReceiver(receiver, time).rows(), hits);
-    return hits.pdf[0];
 }
 
 // On one light.
@@ -104,34 +86,6 @@ inline double probability_of(const flat::LightTable& lights, const Receiver& rec
     lights::find_probability(lights, OneReceiver(receiver).rows(), ranks, probability);
     return probability[0];
 }
-
-// A vertex on a material of the compiled scene.
-inline std::optional<ScatterSample> sample_material(const flat::Scene& scene, const Surface& s, const Vec3& out,
-                                                    const Random3& random) {
-    const bsdf::Lobe* lobe = shade::lobe_of(scene, s.material);
-    if (!lobe) return std::nullopt;
-    bsdf::Vertices v;
-    v.count = 1;
-    shade::set_vertex(scene, s, -out, v, 0);
-    v.numbers[0][0] = random.x, v.numbers[1][0] = random.y, v.numbers[2][0] = random.z;
-    bsdf::sample(*lobe, v);
-    if (is_black(v.weight.get<Color>(0))) return std::nullopt;
-    return ScatterSample{v.direction.get<Vec3>(0), v.weight.get<Color>(0), v.pdf[0]};
-}
-
-inline ScatterValue material_value(const flat::Scene& scene, const Surface& s, const Vec3& out, const Vec3& in) {
-    const bsdf::Lobe* lobe = shade::lobe_of(scene, s.material);
-    if (!lobe) return {};
-    bsdf::Vertices v;
-    v.count = 1;
-    shade::set_vertex(scene, s, -out, v, 0);
-    sampling::Rows3 directions;
-    directions.set(0, in);
-    bsdf::value(*lobe, v, directions);
-    return {v.value.get<Color>(0), v.value_pdf[0]};
-}
-
-inline double power_heuristic(double a, double b) { return sampling::HWY_NAMESPACE::power_heuristic(a, b); }
 
 using Lanes3 = limn::HWY_NAMESPACE::Vector<double>;
 

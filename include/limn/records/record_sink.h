@@ -35,11 +35,6 @@ public:
     std::uint32_t lattice(const std::shared_ptr<const PerlinLattice>& lattice);
     ///@}
 
-    /// Adds a light that is no shape.
-    void light(const LightRecord& record) { records_.lights.push_back(record); }
-    /// Sets the environment map and replaces an earlier one.
-    void environment(const EnvironmentRecord& record) { records_.environment = record; }
-
     /// Adds a shape to the current BLAS, which is the scene itself except inside `blas`. The ids in the record must
     /// come from this sink. The arrays of a mesh must be valid as long as `owner`. A user-defined shape must live as
     /// long as the compiled scene, which keeps alive the objects of the Scene and the objects given to `blas`.

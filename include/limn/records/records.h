@@ -1,7 +1,7 @@
 /// \file
-/// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials,
-/// textures and lights of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A
-/// program needs records only if a class of its own overrides `lower`.
+/// limn's intermediate representation: plain records of numbers and ids, without behaviour. The shapes, materials and
+/// textures of a Scene write records to a RecordSink, and compile() builds the compiled scene from them. A program
+/// needs records only if a class of its own overrides `lower`.
 ///
 /// Raw pointers and spans in a record don't own what they point to. The code that writes the record gives the owner to
 /// RecordSink::keep.
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,6 @@
 #include "limn/image/lookup.h"
 #include "limn/math/box.h"
 #include "limn/math/color.h"
-#include "limn/math/fresnel.h"
 #include "limn/math/mesh_view.h"
 #include "limn/math/perlin_lattice.h"
 #include "limn/math/surface.h"
@@ -68,8 +68,8 @@ static_assert(sizeof(TextureRecord) == 64);
 /// The sides of a surface that emit light. The front is the side of the outward normal.
 enum class Sides : std::uint8_t { both, front, back };
 
-/// True if `sides` includes the side that a ray comes from. `front_face` is true if that side is the front.
-constexpr bool shines(Sides sides, bool front_face) {
+/// Returns true if `sides` includes the side that a ray comes from. `front_face` is true if that side is the front.
+constexpr bool emits_on(Sides sides, bool front_face) {
     return sides == Sides::both || (sides == Sides::front) == front_face;
 }
 
@@ -86,37 +86,47 @@ struct MaterialThunks {
 /// MaterialRecord::kind of every user-defined material.
 inline constexpr std::string_view kUserDefinedMaterial = "user-defined";
 
-/// Parameters that only some materials have.
-struct MaterialDetails {
-    static constexpr std::size_t kNumbers = 6;  ///< size of `numbers`
+/// The parameters of a lobe as a list of numbers. Every material with such parameters declares a struct that names them
+/// in the order of the list, for example Metal::Parameters.
+struct LobeParameters {
+    static constexpr std::size_t kMost = 6;  ///< the most parameters that a lobe can have
 
-    std::array<double, kNumbers> numbers{};  ///< parameters of the lobe, which defines the meaning of each entry
-    TextureId texture = TextureId::none;     ///< second texture of the lobe; none: white
-    /// Directional albedos of the lobe's microfacets; the second table is that of the coat of a MetallicRoughness. Null
-    /// if the lobe uses no such table.
-    ///@{
-    std::shared_ptr<const bsdf::AlbedoTable> albedo_table{}, coat_albedo_table{};
-    ///@}
+    std::array<double, kMost> numbers{};  ///< the parameters, followed by zeros
 
-    TextureId normal_map = TextureId::none;  ///< texture that bends the shading normal, see NormalMap; none: not bent
-    TextureId opacity = TextureId::none;     ///< texture whose red is the opacity, see AlphaMask; none: opaque
-    double opacity_cutoff = 0;               ///< above 0: opaque if opacity >= opacity_cutoff, else fully transparent
-    bool tangents = false;                   ///< true if the material uses Surface::dp_du and Surface::dp_dv
+    LobeParameters() = default;
+    /// Stores the parameters of a struct.
+    template <template <class> class Named>
+    LobeParameters(const Named<double>& named) {
+        static_assert(sizeof(named) <= sizeof(numbers) && sizeof(named) % sizeof(double) == 0);
+        std::memcpy(numbers.data(), &named, sizeof(named));
+    }
+    /// Returns the parameters by name. \pre they were stored from the same struct
+    template <template <class> class Named>
+    Named<double> as() const {
+        Named<double> named;
+        std::memcpy(&named, numbers.data(), sizeof(named));
+        return named;
+    }
 };
 
 /// One material.
 struct MaterialRecord {
     std::string_view kind = "";              ///< "lambertian", "diffuse-light", ...; of static lifetime
     const bsdf::Lobe* lobe = nullptr;        ///< functions that scatter; null: the surface absorbs all light
-    TextureId texture = TextureId::none;     ///< albedo, reflectance or base colour; none: white
+    TextureId albedo = TextureId::none;      ///< albedo, reflectance or base colour; none: white
+    TextureId factors = TextureId::none;     ///< colour that multiplies parameters of the lobe; none: white
     TextureId emission = TextureId::none;    ///< emitted radiance; none: the surface doesn't emit
+    TextureId normal_map = TextureId::none;  ///< texture that bends the shading normal, see NormalMap; none: not bent
+    TextureId opacity = TextureId::none;     ///< texture whose red is the opacity, see AlphaMask; none: opaque
     Sides sides = Sides::both;               ///< sides that emit
-    double parameter = 0;                    ///< of the lobe: index of refraction, roughness or fuzz; 0 if unused
-    Fresnel fresnel = Fresnel::exact;        ///< formula of a dielectric's reflectance
     bool specular = false;                   ///< true if Material::value is zero for all directions
-    const Material* object = nullptr;        ///< user-defined: the material; not owning
+    bool uses_tangents = false;              ///< true if the material uses Surface::dp_du and Surface::dp_dv
+    double opacity_cutoff = 0;               ///< above 0: opaque if opacity >= opacity_cutoff, else fully transparent
+    LobeParameters parameters{};             ///< parameters of the lobe
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table{};       ///< albedos of its microfacets; null: not used
+    std::shared_ptr<const bsdf::AlbedoTable> coat_albedo_table{};  ///< albedos of a MetallicRoughness's coat
+    const Material* object = nullptr;                              ///< user-defined: the material; not owning
     const MaterialThunks* thunks = nullptr;  ///< user-defined: functions that call `object`; of static lifetime
-    std::shared_ptr<const MaterialDetails> details = nullptr;  ///< further parameters; null: all have their defaults
 };
 
 // ---- shapes --------------------------------------------------------------------------------------------------------
@@ -224,29 +234,6 @@ struct UserDefinedRecord {
 };
 static_assert(sizeof(UserDefinedRecord) == 64);
 
-// ---- lights that are no shapes -------------------------------------------------------------------------------------
-
-/// The kind of a light that is no shape.
-enum class LightSourceKind : std::uint8_t { point, spot, directional, sun };
-
-/// A light that is no shape, see limn/scene/lights.h. The comment of a field names the kinds that use it.
-struct LightRecord {
-    LightSourceKind kind = LightSourceKind::point;  ///< decides which of the other fields are used
-    Color color;                                    ///< point, spot: intensity; directional, sun: irradiance
-    Point3 position;                                ///< point, spot
-    Vec3 direction;                                 ///< spot, directional, sun: unit vector away from the light
-    double cos_inner = 1;                           ///< spot: cosine of the angle up to which the intensity is full
-    double cos_outer = 0;                           ///< spot: cosine of the angle from which on the intensity is 0
-    double one_minus_cos = 0;                       ///< sun: 1 - cos(angular radius)
-};
-
-/// An equirectangular environment map, see EnvironmentMap.
-struct EnvironmentRecord {
-    std::shared_ptr<const Image> image{};  ///< null: the scene has no map
-    Transform world_from_map{};            ///< rotation, perhaps with a reflection; no translation
-    double scale = 1;                      ///< factor of the radiance
-};
-
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
 /// A run of consecutive primitives of one kind in a BLAS. A mesh, an instance or a medium is a range of its own: it has
@@ -281,10 +268,8 @@ struct SceneRecords {
     std::vector<TextureRecord> textures;
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<std::shared_ptr<const PerlinLattice>> lattices;
-    std::vector<LightRecord> lights;
     ///@}
 
-    EnvironmentRecord environment;                                ///< replaces the background if it has an image
     std::vector<BlasRecord> blases = std::vector<BlasRecord>(1);  ///< row 0 is the scene itself
     std::vector<std::shared_ptr<const void>> kept;                ///< owners of what the records point to
     std::vector<std::string> tags;  ///< Tagged::tag of the user-defined objects, in the order of description

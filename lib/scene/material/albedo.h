@@ -1,4 +1,4 @@
-// What materials were given, checked.
+// Checks of the arguments of materials. \param material name of the material, for the message
 #pragma once
 
 #include <memory>
@@ -10,7 +10,6 @@
 
 namespace limn {
 
-/// \param material its name, for the message
 inline std::shared_ptr<const Texture> checked_albedo(const Color& albedo, const std::string& material) {
     require(is_reflectance(albedo), material + ": albedo must be in [0, 1]");
     return std::make_shared<SolidColor>(albedo);
@@ -22,7 +21,7 @@ inline std::shared_ptr<const Texture> checked_albedo(std::shared_ptr<const Textu
     return albedo;
 }
 
-/// \param what it is, for the message
+// \param what name of the material and the argument, for the message
 inline double checked_share(double share, const std::string& what) {
     require(share >= 0 && share <= 1, what + " must be in [0, 1]");
     return share;

@@ -17,9 +17,9 @@ Alphas checked_alphas(const Roughness& r, const std::string& material) {
     return {std::max(u * u, kLeastAlpha), std::max(v * v, kLeastAlpha)};
 }
 
-std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(const Alphas& alpha, double eta) {
+std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(double alpha_x, double alpha_y, double eta) {
     return std::make_shared<const bsdf::AlbedoTable>(
-        bsdf::albedo_of(std::max(alpha.x, kLeastAlpha), std::max(alpha.y, kLeastAlpha), eta));
+        bsdf::albedo_of(std::max(alpha_x, kLeastAlpha), std::max(alpha_y, kLeastAlpha), eta));
 }
 
 std::shared_ptr<const bsdf::AlbedoTable> albedo_table_by_roughness(double eta) {

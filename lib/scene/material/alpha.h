@@ -1,4 +1,4 @@
-// What microfacets were given, checked.
+// Functions for materials with microfacets.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,19 @@
 
 namespace limn {
 
+// The alphas of the distribution of normals. Both are 0 if the surface is smooth.
 struct Alphas {
-    double x, y;  // both 0: smooth
+    double x, y;
 };
 
-// Smooth where both alphas are below bsdf::kLeastAlpha; one alone is raised to it.
+// Returns the squares of roughnesses. The surface is smooth if both are below bsdf::kLeastAlpha. If one of them is, it
+// is raised to that. \param material name of the material, for the message
 Alphas checked_alphas(const Roughness& r, const std::string& material);
 
-// \param eta see bsdf::albedo_of
-std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(const Alphas& alpha, double eta);
-// One for all who ask at the same time: a model has hundreds of materials of one index. \param eta see
-// bsdf::albedo_by_roughness
+// Returns bsdf::albedo_of() with alphas of at least bsdf::kLeastAlpha.
+std::shared_ptr<const bsdf::AlbedoTable> albedo_table_of(double alpha_x, double alpha_y, double eta);
+// Returns bsdf::albedo_by_roughness(). Tables that exist at the same time are shared, since a model has hundreds of
+// materials of one index. Thread-safe.
 std::shared_ptr<const bsdf::AlbedoTable> albedo_table_by_roughness(double eta);
 
 }  // namespace limn

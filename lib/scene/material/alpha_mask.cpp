@@ -5,7 +5,6 @@
 #include "limn/scene/texture/solid.h"
 #include "math/require.h"
 #include "scene/material/albedo.h"
-#include "scene/material/details.h"
 
 namespace limn {
 
@@ -39,11 +38,9 @@ ScatterValue AlphaMask::value(const Surface& s, const Vec3& out, const Vec3& in)
 
 MaterialRecord AlphaMask::lower(RecordSink& sink) const {
     MaterialRecord record = material_->lower(sink);
-    MaterialDetails details = details_of(record);
-    require(details.opacity == TextureId::none, "AlphaMask: the material must not be an AlphaMask");
-    details.opacity = lower_texture(sink, opacity_);
-    details.opacity_cutoff = cutoff_;
-    record.details = std::make_shared<const MaterialDetails>(details);
+    require(record.opacity == TextureId::none, "AlphaMask: the material must not be an AlphaMask");
+    record.opacity = lower_texture(sink, opacity_);
+    record.opacity_cutoff = cutoff_;
     return record;
 }
 

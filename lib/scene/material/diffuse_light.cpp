@@ -18,7 +18,7 @@ DiffuseLight::DiffuseLight(std::shared_ptr<const Texture> radiance, Sides sides)
 }
 
 Color DiffuseLight::emitted(const Surface& s) const {
-    return shines(sides_, s.front_face) ? radiance_->value(s) : Color{};
+    return emits_on(sides_, s.front_face) ? radiance_->value(s) : Color{};
 }
 
 std::optional<ScatterSample> DiffuseLight::sample(const Surface&, const Vec3&, const Random3&) const {
@@ -26,11 +26,7 @@ std::optional<ScatterSample> DiffuseLight::sample(const Surface&, const Vec3&, c
 }
 
 MaterialRecord DiffuseLight::lower(RecordSink& sink) const {
-    MaterialRecord record;
-    record.kind = "diffuse-light";
-    record.emission = lower_texture(sink, radiance_);
-    record.sides = sides_;
-    return record;
+    return {.kind = "diffuse-light", .emission = lower_texture(sink, radiance_), .sides = sides_};
 }
 
 }  // namespace limn

@@ -12,15 +12,18 @@ namespace limn::isotropic::HWY_NAMESPACE {
 
 using namespace bsdf::HWY_NAMESPACE;
 
-// The isotropic phase function, albedo / (4 pi); no cosine.
+template <class N>
+using Input = LobeInput<N>;
+
+// The isotropic phase function, albedo / (4 pi). It has no cosine.
 struct Phase {
     template <class N>
-    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>&) {
+    static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>&) {
         const N pdf = uniform_sphere_pdf<N>();
         return {pdf * s.albedo, pdf};
     }
     template <class N>
-    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+    static HWY_INLINE LobeSample<N> sample(const Input<N>& s, const Vector<N>& random) {
         return {uniform_sphere(random.x, random.y), s.albedo, uniform_sphere_pdf<N>()};
     }
 };
@@ -33,13 +36,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace isotropic {
-
-LIMN_LOBE(.one_sided = false, .numbers = 2)
-
-}  // namespace isotropic
-
-namespace formulas = isotropic::HWY_NAMESPACE;
+LIMN_LOBE(isotropic, .one_sided = false, .numbers = 2)
 
 Isotropic::Isotropic(const Color& albedo) : albedo_(checked_albedo(albedo, "Isotropic")) {}
 
@@ -54,11 +51,7 @@ ScatterValue Isotropic::value(const Surface& s, const Vec3& out, const Vec3& in)
 }
 
 MaterialRecord Isotropic::lower(RecordSink& sink) const {
-    MaterialRecord record;
-    record.kind = "isotropic";
-    record.lobe = &isotropic::kLobe;
-    record.texture = lower_texture(sink, albedo_);
-    return record;
+    return {.kind = "isotropic", .lobe = &isotropic::kLobe, .albedo = lower_texture(sink, albedo_)};
 }
 
 }  // namespace limn

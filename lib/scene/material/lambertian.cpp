@@ -12,23 +12,27 @@ namespace limn::lambertian::HWY_NAMESPACE {
 
 using namespace bsdf::HWY_NAMESPACE;
 
-// The ideal diffuse lobe, f = albedo / pi, around the shading normal. What lies below the geometric surface is
-// absorbed, so that an interpolated normal cannot send light through the wall (Veach, Robust Monte Carlo Methods for
-// Light Transport Simulation, 1997, section 5.3).
+template <class N>
+using Input = LobeInput<N>;
+
+// The ideal diffuse lobe around the shading normal, f = albedo / pi. Light is absorbed if it is scattered below the
+// geometric surface. An interpolated normal thus cannot send light through a wall (Veach, Robust Monte Carlo Methods
+// for Light Transport Simulation, 1997, section 5.3).
 struct Diffuse {
+    // Returns the pdf of `in`.
     template <class N>
-    static HWY_INLINE N density(const LobeInput<N>& s, const Vector<N>& in) {
+    static HWY_INLINE N density(const Input<N>& s, const Vector<N>& in) {
         const N cosine = dot(in, s.shading_normal);
         return select((dot(in, s.normal) > 0.0) & (cosine > 0.0), cosine_hemisphere_pdf(cosine), 0.0);
     }
-    // f |cos| and its density are both proportional to the cosine: their ratio is the albedo.
+    // f |cos| and the pdf are both proportional to the cosine. Their ratio is the albedo.
     template <class N>
-    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>& in) {
+    static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>& in) {
         const N pdf = density(s, in);
         return {pdf * s.albedo, pdf};
     }
     template <class N>
-    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+    static HWY_INLINE LobeSample<N> sample(const Input<N>& s, const Vector<N>& random) {
         const Vector<N> in = Basis<N>(s.shading_normal).to_world(cosine_hemisphere(random.x, random.y));
         const N pdf = density(s, in);
         return {in, weight_where(pdf > 0.0, s.albedo), pdf};
@@ -43,13 +47,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace lambertian {
-
-LIMN_LOBE(.one_sided = true, .numbers = 2)
-
-}  // namespace lambertian
-
-namespace formulas = lambertian::HWY_NAMESPACE;
+LIMN_LOBE(lambertian, .one_sided = true, .numbers = 2)
 
 Lambertian::Lambertian(const Color& albedo) : albedo_(checked_albedo(albedo, "Lambertian")) {}
 
@@ -65,11 +63,7 @@ ScatterValue Lambertian::value(const Surface& s, const Vec3& out, const Vec3& in
 }
 
 MaterialRecord Lambertian::lower(RecordSink& sink) const {
-    MaterialRecord record;
-    record.kind = "lambertian";
-    record.lobe = &lambertian::kLobe;
-    record.texture = lower_texture(sink, albedo_);
-    return record;
+    return {.kind = "lambertian", .lobe = &lambertian::kLobe, .albedo = lower_texture(sink, albedo_)};
 }
 
 }  // namespace limn

@@ -17,12 +17,11 @@ constexpr MaterialThunks kVirtualCalls{
 
 MaterialRecord Material::lower(RecordSink& sink) const {
     sink.identify(dynamic_cast<const Tagged*>(this));
-    MaterialRecord record;
-    record.kind = kUserDefinedMaterial;
-    record.lobe = &bsdf::kUserDefined;
-    record.object = this;
-    record.thunks = &kVirtualCalls;
-    return record;
+    return {.kind = kUserDefinedMaterial,
+            .lobe = &bsdf::kUserDefined,
+            .uses_tangents = true,
+            .object = this,
+            .thunks = &kVirtualCalls};
 }
 
 MaterialId lower_material(RecordSink& sink, const std::shared_ptr<const Material>& material) {

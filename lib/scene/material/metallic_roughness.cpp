@@ -15,7 +15,10 @@ namespace limn::metallic_roughness::HWY_NAMESPACE {
 
 using namespace bsdf::HWY_NAMESPACE;
 
-// The tables' rows are roughnesses; the first table is of facets that reflect all, that of the coat by its index.
+template <class N>
+using Input = LobeInput<N, MetallicRoughness::Parameters>;
+
+// The albedos of facets that reflect all light, and of the coat. The rows of both tables are roughnesses.
 template <class N>
 struct Albedos {
     N facets, coat;
@@ -23,23 +26,23 @@ struct Albedos {
 
 constexpr double kLeastRoughness = 1e-3;
 
-// Details 0 and 1: roughness and metallic, by which the second texture's green and blue are multiplied; the parameter
-// is the coat's index.
+// A metal, mixed with a diffuse base below a coat. The green and the blue of Input::factors are the factors of
+// roughness and metallic.
 template <class N>
 struct Vertex {
-    const LobeInput<N>& s;
+    const Input<N>& s;
     N roughness, metallic;
     Microsurface<N> surface;
     ShadingFrame<N> frame;
-    Albedos<N> seen;  // from `out`
-    N by_facets;      // how often facets are sampled, or else the cosine: by about what each of the two reflects
+    Albedos<N> seen;  // the albedos for `out`
+    N by_facets;      // the probability of sampling facets, not the cosine: about their share of the light
 
     static HWY_INLINE N share(N x) { return min(max(x, 0.0), 1.0); }
 
-    HWY_INLINE explicit Vertex(const LobeInput<N>& input)
+    HWY_INLINE explicit Vertex(const Input<N>& input)
         : s(input),
-          roughness(max(share(input.details[0] * input.second_texture.y), kLeastRoughness)),
-          metallic(share(input.details[1] * input.second_texture.z)),
+          roughness(max(share(s.parameters.roughness * s.factors.y), kLeastRoughness)),
+          metallic(share(s.parameters.metallic * s.factors.z)),
           surface{roughness * roughness, roughness * roughness},
           frame(input),
           seen(albedos(frame.out)) {
@@ -53,6 +56,8 @@ struct Vertex {
         return {albedo_at(s.albedo_table, roughness, cosine), albedo_at(s.coat_albedo_table, roughness, cosine)};
     }
     HWY_INLINE LobeValue<N> value(const Vector<N>& world) const {
+        // Find what does not depend on the colour: light that the metal scatters once and more than once, light that
+        // the coat reflects, and light that leaves a white base through the coat.
         const Vector<N> in = frame.to_local(world), &out = frame.out;
         const Mask<N> above = (in.z > 0.0) & (dot(world, s.normal) > 0.0);
         const Vector<N> m = normalize(out + in);
@@ -62,8 +67,9 @@ struct Vertex {
         const N mean = mean_albedo(s.albedo_table, roughness), coat_mean = mean_albedo(s.coat_albedo_table, roughness);
         const N once = surface.scattered_once(out, in, m);
         const N often = metallic * spread_evenly(1.0 - seen.facets, 1.0 - lit.facets, mean, cosine_pdf);
-        const N coat = matte * reflectance_exact(cosine, s.parameter) * once;
+        const N coat = matte * reflectance_exact(cosine, s.parameters.index) * once;
         const N below = matte * spread_evenly(1.0 - seen.coat, 1.0 - lit.coat, coat_mean, cosine_pdf);
+        // Mix them for each component of the base colour.
         const auto of = [&](N base) HWY_ATTR {
             const N metal = schlick(base, cosine) * once * metallic + reflected_often(mean_schlick(base), mean) * often;
             return metal + coat + below * base;
@@ -76,11 +82,11 @@ struct Vertex {
 
 struct Mixture {
     template <class N>
-    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>& in) {
+    static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>& in) {
         return Vertex<N>(s).value(in);
     }
     template <class N>
-    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+    static HWY_INLINE LobeSample<N> sample(const Input<N>& s, const Vector<N>& random) {
         const Vertex<N> vertex(s);
         const Vector<N> mirrored = vertex.surface.mirrored(vertex.frame.out, random.x, random.y);
         const Vector<N> local = select(random.z < vertex.by_facets, mirrored, cosine_hemisphere(random.x, random.y));
@@ -98,24 +104,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace metallic_roughness {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3)
-
-}  // namespace metallic_roughness
-
-namespace formulas = metallic_roughness::HWY_NAMESPACE;
+LIMN_LOBE(metallic_roughness, .one_sided = true, .numbers = 3, .microfacets = true)
 
 namespace {
 
-std::shared_ptr<const MaterialDetails> details_of(double metallic, double roughness, double index) {
+MetallicRoughness::Parameters<double> checked_parameters(double index, double metallic, double roughness) {
     require(std::isfinite(index) && index >= 1, "MetallicRoughness: index must be at least 1 and finite");
-    MaterialDetails details;
-    details.numbers = {checked_share(roughness, "MetallicRoughness: roughness"),
-                       checked_share(metallic, "MetallicRoughness: metallic")};
-    details.albedo_table = albedo_table_by_roughness(0);
-    details.coat_albedo_table = albedo_table_by_roughness(index);
-    return std::make_shared<const MaterialDetails>(details);
+    return {index, checked_share(metallic, "MetallicRoughness: metallic"),
+            checked_share(roughness, "MetallicRoughness: roughness")};
 }
 
 Color texel(const Texture* metallic_roughness, const Surface& s) {
@@ -130,8 +126,9 @@ MetallicRoughness::MetallicRoughness(const Color& base_color, double metallic, d
 MetallicRoughness::MetallicRoughness(std::shared_ptr<const Texture> base_color, double metallic, double roughness,
                                      double index)
     : base_color_(checked_albedo(std::move(base_color), "MetallicRoughness")),
-      index_(index),
-      details_(details_of(metallic, roughness, index)) {}
+      parameters_(checked_parameters(index, metallic, roughness)),
+      albedo_table_(albedo_table_by_roughness(0)),
+      coat_albedo_table_(albedo_table_by_roughness(index)) {}
 
 MetallicRoughness::MetallicRoughness(std::shared_ptr<const Texture> base_color,
                                      std::shared_ptr<const Texture> metallic_roughness, double metallic,
@@ -143,25 +140,26 @@ MetallicRoughness::MetallicRoughness(std::shared_ptr<const Texture> base_color,
 
 std::optional<ScatterSample> MetallicRoughness::sample(const Surface& s, const Vec3& out, const Random3& random) const {
     return formulas::sample_one<formulas::Mixture>(
-        formulas::input_of(s, out, base_color_->value(s), index_, *details_, texel(metallic_roughness_.get(), s)),
+        formulas::input_of(s, out, base_color_->value(s), parameters_, albedo_table_.get(),
+                           texel(metallic_roughness_.get(), s), coat_albedo_table_.get()),
         random);
 }
 
 ScatterValue MetallicRoughness::value(const Surface& s, const Vec3& out, const Vec3& in) const {
     return formulas::value_one<formulas::Mixture>(
-        formulas::input_of(s, out, base_color_->value(s), index_, *details_, texel(metallic_roughness_.get(), s)), in);
+        formulas::input_of(s, out, base_color_->value(s), parameters_, albedo_table_.get(),
+                           texel(metallic_roughness_.get(), s), coat_albedo_table_.get()),
+        in);
 }
 
 MaterialRecord MetallicRoughness::lower(RecordSink& sink) const {
-    MaterialDetails details = *details_;
-    details.texture = lower_texture(sink, metallic_roughness_);
-    MaterialRecord record;
-    record.kind = "metallic-roughness";
-    record.lobe = &metallic_roughness::kLobe;
-    record.texture = lower_texture(sink, base_color_);
-    record.parameter = index_;
-    record.details = std::make_shared<const MaterialDetails>(details);
-    return record;
+    return {.kind = "metallic-roughness",
+            .lobe = &metallic_roughness::kLobe,
+            .albedo = lower_texture(sink, base_color_),
+            .factors = lower_texture(sink, metallic_roughness_),
+            .parameters = parameters_,
+            .albedo_table = albedo_table_,
+            .coat_albedo_table = coat_albedo_table_};
 }
 
 }  // namespace limn

@@ -15,16 +15,19 @@ namespace limn::rough_conductor::HWY_NAMESPACE {
 
 using namespace bsdf::HWY_NAMESPACE;
 
-// Details 0 to 2: the edge tint.
 template <class N>
-struct Vertex : Facets<N> {
-    using Facets<N>::s, Facets<N>::frame, Facets<N>::smooth, Facets<N>::surface;
-    N lost;  // of the light of white facets, what is not scattered once
+using Input = LobeInput<N, RoughConductor::Parameters>;
 
-    HWY_INLINE explicit Vertex(const LobeInput<N>& input) : Facets<N>(input), lost(1.0 - this->albedo(frame.out)) {}
+template <class N>
+struct Vertex : Facets<Input<N>> {
+    using Base = Facets<Input<N>>;
+    using Base::s, Base::frame, Base::smooth, Base::surface;
+    N lost;  // the share of the light that white facets don't scatter once
 
-    // Of one component: what facets reflect, times the light that was scattered once, and what multiple scattering adds
-    // to it.
+    HWY_INLINE explicit Vertex(const Input<N>& input) : Base(input), lost(1.0 - this->albedo(frame.out)) {}
+
+    // Return one component, or all, of the light that facets of this reflectance and tint scatter. `once` is the light
+    // that white facets scatter once, `often` the light that they scatter more than once.
     HWY_INLINE N reflected(N reflectance, N tint, N cosine, N once, N often, N mean_albedo) const {
         const ConductorIndex<N> index(min(reflectance, 1 - 0x1p-53), tint);
         const N mean = mean_over_cosines<N>([&](N c) HWY_ATTR { return reflectance_conductor(c, index); });
@@ -33,10 +36,10 @@ struct Vertex : Facets<N> {
                select(all, 1.0, reflected_often(mean, mean_albedo)) * often;
     }
     HWY_INLINE Vector<N> reflected(N cosine, N once, N often, N mean_albedo) const {
-        const N* tint = s.details;
-        return {reflected(s.albedo.x, tint[0], cosine, once, often, mean_albedo),
-                reflected(s.albedo.y, tint[1], cosine, once, often, mean_albedo),
-                reflected(s.albedo.z, tint[2], cosine, once, often, mean_albedo)};
+        const auto& [tint_r, tint_g, tint_b, alpha_x, alpha_y] = s.parameters;
+        return {reflected(s.albedo.x, tint_r, cosine, once, often, mean_albedo),
+                reflected(s.albedo.y, tint_g, cosine, once, often, mean_albedo),
+                reflected(s.albedo.z, tint_b, cosine, once, often, mean_albedo)};
     }
     HWY_INLINE LobeValue<N> value(const Vector<N>& world) const {
         const Vector<N> in = frame.to_local(world), &out = frame.out;
@@ -53,12 +56,13 @@ struct Vertex : Facets<N> {
 
 struct Conductor {
     template <class N>
-    static HWY_INLINE LobeValue<N> value(const LobeInput<N>& s, const Vector<N>& in) {
+    static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>& in) {
         return Vertex<N>(s).value(in);
     }
-    // By the visible normals, or, as often as light is scattered more than once, by the cosine.
+    // Draws directions by the visible normals, or by the cosine. The probability of the latter is the share of the
+    // light that is scattered more than once.
     template <class N>
-    static HWY_INLINE LobeSample<N> sample(const LobeInput<N>& s, const Vector<N>& random) {
+    static HWY_INLINE LobeSample<N> sample(const Input<N>& s, const Vector<N>& random) {
         const Vertex<N> facets(s);
         const Vector<N> mirrored = facets.surface.mirrored(facets.frame.out, random.x, random.y);
         const Vector<N> spread = cosine_hemisphere(random.x, random.y);
@@ -81,35 +85,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace limn {
 
-namespace rough_conductor {
-
-LIMN_LOBE(.one_sided = true, .numbers = 3)
-
-}  // namespace rough_conductor
-
-namespace formulas = rough_conductor::HWY_NAMESPACE;
+LIMN_LOBE(rough_conductor, .one_sided = true, .numbers = 3, .microfacets = true)
 
 namespace {
 
-std::shared_ptr<const MaterialDetails> details_of(const Color& edge_tint, const Roughness& roughness) {
+RoughConductor::Parameters<double> parameters_of(const Color& edge_tint, const Roughness& roughness) {
     const Alphas alpha = checked_alphas(roughness, "RoughConductor");
-    MaterialDetails details;
-    details.numbers = {edge_tint.r, edge_tint.g, edge_tint.b, alpha.x, alpha.y};
-    details.tangents = alpha.x != alpha.y;
-    details.albedo_table = albedo_table_of(alpha, 0);
-    return std::make_shared<const MaterialDetails>(details);
+    return {edge_tint.r, edge_tint.g, edge_tint.b, alpha.x, alpha.y};
 }
 
-std::shared_ptr<const MaterialDetails> checked_details(const Color& edge_tint, const Roughness& roughness) {
+Color checked_tint(const Color& edge_tint) {
     require(is_reflectance(edge_tint), "RoughConductor: edge tint must be in [0, 1]");
-    return details_of(edge_tint, roughness);
+    return edge_tint;
 }
 
-// The reflectance at normal incidence and the edge tint of which ConductorIndex makes the index again.
+// A reflectance at normal incidence and an edge tint.
 struct Tinted {
     double reflectance, edge_tint;
 };
 
+// Returns the reflectance and the tint for which ConductorIndex computes eta and k again.
 Tinted tinted(double eta, double k) {
     const double below = (eta - 1) * (eta - 1) + k * k, above = (eta + 1) * (eta + 1) + k * k;
     const double reflectance = below / above, root = std::sqrt(reflectance);
@@ -133,35 +128,37 @@ TintedColor tinted(const ComplexIndex& index) {
 }  // namespace
 
 RoughConductor::RoughConductor(const Color& reflectance, const Roughness& roughness, const Color& edge_tint)
-    : reflectance_(checked_albedo(reflectance, "RoughConductor")), details_(checked_details(edge_tint, roughness)) {}
+    : RoughConductor(checked_albedo(reflectance, "RoughConductor"), roughness, edge_tint) {}
 
 RoughConductor::RoughConductor(std::shared_ptr<const Texture> reflectance, const Roughness& roughness,
                                const Color& edge_tint)
     : reflectance_(checked_albedo(std::move(reflectance), "RoughConductor")),
-      details_(checked_details(edge_tint, roughness)) {}
+      parameters_(parameters_of(checked_tint(edge_tint), roughness)),
+      albedo_table_(albedo_table_of(parameters_.alpha_x, parameters_.alpha_y, 0)) {}
 
 RoughConductor::RoughConductor(const ComplexIndex& index, const Roughness& roughness)
     : reflectance_(checked_albedo(tinted(index).reflectance, "RoughConductor")),
-      details_(details_of(tinted(index).edge_tint, roughness)) {}
+      parameters_(parameters_of(tinted(index).edge_tint, roughness)),
+      albedo_table_(albedo_table_of(parameters_.alpha_x, parameters_.alpha_y, 0)) {}
 
 std::optional<ScatterSample> RoughConductor::sample(const Surface& s, const Vec3& out, const Random3& random) const {
-    return formulas::sample_one<formulas::Conductor>(formulas::input_of(s, out, reflectance_->value(s), 0, *details_),
-                                                     random);
+    return formulas::sample_one<formulas::Conductor>(
+        formulas::input_of(s, out, reflectance_->value(s), parameters_, albedo_table_.get()), random);
 }
 
 ScatterValue RoughConductor::value(const Surface& s, const Vec3& out, const Vec3& in) const {
-    return formulas::value_one<formulas::Conductor>(formulas::input_of(s, out, reflectance_->value(s), 0, *details_),
-                                                    in);
+    return formulas::value_one<formulas::Conductor>(
+        formulas::input_of(s, out, reflectance_->value(s), parameters_, albedo_table_.get()), in);
 }
 
 MaterialRecord RoughConductor::lower(RecordSink& sink) const {
-    MaterialRecord record;
-    record.kind = "rough-conductor";
-    record.lobe = &rough_conductor::kLobe;
-    record.texture = lower_texture(sink, reflectance_);
-    record.specular = details_->numbers[3] == 0;
-    record.details = details_;
-    return record;
+    return {.kind = "rough-conductor",
+            .lobe = &rough_conductor::kLobe,
+            .albedo = lower_texture(sink, reflectance_),
+            .specular = parameters_.alpha_x == 0,
+            .uses_tangents = parameters_.alpha_x != parameters_.alpha_y,
+            .parameters = parameters_,
+            .albedo_table = albedo_table_};
 }
 
 }  // namespace limn

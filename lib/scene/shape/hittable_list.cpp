@@ -1,5 +1,6 @@
 #include "limn/scene/shape/hittable_list.h"
 
+#include "math/float_environment.h"
 #include "scene/shape/arguments.h"
 
 namespace limn {
@@ -9,6 +10,7 @@ HittableList::HittableList(std::vector<std::shared_ptr<const Hittable>> objects)
 }
 
 void HittableList::add(std::shared_ptr<const Hittable> object) {
+    const FloatEnvironment environment;
     require_not_null(object, "HittableList", "an object");
     if (object.get() == this) throw ArgumentError("HittableList: a list cannot contain itself");
     first_element_.push_back(elements_);

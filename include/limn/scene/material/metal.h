@@ -12,6 +12,12 @@ namespace limn {
 /// that way is (f - c)^2 (2 f + c) / (4 f^3) if c < f, and 0 otherwise. It is one half at grazing incidence.
 class Metal final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N fuzz;  ///< radius of the ball
+    };
+
     /// \param albedo share of the light that is reflected, in [0, 1], or a texture
     /// \param fuzz radius of the ball, in [0, 1]; 0 is a perfect mirror
     ///
@@ -26,7 +32,7 @@ public:
 
 private:
     std::shared_ptr<const Texture> albedo_;
-    double fuzz_;
+    Parameters<double> parameters_;
 };
 
 }  // namespace limn

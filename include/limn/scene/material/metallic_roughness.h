@@ -18,6 +18,14 @@ namespace limn {
 /// shading normal would scatter below the geometric surface is absorbed.
 class MetallicRoughness final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N index;      ///< index of refraction of the coat over that of the outside
+        N metallic;   ///< share of the metal, or the factor of the texture's blue
+        N roughness;  ///< roughness, or the factor of the texture's green
+    };
+
     /// Makes a material of constant metallic and roughness. A roughness below 0.001 counts as 0.001, so no
     /// MetallicRoughness is perfectly smooth. RoughConductor and Plastic can be.
     ///
@@ -46,8 +54,8 @@ public:
 
 private:
     std::shared_ptr<const Texture> base_color_, metallic_roughness_;  // metallic_roughness_ may be null
-    double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // parameters of the record, without the id of its texture
+    Parameters<double> parameters_;
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table_, coat_albedo_table_;  // by roughness
 };
 
 }  // namespace limn

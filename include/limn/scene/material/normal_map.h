@@ -34,12 +34,12 @@ public:
     MaterialRecord lower(RecordSink& sink) const override;
 
 private:
-    // Returns `s` with the bent shading normal. If `folds_`, its geometric normal is the bent normal too.
+    // Returns `s` with the bent shading normal. If `has_tangent_facet_`, its geometric normal is the bent normal too.
     Surface bent(const Surface& s, const Vec3& out) const;
 
     std::shared_ptr<const Material> material_;
     std::shared_ptr<const Texture> normals_;
-    bool folds_;  // true if light that is reflected below the surface is mirrored back
+    bool has_tangent_facet_;  // true if light that is reflected below the surface is mirrored back
 };
 
 }  // namespace limn

@@ -12,6 +12,12 @@ namespace limn {
 /// interpolated shading normal would scatter below the geometric surface is absorbed.
 class OrenNayar final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N roughness;  ///< in [0, 1]
+    };
+
     /// \param albedo albedo of a facet, in [0, 1], or a texture
     /// \param roughness in [0, 1]; 0 is Lambertian
     ///
@@ -26,7 +32,7 @@ public:
 
 private:
     std::shared_ptr<const Texture> albedo_;
-    double roughness_;
+    Parameters<double> parameters_;
 };
 
 }  // namespace limn

@@ -14,6 +14,14 @@ namespace limn {
 /// that an interpolated shading normal would scatter below the geometric surface is absorbed.
 class Plastic final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N index;    ///< index of refraction of the coat over that of the outside
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: smooth
+        N alpha_y;  ///< square of the roughness perpendicular to it
+    };
+
     /// \param albedo share of the light entering the coat that leaves it again, in [0, 1], or a texture
     /// \param roughness roughness of the coat, see Roughness
     /// \param index index of refraction of the coat over that of the outside, at least 1
@@ -33,8 +41,8 @@ public:
 
 private:
     std::shared_ptr<const Texture> albedo_, specular_;
-    double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // parameters of the record, without the id of its texture
+    Parameters<double> parameters_;
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table_;
 };
 
 }  // namespace limn

@@ -23,6 +23,17 @@ struct ComplexIndex {
 /// normal would scatter below the geometric surface is absorbed.
 class RoughConductor final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        /// A component of the edge tint.
+        ///@{
+        N edge_tint_r, edge_tint_g, edge_tint_b;
+        ///@}
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: smooth
+        N alpha_y;  ///< square of the roughness perpendicular to it
+    };
+
     /// Makes a conductor of the given reflectance at normal incidence. The edge tint controls how the reflectance rises
     /// to 1 towards grazing incidence (Gulbrandsen, Artist Friendly Metallic Fresnel, JCGT 3(4), 2014).
     ///
@@ -47,7 +58,8 @@ public:
 
 private:
     std::shared_ptr<const Texture> reflectance_;
-    std::shared_ptr<const MaterialDetails> details_;
+    Parameters<double> parameters_;
+    std::shared_ptr<const bsdf::AlbedoTable> albedo_table_;
 };
 
 }  // namespace limn

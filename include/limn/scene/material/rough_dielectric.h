@@ -18,6 +18,14 @@ namespace limn {
 /// roughness of 1.
 class RoughDielectric final : public Material {
 public:
+    /// The parameters of the lobe. N is double, or a vector of doubles.
+    template <class N>
+    struct Parameters {
+        N index;    ///< index of refraction inside over that outside
+        N alpha_x;  ///< square of the roughness along Surface::dp_du; 0: the surface is a Dielectric
+        N alpha_y;  ///< square of the roughness perpendicular to it
+    };
+
     /// \param index index of refraction inside over that outside, where outside is the side of the shape's outward
     /// normal; below 1 for a bubble
     /// \param roughness see Roughness
@@ -29,8 +37,7 @@ public:
     MaterialRecord lower(RecordSink& sink) const override;
 
 private:
-    double index_;
-    std::shared_ptr<const MaterialDetails> details_;  // null: a Dielectric
+    Parameters<double> parameters_;
 };
 
 }  // namespace limn
