@@ -94,11 +94,11 @@ private:
 
         // Returns a direction that is uniform per solid angle.
         HWY_INLINE Vector<Doubles> sample(Doubles a, Doubles b) const {
-            const Doubles share = lower / both;
-            const Mask<Doubles> below = a < share;
+            const Doubles lower_share = lower / both;
+            const Mask<Doubles> below = a < lower_share;
             const SphericalTriangle<Doubles> half(select(below, u, v), select(below, origin, opposite),
                                                   select(below, v, u));
-            return half.sample(select(below, a / share, (a - share) / (1.0 - share)), b);
+            return half.sample(select(below, a / lower_share, (a - lower_share) / (1.0 - lower_share)), b);
         }
     };
 

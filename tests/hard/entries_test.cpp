@@ -160,9 +160,11 @@ void add_constructors(std::vector<Entry>& entries) {
 }
 
 void add_shapes(std::vector<Entry>& entries, const World& w) {
-    for (const auto& [name, shape] : w.shapes) {
-        entries.push_back({name + "::bounds", [&shape = shape](Results& r) { r.add(shape->bounds()); }});
-        entries.push_back({name + "::hit", each(w.rays, [&](std::size_t i) { return shape->hit(w.rays[i]); })});
+    for (const auto& named : w.shapes) {
+        const Hittable* const shape = named.second.get();
+        entries.push_back({named.first + "::bounds", [shape](Results& r) { r.add(shape->bounds()); }});
+        entries.push_back(
+            {named.first + "::hit", each(w.rays, [&w, shape](std::size_t i) { return shape->hit(w.rays[i]); })});
     }
     const std::vector<Surface>& s = w.surfaces;
     entries.push_back({"offset_origin", each(s, [&](std::size_t i) {
