@@ -2,8 +2,9 @@
 // traps.
 //
 // A thread that calls limn may have another environment. Other ray tracers ask their users to flush subnormals. A
-// program may round upward, or trap divisions by zero, which the slab test does on purpose. Therefore every entry into
-// limn holds a FloatEnvironment while it works.
+// program may round upward, or trap divisions by zero, which the slab test does on purpose. Therefore limn sets the
+// environment in a few places that all work passes: ask() for queries (query/ask.h), the loops of math/parallel.h,
+// BuiltInShape, and math/surface.cpp. Constructors that decide something exactly set it too.
 #pragma once
 
 namespace limn {

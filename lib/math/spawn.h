@@ -1,4 +1,4 @@
-// Rays that start on surfaces, for callers that hold a FloatEnvironment already.
+// These functions make rays that leave surfaces. Their caller holds a FloatEnvironment.
 #pragma once
 
 #include "limn/math/ray.h"

@@ -30,7 +30,8 @@ inline bool is_fit(const Ray& r) {
     return (bits(d.x) | bits(d.y) | bits(d.z)) != 0 && r.t_min <= r.t_max && r.t_min < kInfinity;
 }
 
-using Excluded = std::optional<trace::Filter>;  // a filter in the form that traversal uses; std::nullopt: none
+// A filter in the form that traversal uses. It is std::nullopt if nothing is excluded.
+using Excluded = std::optional<trace::Filter>;
 
 // Converts a filter. RayFilter::without_each is ignored.
 // \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects; the message begins

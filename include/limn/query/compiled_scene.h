@@ -132,7 +132,8 @@ public:
                             const RayFilter& filter = kNoFilter) const;
     std::size_t any_hit(std::span<const Ray> rays, std::span<std::uint8_t> occluded, int threads = 1,
                         const RayFilter& filter = kNoFilter) const;
-    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1, const RayFilter& filter = kNoFilter) const;
+    std::size_t all_hits(std::span<const Ray> rays, RayHits& hits, int threads = 1,
+                         const RayFilter& filter = kNoFilter) const;
     std::size_t count_intersections(std::span<const Ray> rays, std::span<std::uint64_t> counts, int threads = 1,
                                     const RayFilter& filter = kNoFilter) const;
     ///@}

@@ -88,7 +88,7 @@ struct RayFilter {
     }
 };
 
-inline constexpr RayFilter kNoFilter;  ///< a filter of which no primitive is ignored
+inline constexpr RayFilter kNoFilter;  ///< the filter that ignores no primitive
 
 /// All hits of many rays. The hits of ray i have the indices from first[i] up to, but not including, first[i + 1].
 struct RayHits {
