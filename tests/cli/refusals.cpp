@@ -144,7 +144,8 @@ TEST_CASE("limn: wrong arguments end with status 2, a message on stderr and noth
         {{"render", model, "--film", folder.path("a.film"), "--preview", "1"}, "--preview: there is no -o"},
         {{"render", model, "-o", out, "--exposure", "bright"}, "--exposure bright"},
         {{"merge", model, "-o", out, "--channels", "error,albedo"},
-         "--channels error,albedo: must be of error, samples: the others are of the scene, which no film holds"},
+         "--channels error,albedo: only error and samples are possible: the other channels need the scene, which a "
+         "film does not store"},
         {{"trace", "-"}, "MODEL -: standard input cannot be the rays too"},
         {{"render", model, "-o", folder.path("out.png"), "--channels", "error"}, "--channels: only an EXR"},
         {{"render", model, "-o", out, "--resume"}, "--resume"},
