@@ -59,7 +59,8 @@ public:
     // Returns the solid angle in steradians. It is 0 if `from` is in the rectangle's plane.
     N solid_angle() const { return solid_angle_; }
 
-    // Returns a point of the rectangle whose direction from `from` is uniform per solid angle. \pre solid_angle() > 0
+    // Returns a point of the rectangle whose direction from `from` is uniform: its pdf is 1 / solid_angle() per solid
+    // angle. \pre solid_angle() > 0
     HWY_INLINE Weights<N> sample(N u, N v) const {
         const N z2 = z0_ * z0_;
         // Compute au = u * solid_angle + 2 pi - g2 - g3.
@@ -117,7 +118,8 @@ public:
     // Returns the solid angle in steradians. It is 0 if the corners are on a great circle.
     N solid_angle() const { return solid_angle_; }
 
-    // Returns a unit vector that is uniform per solid angle. \pre solid_angle() > 0
+    // Returns a uniform unit vector towards the triangle: its pdf is 1 / solid_angle() per solid angle.
+    // \pre solid_angle() > 0
     //
     // A corner p moves from a towards c until the triangle a, b, p has the solid angle s = u solid_angle(). The result
     // is on the arc from b to p; v determines how far along.
