@@ -194,7 +194,7 @@ TEST_CASE("Films: where no plan can be made the picture is saved, and the films 
     CHECK(render.folder.names() == Names{"a.exr", "a.film", "house.obj"});
 }
 
-TEST_CASE("Films: --error over shards, in rounds", "[cli][films]") {
+TEST_CASE("Films: rounds of shards with the plans of limn merge reach the error and then stop", "[cli][films]") {
     const Render render;
     const auto round = [&](const Words& more) {
         for (const char* i : {"1", "2"}) {
