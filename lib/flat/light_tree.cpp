@@ -166,7 +166,8 @@ private:
         for (std::size_t a = 0; a < 3; ++a) {
             node.center[a] = static_cast<float>(b.box.center()[a]);
             node.axis[a] = static_cast<float>(b.cone.axis[a]);
-            // Compute the half side from the rounded centre. Add a little for the rounding of points at other times.
+            // Compute the half side from the rounded centre. Add 9000 roundings (2^-53) of the largest coordinate: a
+            // point of a moving light is rounded fewer than 100 times.
             const double off =
                 std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
             const double most = std::max(std::abs(b.box.upper[a]), std::abs(b.box.lower[a]));

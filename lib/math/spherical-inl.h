@@ -81,7 +81,8 @@ public:
             select(cancels, sign * (au.sine * au.sine) / (1.0 - sign * au.cosine), au.cosine + sign);
         const N b_difference = copy_sign(1.0, b1) * (q1 - q0) / (abs(b0) + abs(b1));
         const N fu = (cosine_less_sign * b0 + b_difference) / au.sine;
-        // Compute the coordinate x of the sample, then y from v.
+        // Compute the coordinate x of the sample, then y from v. By rounding fu^2 - q0 may be 0 or negative. The result
+        // is then beyond x0 or x1, and clamped to it.
         const N xu = min(max(copy_sign(-z0_, fu) / sqrt(max(fu * fu - q0, 1e-300)), x0_), x1_);
         const N distance2 = xu * xu + z2;
         const N h0 = y0_ / sqrt(distance2 + y0_ * y0_), h1 = y1_ / sqrt(distance2 + y1_ * y1_);
