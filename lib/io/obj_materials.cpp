@@ -185,7 +185,7 @@ private:
             return scaled(alpha ? *alpha : grey(load_image(path, Encoding::raw)), {share, share, share}, 1);
         });
         if (opacity) return std::make_shared<AlphaMask>(material, opacity);
-        if (share == 0) model_.warnings.push_back("material " + in_quotes(name) + " is invisible, for its d is 0");
+        if (share == 0) model_.warnings.push_back("material " + in_quotes(name) + " is invisible: its d is 0");
         return share < 1 ? std::make_shared<AlphaMask>(material, share) : material;
     }
 
