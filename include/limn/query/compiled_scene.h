@@ -35,8 +35,9 @@ struct SceneStats {
 
 /// A scene in the flat form that limn traces rays against. `compile` makes it from a Scene.
 ///
-/// It is immutable, and any number of threads may query it at the same time. It shares ownership of what it needs of
-/// the Scene, which may be destroyed. A moved-from CompiledScene may only be assigned to or destroyed.
+/// It is immutable, and any number of threads may query it at the same time. It shares ownership of the arrays and
+/// objects of the Scene that it needs. The Scene may be destroyed. A moved-from CompiledScene may only be assigned to
+/// or destroyed.
 ///
 /// Queries decide exactly what is hit, crossed or inside. docs/queries.md explains their rules, with examples. They
 /// throw what the functions of user-defined objects throw, and ArgumentError as said below.
@@ -50,13 +51,13 @@ public:
     ///@}
     ~CompiledScene();
 
-    /// Returns the nearest hit with t in (t_min, t_max]. Of equally near hits it is the one whose primitive has the
-    /// lowest number. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable ray (see
-    /// is_usable) misses.
+    /// Returns the nearest hit with t in (t_min, t_max]. If several are equally near, the one on the primitive with the
+    /// lowest number is returned. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable
+    /// ray (see is_usable) misses.
     /// \param filter the primitives that the ray ignores. Queries with a filter are somewhat slower.
     /// \throws ArgumentError if `filter.objects` is not empty and does not have one value for each object of the scene
     std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
-    /// Returns true if closest_hit finds a hit for the ray. Throws as closest_hit does.
+    /// Returns true if closest_hit finds a hit for the ray. Throws ArgumentError as closest_hit does.
     bool any_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
