@@ -94,8 +94,8 @@ private:
         }
     }
 
-    // Returns the material that the current line belongs to. Lines before the first newmtl, and those of a material
-    // whose name has occurred before, are checked, but their values are discarded.
+    // Returns the material that the current line belongs to. Lines before the first newmtl are checked, but
+    // their values are discarded. So are the lines of a second material of the same name.
     MtlMaterial& current() { return current_ ? *current_ : nobody_; }
 
     // Starts a material.
@@ -156,8 +156,8 @@ private:
         return within;
     }
 
-    // Sets the opacity to 1 - Tr, unless the material has a d. Some programs write the same number as d and as Tr; then
-    // d counts, wherever it is.
+    // Sets the opacity to 1 - Tr, unless the material has a d. Some programs write the same number as d and as Tr. In
+    // that case only d counts, before or after Tr.
     void transparency(double value) {
         if (!current().lines.contains("d")) current().opacity = 1 - value;
     }
