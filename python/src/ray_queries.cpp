@@ -249,9 +249,9 @@ The arguments are those of cast_rays.)");
         R"(Returns how often each ray passes through a surface: int64, shape (...).
 
 A passage through an edge or a vertex counts once. A ray that touches a closed surface or runs along it counts as
-passing through it twice or not at all. The number is therefore even if both ends of the ray are outside all closed
-surfaces. It is odd if one end is outside and the other is inside one closed surface. The number may differ from the
-number of hits that list_intersections returns. The arguments are those of cast_rays.)");
+passing through it twice or not at all. If all surfaces are closed, the number is even if both ends of the ray are
+outside all of them, and odd if one end is outside and the other is inside exactly one of them. The number may differ
+from the number of hits that list_intersections returns. The arguments are those of cast_rays.)");
     type.def(
         "list_intersections",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,
