@@ -125,7 +125,7 @@ TEST_CASE("STL: every broken or odd file has its verdict", "[io][stl]") {
         {"ASCII, vertex outside", replaced(kAscii, " outer loop\n", ""), 0, "line 3: vertex is not allowed here"},
         {"ASCII, a facet in a facet", replaced(kAscii, "endfacet\n", "facet normal 0 0 1\n"), 0,
          "line 8: facet is not allowed here"},
-        {"ASCII, a solid in a solid", replaced(kAscii, "facet", "solid b\nfacet"), 0, "line 2: solid must not"},
+        {"ASCII, a solid in a solid", replaced(kAscii, "facet", "solid b\nfacet"), 0, "line 2: solid is not allowed"},
         {"ASCII, a word for a number", replaced(kAscii, "1 0 0", "1 O 0"), 0, "line 5: 'O' is not a number"},
         {"ASCII, NaN", replaced(kAscii, "1 0 0", "1 nan 0"), 0, "line 5: 'nan' is not a number"},
         {"ASCII, too large", replaced(kAscii, "1 0 0", "1e39 0 0"), 0, "line 5: '1e39' is not a number"},
