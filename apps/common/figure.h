@@ -1,5 +1,6 @@
 /// \file
-/// Figures: scenes with a camera and settings, each rendered by a program of its own.
+/// Figures: scenes with a camera and settings. figure_main is the program of one figure; `limn render` makes one from a
+/// model.
 #pragma once
 
 #include <functional>
@@ -28,8 +29,10 @@ struct FigureInputs {
     Encoding texture_encoding = Encoding::automatic;
 };
 
-/// Runs the program of a figure: reads the options (see render_options.h), calls `make`, renders, and writes NAME.exr
-/// and NAME.png or the files of -o. Never throws.
+/// Runs the program of a figure: reads the options (see render_options.h), calls `make`, renders, and writes the files
+/// of -o; without -o, --film and --shard it writes `name`.exr and `name`.png. Never throws.
+/// \param make makes the figure. It is called once to render, or once with `defaults` for --help. It must have no side
+/// effects.
 /// \param defaults if given, the program has the options --texture and --texture-encoding with these defaults
 /// \returns the exit status: 0, 1, 2, 130 or 143 (see program.h)
 int figure_main(int argc, char** argv, std::string_view name, const std::function<Figure(const FigureInputs&)>& make,

@@ -75,7 +75,7 @@ std::array<double, 3> parse_triple(std::string_view option, std::string_view tex
     for (std::size_t i = 0; i < values.size(); ++i) try {
             values[i] = parse_number(option, parts[i]);
         } catch (const ArgumentError&) {
-            refuse(option, text, "holds something that is not a finite number");
+            refuse(option, text, "has a part that is not a finite number");
         }
     return values;
 }

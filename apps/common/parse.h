@@ -27,7 +27,7 @@ Integer parse_integer(std::string_view option, std::string_view text, Integer lo
     const bool overflow = problem == std::errc::result_out_of_range && end == last;
     if (!overflow && (problem != std::errc{} || end != last)) refuse(option, text, "is not a whole number");
     if (overflow || value < lowest || value > highest)
-        refuse(option, text, "must lie in " + std::to_string(lowest) + " .. " + std::to_string(highest));
+        refuse(option, text, "must be in " + std::to_string(lowest) + " .. " + std::to_string(highest));
     return value;
 }
 

@@ -29,22 +29,26 @@ std::vector<std::string> parse_channels(const std::string& text, bool has_scene)
         const std::string name = text.substr(begin, end - begin);
         const bool is_of_film = name == "error" || name == "samples";
         if (!has_scene && !is_of_film)
-            refuse("--channels", text, "must be of error, samples: the others are of the scene, which no film holds");
+            refuse(
+                "--channels", text,
+                "only error and samples are possible: the other channels need the scene, which a film does not store");
         if (!is_of_film && !FirstHits::knows(name))
-            refuse("--channels", text, fmt::format("must be of error, samples, {}", kOfFirstHits));
-        if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--channels", text, "names one twice");
+            refuse("--channels", text, fmt::format("each name must be one of error, samples, {}", kOfFirstHits));
+        if (std::find(names.begin(), names.end(), name) != names.end())
+            refuse("--channels", text, "names a channel twice");
         names.push_back(name);
         begin = end + 1;
     }
     return names;
 }
 
-// Clamps values that half cannot store. Without this, save_image would throw, and a bright lamp would lose the picture.
+// Replaces values above 65504, the largest half, by 65504. Otherwise save_image would throw, and a picture of a bright
+// lamp would not be saved.
 Image clamped_to_half(Image image, const Console& console) {
     constexpr float kLargestHalf = 65504;
     std::size_t clamped = 0;
     for (float& value : image.values()) {
-        if (value <= kLargestHalf) continue;
+        if (!(value > kLargestHalf)) continue;
         value = kLargestHalf;
         ++clamped;
     }
@@ -52,7 +56,7 @@ Image clamped_to_half(Image image, const Console& console) {
     return image;
 }
 
-// Returns the further channels. The channel "error" is NaN if there is no estimate.
+// Returns the channels that --channels names. If there is no estimate, all values of "error" are NaN.
 std::vector<ImageLayer> layers_of(const PixelMaps& maps, const std::optional<FirstHits>& hits,
                                   const PictureOptions& options) {
     std::vector<ImageLayer> layers;
@@ -91,10 +95,11 @@ std::string summary(const RenderResult& result, const FilmInfo& info, const Pict
     const ErrorEstimate& e = result.error;
     const std::string error =
         e.reason.empty() ? fmt::format("relMSE {:.2g}, at most {:.2g}", e.estimate, e.ci95_high) : e.reason;
-    const std::string missed = e.target && !e.reached ? fmt::format("; {:.2g} was not reached", *e.target) : "";
+    const std::string missed =
+        e.target && !e.reached ? fmt::format("; the target {:.2g} was not reached", *e.target) : "";
     std::vector<std::string> files = options.outputs;
     if (!options.film.empty()) files.push_back(options.film);
-    if (files.empty()) files.push_back(info.scene);  // only a checkpoint or a plan is written
+    if (files.empty()) files.push_back(info.scene);  // neither a picture nor a film is written: name the scene instead
     return fmt::format("{}{}: {}x{}, {:.4g} samples a pixel, {:.2f} s, {}{}", r.complete ? "" : "interrupted; ",
                        fmt::join(files, ", "), r.width, r.height, r.samples_per_pixel, r.render_seconds, error, missed);
 }
@@ -118,7 +123,8 @@ void add_picture_options(Options& options, PictureOptions& o, bool has_scene, co
                 picture_names("-o", o.outputs));
     options.add({.name = "--film",
                  .value = "FILE",
-                 .help = "Write the film, which --resume and limn merge read. Without -o, no picture is written then",
+                 .help = "Write the film, which --resume and limn merge read. With --film alone no picture is written; "
+                         "add -o for one",
                  .preset = "none"},
                 file_name("--film", o.film));
     // Add the contents of pictures.
@@ -134,7 +140,8 @@ void add_picture_options(Options& options, PictureOptions& o, bool has_scene, co
     options.add(
         {.name = "--exposure", .value = "STOPS", .help = "Multiply the colours of a PNG by 2^STOPS", .preset = "0"},
         [&o](const std::string& s) { o.exposure = parse_number("--exposure", s); });
-    options.add_flag("--half", o.half, "Write EXR with 16 bits a value instead of 32");
+    options.add_flag("--half", o.half,
+                     "Write the colours of an EXR with 16 bits a value instead of 32; further channels keep 32");
     // Add what is printed or reported.
     options.add({.name = "--report",
                  .value = "FILE.json",
@@ -147,7 +154,7 @@ void add_picture_options(Options& options, PictureOptions& o, bool has_scene, co
 void check_picture_options(const PictureOptions& o) {
     const auto has_place = [](const std::string& path) { return image_holds_layers(path); };
     if (!o.channels.empty() && std::none_of(o.outputs.begin(), o.outputs.end(), has_place))
-        throw ArgumentError("--channels: only an EXR has a place for them, and none is written");
+        throw ArgumentError("--channels: only an EXR can store channels, and no -o names an EXR");
     for (const std::string& path : o.outputs) check_writable(path);
     for (const std::string& path : {o.report, o.film})
         if (!path.empty()) check_text_path(path);

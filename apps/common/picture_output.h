@@ -19,7 +19,7 @@ struct PictureOptions {
     std::vector<std::string> outputs;   ///< paths of the pictures
     std::vector<std::string> channels;  ///< further channels of EXR pictures
     double exposure = 0;                ///< of PNG pictures, in stops
-    bool half = false;                  ///< true: EXR pictures have 16 bits per value
+    bool half = false;                  ///< true: the colours of EXR pictures have 16 bits a value
     bool quiet = false;                 ///< true: only errors are printed
     std::string report;                 ///< path, "-" or empty
     std::string film;                   ///< path or empty
@@ -29,12 +29,12 @@ struct PictureOptions {
     std::vector<std::string> all_outputs() const;
 };
 
-/// Adds the options. Parsing stores their values in `values`, which must outlive it.
+/// Adds the options. Parsing stores their values in `values`, which must exist until then.
 /// \param has_scene true if --channels may name first hits, which need the scene
 /// \param outputs the pictures that are written without -o and --film, as text for --help; empty if there are none
 void add_picture_options(Options& options, PictureOptions& values, bool has_scene, const std::string& outputs = "");
 
-/// True if one of the channels is of the scene's first hits.
+/// Returns true if --channels names a channel of FirstHits.
 bool wants_first_hits(const PictureOptions& options);
 
 /// Checks that the pictures, the report and the film can be written.

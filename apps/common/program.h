@@ -9,11 +9,12 @@
 
 namespace limn::app {
 
-// The exit status of a program. A program that SIGINT or SIGTERM has stopped returns 128 plus the signal's number.
+// The exit status of a program. A program that SIGINT or SIGTERM has stopped returns 128 plus the signal's number. If
+// an output could not be saved, it returns kFailed instead.
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;        ///< an error in files, memory or the environment
 inline constexpr int kBadArguments = 2;  ///< an error in the arguments themselves
-inline constexpr int kUnfinished = 3;    ///< limn merge: another round has to be rendered
+inline constexpr int kUnfinished = 3;    ///< limn merge: the error is not reached, and --plan was written
 
 /// Writes messages to stderr, with the name of the program before each.
 struct Console {

@@ -209,12 +209,12 @@ void check_together(RenderOptions& o, const std::vector<std::string>& outputs) {
     require(!o.every || !o.checkpoint.empty(), "--every: there is no --checkpoint");
     require(!o.preview || !o.outputs.empty() || !outputs.empty(), "--preview: there is no -o");
     require(!is_part || !o.film.empty() || !o.checkpoint.empty(),
-            "--shard: needs --film or --checkpoint, for a part of a picture is no picture");
+            "--shard: needs --film or --checkpoint: a part is stored as a film, not as a picture");
     require(!is_part || o.outputs.empty(), "--shard: a part of a picture cannot be written by -o; see limn merge");
     require(!is_part || (!o.error && !o.time_limit),
-            "--shard: goes with --spp or --plan; what the error is, limn merge knows");
+            "--shard: excludes --error and --time-limit; limn merge has --error for all parts");
     require(o.plan.empty() || (!o.error && !o.time_limit && !o.samples_per_pixel),
-            "--plan: says how many samples, and so do --spp, --error and --time-limit");
+            "--plan: sets the numbers of samples, and excludes --spp, --error and --time-limit");
     if (is_part) return;
     if (o.outputs.empty() && o.film.empty()) o.outputs = outputs;
     require(!o.outputs.empty() || !o.film.empty() || !o.checkpoint.empty(), "-o is missing: nothing would be written");
@@ -269,9 +269,9 @@ void apply(const RenderOptions& o, Figure& figure) {
         if (!holds) throw ArgumentError(what);
     };
     require(!o.camera.view_height || figure.camera.projection == Projection::orthographic,
-            "--height: only --projection orthographic has one");
+            "--height: needs --projection orthographic");
     require(!o.camera.vertical_fov || figure.camera.projection == Projection::perspective,
-            "--vfov: only --projection perspective has one");
+            "--vfov: needs --projection perspective");
 }
 
 void check_camera_alone(const CameraOptions& o) {

@@ -44,8 +44,8 @@ struct RenderOptions : PictureOptions {
 /// The default of RenderOptions::every, in seconds.
 inline constexpr double kEvery = 60;
 
-/// Adds the options. Parsing stores their values in `values`, which must outlive it. It throws an ArgumentError that
-/// names an invalid value.
+/// Adds the options. Parsing stores their values in `values`, which must exist until then. It throws an ArgumentError
+/// that names an invalid value.
 /// \param outputs the pictures that are written without -o and --film, as text for --help; empty if there are none
 void add_render_options(Options& options, RenderOptions& values, const std::string& outputs = "");
 

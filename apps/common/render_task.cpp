@@ -50,7 +50,7 @@ void check_outputs(const RenderTask& task, const RenderOptions& options) {
     check_text_path(options.checkpoint);
     if (std::filesystem::exists(options.checkpoint) && !is_continued(options, options.checkpoint))
         throw FileError(options.checkpoint,
-                        "is there already: name it with --resume too, to go on from it, or remove it");
+                        "exists: add --resume with the same file to continue its render, or remove it");
 }
 
 // Loads the film that --resume names. If the same film is also written, it need not exist yet, so that the same command
@@ -58,7 +58,7 @@ void check_outputs(const RenderTask& task, const RenderOptions& options) {
 void load_film(RenderJob& job, const RenderOptions& options, const Console& console) {
     if (options.resume.empty()) return;
     if (is_replaced(options) && !std::filesystem::exists(options.resume))
-        console.note(options.resume + ": is not there yet; the render begins");
+        console.note(options.resume + ": does not exist yet; the render begins with the first sample");
     else if (!job.load(options.resume) && is_replaced(options))  // writing the film would lose its other tiles
         throw FileError(options.resume, "has more tiles than this --shard, and would be replaced by a part of itself");
 }

@@ -70,7 +70,7 @@ void add_options(Options& options, Plan& plan, bool& quiet) {
                  .preset = text(plan.scale)},
                 [&plan](const std::string& s) {
                     plan.scale = parse_number("--scale", s);
-                    if (!(plan.scale > 0 && plan.scale <= 100)) refuse("--scale", s, "must lie in (0, 100]");
+                    if (!(plan.scale > 0 && plan.scale <= 100)) refuse("--scale", s, "must be in (0, 100]");
                 });
     // Add how it is measured.
     options.add({.name = "--rays", .value = "N", .help = "Rays of each kind", .preset = text(plan.rays)},

@@ -51,7 +51,9 @@ int merge_command(int argc, const char* const* argv) {
         "limn merge",
         "Joins the films of the parts of a render (see --shard of limn render) to one film and its picture. "
         "The result is that of one render, bit for bit.",
-        fmt::format("The exit status is {} if --plan was written: then the parts need another round.", kUnfinished));
+        fmt::format(
+            "The exit status is {} if the error is not reached: --plan was written for another render of all parts.",
+            kUnfinished));
     Arguments a;
     a.command_line = "limn " + command_line(argc, argv);
     options.add({.name = "FILM",

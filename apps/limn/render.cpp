@@ -123,7 +123,7 @@ void add_view_options(Options& command, Arguments& a) {
         "Shade meshes without normals smoothly across edges at which the triangles turn by less than DEG",
         "flat shading", [&a](const std::string& text) {
             a.crease = parse_number("--smooth", text);
-            if (!(*a.crease >= 0 && *a.crease <= 180)) refuse("--smooth", text, "must lie in 0 .. 180 degrees");
+            if (!(*a.crease >= 0 && *a.crease <= 180)) refuse("--smooth", text, "must be in 0 .. 180 degrees");
         });
     add("--camera", "NAME", "A camera of the model file; limn info names them", "one that frames the model",
         [&a](const std::string& text) {

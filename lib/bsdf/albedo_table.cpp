@@ -44,7 +44,7 @@ void fill_row(double alpha_x, double alpha_y, double turns, double eta, double* 
         HWY_ALIGN double cosines[kLanes<Doubles>], sines[kLanes<Doubles>];
         for (std::size_t k = 0; k < kLanes<Doubles>; ++k) {
             const double root = static_cast<double>(i + k) / (AlbedoTable::kColumns - 1);
-            cosines[k] = std::max(root * root, 1e-4);
+            cosines[k] = std::max(root * root, 1e-4);  // the least cosine of ShadingFrame, for column 0
             sines[k] = std::sqrt(1 - cosines[k] * cosines[k]);
         }
         const Doubles sine = load<Doubles>(sines);

@@ -9,12 +9,13 @@ namespace limn::bsdf {
 
 // Returns the bent shading normal. The components of `texel` in [0, 1] are mapped to coordinates in [-1, 1]: along
 // dp_du, perpendicular to it towards dp_dv, and along the shading normal of the outward side. A bent normal whose
-// cosine with `out` is below kLeastCosine is turned until it has this cosine.
+// cosine with `out` is below kLeastCosine is turned towards `out`, to about this cosine or a larger one.
 inline Normal3 bent_normal(const Surface& s, const Vec3& out, const Color& texel) {
-    constexpr double kLeastCosine = 1e-3;
+    constexpr double kLeastCosine = 1e-3;  // so large that rounding doesn't put the viewer below the surface
     const Vec3 n(s.shading_normal), along = s.dp_du - dot(s.dp_du, n) * n;
     const double side = s.front_face ? 1 : -1;
     Vec3 bent = n;
+    // Cancellation leaves an error of 2^-52 |dp_du| in `along`: relative to its length at most 1e-9.
     if (length_squared(along) > 1e-12 * length_squared(s.dp_du)) {
         const Vec3 x = normalize(along), left = cross(n, x);
         const Vec3 y = dot(left, s.dp_dv) < 0 ? -left : left;

@@ -25,6 +25,7 @@ struct ShadingFrame {
     HWY_INLINE explicit ShadingFrame(const Input& s) : z(s.shading_normal) {
         const Vector<N> along = s.dp_du - dot(s.dp_du, z) * z;
         const N squared = length_squared(along);
+        // Cancellation leaves an error of 2^-52 |dp_du| in `along`: relative to its length at most 1e-9.
         const Mask<N> is_tangent = squared > 1e-12 * length_squared(s.dp_du);
         x = select(is_tangent, along / sqrt(squared), Basis<N>(z).x);
         y = cross(z, x);
@@ -67,6 +68,8 @@ HWY_INLINE Wide<D> mean_albedo(const AlbedoTable* const* tables, Wide<D> row) {
 // Imageworks, 2017), or by a white base under a coat (Kelemen and Szirmay-Kalos, A Microfacet Based Coupled
 // Specular-Matte BRDF Model with Importance Sampling, Eurographics 2001).
 // \param missing_out,missing_in 1 - E for either direction
+// If almost all light is scattered once, 1 - mean E may be rounded to 0 or below. It is then taken to be 1e-15, a few
+// units in the last place of E.
 template <class N>
 HWY_INLINE N spread_evenly(N missing_out, N missing_in, N mean_albedo, N cosine_pdf) {
     return missing_out * missing_in / max(1.0 - mean_albedo, 1e-15) * cosine_pdf;
@@ -97,7 +100,7 @@ struct Facets {
     // Returns the row of the albedo table for a direction. The rows of a brushed surface are azimuths between the axes.
     HWY_INLINE N row_of(const Vector<N>& w) const {
         if (!any(s.parameters.alpha_x != s.parameters.alpha_y)) return 0.0;
-        return angle_of<N>({abs(w.y), max(abs(w.x), 1e-12)}) / (kPi / 2);
+        return angle_of<N>({abs(w.y), max(abs(w.x), 1e-12)}) / (kPi / 2);  // 0 for the normal, which has no azimuth
     }
     HWY_INLINE N albedo(const Vector<N>& w) const {
         return albedo_at(s.albedo_table, row_of(w), min(max(w.z, 0.0), 1.0));

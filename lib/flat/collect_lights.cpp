@@ -13,8 +13,8 @@ namespace limn::compiler {
 
 namespace {
 
-// Returns true if a texture, or a part of it, is user-defined. Such a texture cannot be sampled, because it may need
-// what is only known of a traced hit.
+// Returns true if a texture, or a part of it, is user-defined. Lights with a user-defined texture cannot be
+// sampled, because the texture may need data that only a traced hit has.
 bool is_user_defined(const flat::Scene& scene, TextureId id) {
     const TextureRecord& t = scene.textures[static_cast<std::size_t>(id)];
     return t.kind == TextureKind::user_defined ||
@@ -66,7 +66,7 @@ constexpr int kMostMoving = 4;
 struct Seen {
     Transform at0, at1;                    // products of their matrices, at time 0 and 1
     std::vector<std::uint32_t> instances;  // their rows, outermost first
-    int moving = 0;                        // number of those that move
+    int moving = 0;                        // number of moving ones
     bool straight = true;                  // true if none of them turns or stretches while it moves
 };
 

@@ -95,7 +95,7 @@ void gather_features(flat::Scene& s) {
     name(has_map, "environment");
 }
 
-// Allocates the places of meshes without normals and texture coordinates. They are filled with the tree.
+// Allocates the places of meshes without normals and texture coordinates. build_trees() fills them.
 void reserve_places(flat::Scene& s) {
     for (flat::Mesh& mesh : s.meshes) {
         const MeshView& arrays = mesh.arrays;
@@ -132,10 +132,10 @@ void name_objects(flat::Scene& s) {
                   static_cast<std::uint32_t>(i));
 }
 
-// The cache that a core can count on. Rays wait for the memory of a larger tree.
+// A tree larger than this is read from memory, and rays wait for it.
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
-// The cost of a ray (Blas::cost) from which on it visits so many nodes that most are prefetched long before their
-// visit. Interleaving rays gains nothing then.
+// If the expected cost of a ray (Blas::cost) is at least this, most of its nodes are prefetched in time, and
+// interleaving rays gains nothing.
 constexpr double kCostOfManyNodes = 48;
 
 // Sets Scene::is_larger_than_cache.

@@ -16,7 +16,7 @@ flat::Scene flatten(const limn::Scene& scene);
 // Moves instances of a flat scene. The scene becomes the same as if it had been flattened from a description with the
 // instances at their new places.
 // \throws ArgumentError if an object doesn't exist, isn't an instance or is moved twice, or if an Instance would reject
-// its matrices; the scene is then unchanged
+// its matrices. In these cases the scene is unchanged.
 void move(flat::Scene& scene, std::span<const MovedObject> moved);
 
 }  // namespace limn::compiler

@@ -15,7 +15,7 @@ namespace limn::flat {
 // angle to the map's y axis, because solid angle is proportional to this cosine.
 //
 // h rows of pixels have h + 1 bands: h - 1 between the centres of neighbouring rows, and one from the first and the
-// last row to each pole. In these two the luminance is that of the row.
+// last row to each pole. In the bands at the poles the luminance equals that of the nearest row.
 struct Environment {
     std::shared_ptr<const Image> image;
     pattern::MapAxes axes;

@@ -43,8 +43,8 @@ void finish(const Scene& scene, const PrimitiveRange& range, std::uint64_t eleme
     light.side = side_of(material.sides, mirrored);
 }
 
-// Computes the light of a place as it is at a time. It isn't inlined, so that light_at() does not save the registers
-// that it needs.
+// Computes a light of a place at a time. It isn't inlined, so that light_at() does not save the registers that it
+// needs.
 [[gnu::noinline]] void compute(const Scene& scene, const LightPlace& place, std::uint32_t element, double time,
                                PlanarLight& light) {
     const PrimitiveRange& range = scene.ranges[place.range];

@@ -33,7 +33,7 @@ struct LightNode {
     float axis[3];             // see Cone
     float cos_spread;
     float strength;       // see LightBounds; divided by the sum over all lights
-    std::uint32_t end;    // end of the ranks of its lights; they begin at the end of those of the node to the left
+    std::uint32_t end;    // one past the last rank of its lights; its first rank is `end` of the node to the left
     std::uint32_t right;  // its second child, or 0 for a leaf; the first child is the next node
 };
 static_assert(sizeof(LightNode) == 52);
@@ -56,7 +56,7 @@ inline constexpr std::uint64_t kFirstDistant = std::uint64_t{1} << 63;
 // those of the tree, in the order of `distant`.
 struct LightTable {
     std::vector<Light> own;                // lights that are stored as they are
-    std::vector<LightPlace> places;        // those of the other lights
+    std::vector<LightPlace> places;        // where the other lights are computed from
     std::vector<std::uint32_t> instances;  // rows of Scene::instances
     std::vector<LightRef> refs;            // by rank
     std::vector<double> strength_before;   // by rank, sums of the strengths before it, from 0 to 1; one more at the end
@@ -80,8 +80,8 @@ std::int8_t side_of(Sides sides, bool mirrored);
 // Returns true if a texture is the same everywhere.
 bool is_plain(const Scene& scene, TextureId texture);
 
-// Returns the light of a rank as it is at a time. The result refers to the table, or to `room`, which the light was
-// written to. \pre there is such a light
+// Returns the light of a rank at a time. A light that moves or is not stored is written to `room`, and the result
+// refers to `room`. Otherwise it refers to the table. \pre rank < size of the tree plus number of distant lights
 const Light& light_at(const Scene& scene, std::size_t rank, double time, Light& room);
 
 // Returns a planar light of a range under a matrix.

@@ -19,11 +19,12 @@ namespace {
 using flat::Cone, flat::LightBounds;
 
 constexpr std::size_t kBins = 12;  // as in pbrt-v4
-// The depth from which on nodes are halved by the number of their lights, so that recursion ends. Sensible trees are
-// less deep.
+// From this depth on, nodes are halved by the number of their lights, so that the recursion ends. Usual trees are less
+// deep.
 constexpr int kDeepest = 48;
 // A leaf has up to kMostInLeaf lights that are about as close to each other as they are large and have similar normals.
-// Nodes for each of them would cost more than they gain. The pdf of a light is then wrong by a factor of four at worst.
+// A node for each of them would cost more than it gains. The probability of choosing a light differs by at most a
+// factor of four from that of separate nodes.
 constexpr std::size_t kMostInLeaf = 4;
 constexpr double kWidestLeaf = 3, kLeafCosine = 0.9;
 // The least strength of a light, relative to the mean. A smaller one could be rounded away in the sums.
@@ -166,7 +167,8 @@ private:
         for (std::size_t a = 0; a < 3; ++a) {
             node.center[a] = static_cast<float>(b.box.center()[a]);
             node.axis[a] = static_cast<float>(b.cone.axis[a]);
-            // Compute the half side from the rounded centre. Add a little for the rounding of points at other times.
+            // Compute the half side from the rounded centre. Add 9000 roundings (2^-53) of the largest coordinate: a
+            // point of a moving light is rounded fewer than 100 times.
             const double off =
                 std::max(b.box.upper[a] - double{node.center[a]}, double{node.center[a]} - b.box.lower[a]);
             const double most = std::max(std::abs(b.box.upper[a]), std::abs(b.box.lower[a]));

@@ -12,7 +12,7 @@ namespace limn::compiler {
 template <class Wanted>
 std::vector<bool> blases_that_reach(const flat::Scene& scene, const Wanted& wanted) {
     // An inner BLAS usually has a larger id than the BLAS that contains it, so go through the ids backwards. A shared
-    // BLAS may have a smaller one, so repeat until nothing changes. There are at most as many passes as BLASes nest.
+    // BLAS may have a smaller one, so repeat until nothing changes. That takes at most one pass more than BLASes nest.
     std::vector<bool> reaches(scene.blases.size(), false);
     for (bool changed = true; changed;) {
         changed = false;

@@ -8,7 +8,7 @@
 
 namespace limn {
 
-// The constant that relMSE adds to the squared reference, so that dark pixels don't dominate.
+// The constant that relMSE adds to the squared reference. It keeps pixels much darker than 0.1 from dominating relMSE.
 inline constexpr double kDarkness = 0.01;
 
 // Returns a value of a reference that is given as two halves a and b: the mean of both.

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> encode_srgb8(const Image& image, double exposure, std:
     const std::span<const float> values = image.values();
     if (!std::isfinite(exposure)) throw ArgumentError("encode_srgb8: the exposure must be finite");
     if (!alpha.empty() && 3 * alpha.size() != values.size())
-        throw ArgumentError("encode_srgb8: alpha has not one value a pixel");
+        throw ArgumentError("encode_srgb8: alpha does not have one value for each pixel");
     const double gain = std::exp2(exposure);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(values.size() + alpha.size());

@@ -174,8 +174,8 @@ double check_part(const Part& part, bool is_tiled, double rest) {
     constexpr double kLittle = 1 << 24, kSomeRows = 1 << 28;
     const double bytes_per_pixel = static_cast<double>(part.bytes_per_pixel);
     const double bytes = static_cast<double>(*part.width) * static_cast<double>(*part.height) * bytes_per_pixel;
-    // Compare the memory for pixels that are decoded together: a row of tiles, or the lines of a chunk, for which
-    // OpenImageIO takes the memory of 256 lines.
+    // Compare the memory for pixels that are decoded together: a row of tiles, or the lines of a chunk.
+    // OpenImageIO allocates 256 lines for a chunk.
     constexpr int kLines = 256;
     const std::int64_t columns = is_tiled ? std::max(*part.width, part.tiles->width) : *part.width;
     const std::int64_t rows = is_tiled ? part.tiles->height : kLines;

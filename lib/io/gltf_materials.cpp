@@ -104,8 +104,8 @@ private:
         const double metallic = share(base["metallicFactor"].number_or(1)),
                      roughness = share(base["roughnessFactor"].number_or(1));
         const double stated_index = m["extensions"]["KHR_materials_ior"]["ior"].number_or(1.5);
-        // The specification reserves an index of 0 for materials with specular and glossiness, which limn does not
-        // read.
+        // An index below 1 counts as the default, 1.5. The specification uses 0 for the extension specular-glossiness,
+        // which limn does not read.
         const double index = stated_index >= 1 ? stated_index : 1.5;
         const auto surface_picture = pictures_.image(surface, Values::raw);
         if (const auto glass = this->glass(m, index, metallic, roughness, surface_picture.get())) return glass;
@@ -118,8 +118,8 @@ private:
                                                    metallic, roughness, index);
     }
 
-    // Returns a dielectric if the material transmits half of the light or more, else null. Its roughness is the mean
-    // over the texture.
+    // Returns a dielectric if transmissionFactor (1 - metallic) is at least 0.5, else null. Roughness and metallic are
+    // their factors times the mean of the texture's green and blue channel.
     // \param surface the metallic-roughness picture, or null
     MaterialPtr glass(const GltfValue& m, double index, double metallic, double roughness, const Image* surface) {
         const GltfValue transmission = m["extensions"]["KHR_materials_transmission"];
@@ -131,11 +131,11 @@ private:
             metallic *= mean_of(*surface, 2);
         }
         const double share_of_glass = factor * (1 - metallic);
-        if (share_of_glass != 1 && metallic != 1) unused_.note("transmissionFactor (but for whether it is below 0.5)");
+        if (share_of_glass != 1 && metallic != 1) unused_.note("the exact share of transmitted light");
         if (share_of_glass < 0.5) return nullptr;
         // Note what the dielectric does not use.
         const GltfValue base = m["pbrMetallicRoughness"];
-        if (surface) unused_.note("metallicRoughnessTexture (but for its mean)");
+        if (surface) unused_.note("the variation of metallicRoughnessTexture");
         if (base["baseColorTexture"].exists()) unused_.note("baseColorTexture");
         if (base["baseColorFactor"].numbers_or({1, 1, 1, 1}) != std::vector<double>{1, 1, 1, 1})
             unused_.note("baseColorFactor");
@@ -162,9 +162,9 @@ private:
     }
 
     // Returns the texture of a picture. All pictures of a material share the texture coordinates and the transform of
-    // the first one; a picture with others gets a note.
+    // the first one. If a later picture has other ones, a note says that they are not used.
     // \param info the textureInfo
-    // \param name the name of the textureInfo, for the note
+    // \param name what the note calls the picture
     TexturePtr texture(const GltfValue& info, std::shared_ptr<const Image> picture, const std::string& name) {
         const GltfPlace place = place_of(info);
         if (!made_.has_pictures)

@@ -48,7 +48,7 @@ Image grey_image(const StoredImage& stored, const std::vector<T>& values, std::s
     return image;
 }
 
-// Returns the picture with linear values: linear(v) is that of the stored value v. If there are fewer than three
+// Returns the picture with linear values. linear(v) converts the stored value v. If there are fewer than three
 // channels, the first one becomes red, green and blue.
 template <class T, class Linear>
 Image to_image(const StoredImage& stored, const std::vector<T>& values, Linear linear) {

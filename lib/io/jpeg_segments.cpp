@@ -63,7 +63,7 @@ void check_frame(std::uint64_t marker, std::span<const std::byte> data, std::siz
     demand(marker > kProgressive || blocks <= 8 * std::uint64_t{file_bytes}, too_short_for(width, height));
 }
 
-// Returns the place of the marker that follows the data of a scan, which begin at `place`. A run of 0xff followed by
+// Returns the place of the marker that follows the data of a scan. The data begin at `place`. A run of 0xff followed by
 // zero or by the second byte of a restart marker belongs to the data. Decoders find the end in the same way.
 std::size_t end_of_scan(std::span<const std::byte> file, std::size_t place) {
     while (place + 1 < file.size()) {

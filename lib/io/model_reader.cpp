@@ -70,8 +70,8 @@ void repair(MeshData& mesh, Model& model) {
         uv = {};
         ++uvs;
     }
-    warn(normals, " times the normal", "is zero or not finite; that of the triangles around stands for it");
-    warn(uvs, " times the texture coordinate", "is not finite; 0 stands for it");
+    warn(normals, " times the normal", "is zero or not finite; the normal of the triangles around is used");
+    warn(uvs, " times the texture coordinate", "is not finite; 0 is used");
 }
 
 std::shared_ptr<const Material> default_material(const ModelOptions& options) {

@@ -47,7 +47,7 @@ void require_faces(const MeshData& mesh, const Model& model, const std::string& 
 // that are not finite by (0, 0). Gives a warning for each kind.
 void repair(MeshData& mesh, Model& model);
 
-// Returns the material of slot 0, which is that of faces without a material.
+// Returns the material of slot 0, for faces that name no material.
 std::shared_ptr<const Material> default_material(const ModelOptions& options);
 
 // Adds a mesh and an instance of it to the model. If the mesh has no normals and `options.crease` is set, it gets

@@ -58,7 +58,7 @@ public:
     void parse() {
         while (lines_.next())
             if (const Words words = lines_.words(); !words.empty()) parse_line(words);
-        if (!has_material_) warnings_.push_back(path_ + ": holds no material, for there is no newmtl with a name");
+        if (!has_material_) warnings_.push_back(path_ + ": has no material: no newmtl has a name");
     }
 
 private:
@@ -94,8 +94,8 @@ private:
         }
     }
 
-    // Returns the material that the current line belongs to. Lines before the first newmtl, and those of a material
-    // whose name has occurred before, are checked, but their values are discarded.
+    // Returns the material that the current line belongs to. Lines before the first newmtl are checked, but
+    // their values are discarded. So are the lines of a second material of the same name.
     MtlMaterial& current() { return current_ ? *current_ : nobody_; }
 
     // Starts a material.
@@ -105,7 +105,7 @@ private:
         if (name.empty()) return warn("newmtl without a name");
         has_material_ = true;
         const auto [place, is_new] = materials_.try_emplace(name);
-        if (!is_new) return warn("material " + in_quotes(name) + " is there already; the first one stays");
+        if (!is_new) return warn("material " + in_quotes(name) + " is defined twice; the first definition is used");
         current_ = &place->second;
         current_->file = path_;
     }
@@ -125,7 +125,7 @@ private:
         if (name.empty()) return warn(word + " without the name of a file");
         const bool has_height = &to == &current().bump && options.multiplier > 0;
         if (options.are_there_others || (options.multiplier > 0 && !has_height))
-            warn("the options of " + word + " are not used" + (has_height ? ", but for -bm" : ""));
+            warn("the options of " + word + " are not used" + (has_height ? ", except -bm" : ""));
         to = {name, word, has_height ? double{lines_.require_number(words[options.multiplier])} : 1};
         note(word);
     }
@@ -156,15 +156,15 @@ private:
         return within;
     }
 
-    // Sets the opacity to 1 - Tr, unless the material has a d. Some programs write the same number as d and as Tr; then
-    // d counts, wherever it is.
+    // Sets the opacity to 1 - Tr, unless the material has a d. Some programs write the same number as d and as Tr. In
+    // that case only d counts, before or after Tr.
     void transparency(double value) {
         if (!current().lines.contains("d")) current().opacity = 1 - value;
     }
 
     void illumination(double value) {
         const bool is_known = value >= 0 && value <= 10 && value == std::floor(value);
-        if (!is_known) warn("illum is none of 0 to 10 and is not used");
+        if (!is_known) warn("illum is not in 0 to 10 and is not used");
         current().illumination = is_known ? std::optional(static_cast<int>(value)) : std::nullopt;
     }
 

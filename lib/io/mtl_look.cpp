@@ -66,7 +66,7 @@ std::vector<MtlMaterial::Word> words_without_use(const MtlMaterial& m, MtlLook l
     return words;
 }
 
-// The roughness is Pr if the material has it. Otherwise it is that of microfacets whose lobe is as wide as a Phong lobe
+// Returns the roughness: Pr if the material has it. Otherwise the lobe of the microfacets is as wide as a Phong lobe
 // with the exponent Ns: alpha = sqrt(2 / (Ns + 2)) (Walter et al., Microfacet Models for Refraction through Rough
 // Surfaces, EGSR 2007, section 5.2).
 double roughness_of(const MtlMaterial& m) {

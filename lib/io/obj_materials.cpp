@@ -185,7 +185,7 @@ private:
             return scaled(alpha ? *alpha : grey(load_image(path, Encoding::raw)), {share, share, share}, 1);
         });
         if (opacity) return std::make_shared<AlphaMask>(material, opacity);
-        if (share == 0) model_.warnings.push_back("material " + in_quotes(name) + " is invisible, for its d is 0");
+        if (share == 0) model_.warnings.push_back("material " + in_quotes(name) + " is invisible: its d is 0");
         return share < 1 ? std::make_shared<AlphaMask>(material, share) : material;
     }
 
@@ -223,9 +223,9 @@ private:
         return result;
     }
 
-    // Returns the texture of load(path), where `path` is that of a picture. Returns null if there is no picture, if
-    // ModelOptions::textures is false, or, with a warning, if it cannot be read. Textures with the same path, use and
-    // number are shared.
+    // Returns the texture of load(path), where `path` names the picture of the map. Returns null if the map has no
+    // picture, or if ModelOptions::textures is false. If the picture cannot be read, adds a warning and returns null.
+    // Textures with the same path, use and number are shared.
     // \param number a parameter that the result of `load` depends on
     template <class Load>
     TexturePtr texture(const MtlMaterial& m, const MtlMap& map, Use use, double number, const Load& load) {

@@ -28,7 +28,7 @@ public:
     }
 
 private:
-    // A vertex of the mesh. `normal` is that of its face if the corner names none.
+    // A vertex of the mesh. `normal` is the normal of its face if the corner names none.
     struct Vertex {
         ObjCorner corner;
         Float3 normal;
@@ -83,8 +83,8 @@ private:
         return next;
     }
 
-    // Returns the unit normal of the current face. If it is zero because parts of the polygon cancel, returns that of
-    // the first triangle.
+    // Returns the unit normal of the current face. If parts of the polygon cancel, so that it would be zero, returns
+    // the normal of the first triangle.
     Float3 face_normal() {
         if (face_normal_ != Float3{}) return face_normal_;
         Vec3 normal = newell_normal(polygon_);

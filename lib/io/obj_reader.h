@@ -61,9 +61,9 @@ ObjFile parse_obj(std::string_view text, const std::string& path, Model& model);
 
 // Cuts the faces into triangles and leaves out those without an area. The mesh is empty if no face is usable.
 //
-// If no face names a normal or a texture coordinate, the vertices are those of the file. Otherwise there is one vertex
-// for each combination that occurs. Then a corner that names no normal, or one of length zero, gets the normal of its
-// face. A corner that names no texture coordinate gets (0, 0).
+// If no face names a normal or a texture coordinate, the mesh has the vertices of the file. Otherwise it has one vertex
+// for each combination of position, normal and texture coordinate that occurs. A corner that names no normal, or a
+// normal of length zero, gets the normal of its face. A corner that names no texture coordinate gets (0, 0).
 MeshData build_mesh(const ObjFile& file, Model& model);
 
 // Returns the default material, then a material for each name in Model::materials, as the table in limn/io/obj.h says.

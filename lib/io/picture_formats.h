@@ -43,14 +43,14 @@ struct Mark {
     }
 };
 
-// A row of the table. Formats that limn does not read have only marks, by which errors name them.
+// A row of the table. A format that limn does not read has only marks, so that an error can name the format.
 struct PictureFormat {
     std::string_view kind;                                     // "a PNG picture"
-    std::array<Mark, 3> marks{};                               // those without a beginning don't count
+    std::array<Mark, 3> marks{};                               // a mark without a beginning is unused
     bool (*looks_like)(std::span<const std::byte>) = nullptr;  // recognises a format without a mark
     std::optional<FileFormat> format{};                        // unset if limn does not read the format
     void (*check)(std::span<const std::byte>) = nullptr;       // see above
-    const char* suffix = nullptr;       // of the names of pictures that limn writes; null if it writes none
+    const char* suffix = nullptr;       // ends the names of pictures that limn writes; null if it writes none
     const char* openimageio = nullptr;  // OpenImageIO's name of the format; null if stb decodes it in every build
     bool stb = true;                    // false if stb cannot decode the format
 

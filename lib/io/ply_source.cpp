@@ -101,7 +101,7 @@ void PlySource::read_format(const Words& words) {
     constexpr std::string_view kForms[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     const auto found = std::find(std::begin(kForms), std::end(kForms), words[1]);
     if (found == std::end(kForms)) lines_.fail(in_quotes(words[1]) + " is no format of a PLY");
-    if (words[2] != "1.0") lines_.fail("version " + shortened(words[2]) + " is not read, but 1.0");
+    if (words[2] != "1.0") lines_.fail("version " + shortened(words[2]) + " cannot be read, only 1.0");
     form_ = static_cast<Form>(found - std::begin(kForms));
 }
 

@@ -45,8 +45,8 @@ public:
 
     const std::vector<PlyElement>& elements() const { return elements_; }
 
-    // Reads the next row of an element. `values` gets one value for each property; that of a list is 0. If `wanted` is
-    // the index of a list, `list` gets its numbers.
+    // Reads the next row of an element. `values` gets one value for each property, 0 for a list. If `wanted` is the
+    // index of a list, `list` gets the numbers of that list.
     void read_row(const PlyElement& element, std::optional<std::size_t> wanted, std::vector<double>& values,
                   std::vector<double>& list);
 

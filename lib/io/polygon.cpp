@@ -166,8 +166,8 @@ void PolygonCutter::clip(Place i, std::vector<Index3>& triangles) {
     touch(b);
 }
 
-// Updates a corner that has a new neighbour, and moves it to the end of the queue. Ears are therefore taken all around
-// the polygon before two that are adjacent, which keeps the triangles small.
+// Updates a corner that has a new neighbour, and moves it to the end of the queue. Ears are therefore cut all around
+// the polygon before an ear beside a cut one is. This keeps the triangles small.
 void PolygonCutter::touch(Place i) {
     is_dent_[i] = is_dent_[i] && turn(previous_[i], i, next_[i]) <= 0;
     candidates_.push_back({i, ++version_[i]});

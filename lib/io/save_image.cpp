@@ -46,7 +46,7 @@ void check_facts(const Facts& facts) {
         if (!is_name(name))
             throw ArgumentError("save_image: the name of a fact must be 1 to 70 printable characters: '" + name + "'");
         if (value.find('\0') != std::string::npos)
-            throw ArgumentError("save_image: the fact " + name + " holds a zero byte");
+            throw ArgumentError("save_image: the fact " + name + " has a zero byte");
     }
 }
 
@@ -55,13 +55,13 @@ void check_layers(const SaveOptions& options, const Image& image) {
         return 3 * values.size() == image.values().size();
     };
     if (!options.alpha.empty() && !has_one_each(options.alpha))
-        throw ArgumentError("save_image: alpha has not one value a pixel");
+        throw ArgumentError("save_image: alpha does not have one value for each pixel");
     std::vector<std::string> taken = {"R", "G", "B", "A"};
     for (const ImageLayer& layer : options.layers) {
         if (!is_name(layer.name) || std::find(taken.begin(), taken.end(), layer.name) != taken.end())
             throw ArgumentError("save_image: no channel can be called '" + layer.name + "'");
         if (!has_one_each(layer.values))
-            throw ArgumentError("save_image: the channel " + layer.name + " has not one value a pixel");
+            throw ArgumentError("save_image: the channel " + layer.name + " does not have one value for each pixel");
         taken.push_back(layer.name);
     }
 }
@@ -70,7 +70,7 @@ void check_part(const std::optional<PartOf>& part, const Image& image) {
     if (!part) return;
     const auto fits = [](int first, int size, int whole) { return first >= 0 && first <= whole - size; };
     if (!fits(part->left, image.width(), part->width) || !fits(part->top, image.height(), part->height))
-        throw ArgumentError("save_image: the picture does not lie in that of which it is a part");
+        throw ArgumentError("save_image: the picture is not inside the whole that SaveOptions::part_of states");
 }
 
 // Throws a FileError if the picture is empty or if the format cannot store one of its values.
@@ -85,7 +85,7 @@ void check_values(const Image& image, const std::string& path, FileFormat format
                                   std::to_string(pixel / image.width()) + ") is " + why);
     };
     if (format != FileFormat::exr)
-        refuse([](float v) { return !std::isfinite(v); }, "not finite, which only EXR holds");
+        refuse([](float v) { return !std::isfinite(v); }, "not finite; only an EXR can store it");
     if (format == FileFormat::hdr) refuse([](float v) { return v > kLargestRgbe; }, "too large for HDR");
     if (format == FileFormat::exr && half)
         refuse([](float v) { return std::abs(v) > kLargestHalf && !std::isinf(v); }, "too large for half (65504)");
@@ -199,7 +199,7 @@ void save(const Image& image, const std::string& path, const SaveOptions& option
         job.values = std::span<const float>(floats = interleaved(image, options, format));
     // Encode the picture, verify it, and write the file.
     const std::vector<std::byte> bytes = encode(job, path);
-    if (!holds(bytes, job, path)) throw FileError(path, "what was written does not read back");
+    if (!holds(bytes, job, path)) throw FileError(path, "the values that were read back differ from those written");
     replace_file(path, bytes);
 }
 

@@ -98,7 +98,7 @@ private:
 
     // Changes the state. Fails if the keyword is not allowed in the current one.
     void step(const std::string& key, State from, State to) {
-        if (state_ != from) lines_.fail(key + " must not stand here");
+        if (state_ != from) lines_.fail(key + " is not allowed here");
         state_ = to;
     }
 

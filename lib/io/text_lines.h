@@ -24,7 +24,8 @@ public:
     explicit TextLines(std::string_view text, std::string path = {}, LineForm form = LineForm::as_in_obj);
     // Moves to the next line. Returns false if there is none.
     bool next();
-    // Returns the number of the current line, counted from 1; that of the first physical line if it continues.
+    // Returns the number of the current line, counted from 1. A line may continue over several physical lines; their
+    // first one counts.
     std::size_t number() const { return number_; }
     // Returns the text after the current line.
     std::string_view rest() const { return rest_of_text_; }

@@ -59,7 +59,8 @@ public:
     // Returns the solid angle in steradians. It is 0 if `from` is in the rectangle's plane.
     N solid_angle() const { return solid_angle_; }
 
-    // Returns a point of the rectangle whose direction from `from` is uniform per solid angle. \pre solid_angle() > 0
+    // Returns a point of the rectangle whose direction from `from` is uniform: its pdf is 1 / solid_angle() per solid
+    // angle. \pre solid_angle() > 0
     HWY_INLINE Weights<N> sample(N u, N v) const {
         const N z2 = z0_ * z0_;
         // Compute au = u * solid_angle + 2 pi - g2 - g3.
@@ -80,7 +81,8 @@ public:
             select(cancels, sign * (au.sine * au.sine) / (1.0 - sign * au.cosine), au.cosine + sign);
         const N b_difference = copy_sign(1.0, b1) * (q1 - q0) / (abs(b0) + abs(b1));
         const N fu = (cosine_less_sign * b0 + b_difference) / au.sine;
-        // Compute the coordinate x of the sample, then y from v.
+        // Compute the coordinate x of the sample, then y from v. By rounding fu^2 - q0 may be 0 or negative. The result
+        // is then beyond x0 or x1, and clamped to it.
         const N xu = min(max(copy_sign(-z0_, fu) / sqrt(max(fu * fu - q0, 1e-300)), x0_), x1_);
         const N distance2 = xu * xu + z2;
         const N h0 = y0_ / sqrt(distance2 + y0_ * y0_), h1 = y1_ / sqrt(distance2 + y1_ * y1_);
@@ -117,7 +119,8 @@ public:
     // Returns the solid angle in steradians. It is 0 if the corners are on a great circle.
     N solid_angle() const { return solid_angle_; }
 
-    // Returns a unit vector that is uniform per solid angle. \pre solid_angle() > 0
+    // Returns a uniform unit vector towards the triangle: its pdf is 1 / solid_angle() per solid angle.
+    // \pre solid_angle() > 0
     //
     // A corner p moves from a towards c until the triangle a, b, p has the solid angle s = u solid_angle(). The result
     // is on the arc from b to p; v determines how far along.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limn/math/frame.h"
 #include "math/elementary.h"
 #include "math/warps-inl.h"
 
@@ -17,12 +16,6 @@ namespace {
 Vec3 vec3(const HWY_NAMESPACE::Vector<double>& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
-
-Frame::Frame(const Vec3& n) : z(n) {
-    const inl::Basis<double> basis({n.x, n.y, n.z});
-    x = vec3(basis.x);
-    y = vec3(basis.y);
-}
 
 Vec3 sample_cosine_hemisphere(double u, double v) { return vec3(inl::cosine_hemisphere(u, v)); }
 

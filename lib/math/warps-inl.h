@@ -14,8 +14,9 @@ namespace limn::sampling::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// Returns a uniform point of the unit disc in the plane z = 0. This is the concentric map: squares around the centre
-// become circles, and each of the four triangles between the diagonals of the square becomes a quarter of the disc.
+// Returns a uniform point of the unit disc in the plane z = 0, with pdf 1 / pi per area. This is the concentric map:
+// squares around the centre become circles, and each of the four triangles between the diagonals of the square becomes
+// a quarter of the disc.
 template <class N>
 HWY_INLINE Vector<N> uniform_disc(N u, N v) {
     const N a = 2.0 * u - 1.0, b = 2.0 * v - 1.0;
@@ -27,7 +28,7 @@ HWY_INLINE Vector<N> uniform_disc(N u, N v) {
     return {radius * select(wide, s.cosine, s.sine), radius * select(wide, s.sine, s.cosine), 0.0};
 }
 
-// Returns a unit direction around +z whose pdf is proportional to the cosine of its angle to +z.
+// Returns a unit direction around +z whose pdf is cos / pi per solid angle, for the cosine of its angle to +z.
 template <class N>
 HWY_INLINE Vector<N> cosine_hemisphere(N u, N v) {
     const Vector<N> disc = uniform_disc(u, v);
@@ -56,17 +57,19 @@ HWY_INLINE N uniform_cone_pdf(N one_minus_cos_max) {
     return 1.0 / (2 * kPi * one_minus_cos_max);
 }
 
+// Returns a unit direction that is uniform on the whole sphere.
 template <class N>
 HWY_INLINE Vector<N> uniform_sphere(N u, N v) {
     return uniform_cone<N>(u, v, 2.0);
 }
 
+// Returns the pdf per solid angle of uniform_sphere().
 template <class N>
 HWY_INLINE N uniform_sphere_pdf() {
     return 1 / (4 * kPi);
 }
 
-// Returns a uniform point of the unit ball.
+// Returns a uniform point of the unit ball, with pdf 3 / (4 pi) per volume. Its radius is the cube root of w.
 template <class N>
 HWY_INLINE Vector<N> uniform_ball(N u, N v, N w) {
     return cube_root(w) * uniform_sphere(u, v);

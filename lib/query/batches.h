@@ -30,7 +30,7 @@ inline std::size_t part_size(std::size_t size, int threads) {
 template <class Work>
 void for_all_parts(std::size_t size, int threads, const char* who, const Work& work) {
     if (threads < 0 || threads > kMostThreads)
-        throw ArgumentError(std::string(who) + ": threads must lie in 0 to " + std::to_string(kMostThreads));
+        throw ArgumentError(std::string(who) + ": threads must be in 0 to " + std::to_string(kMostThreads));
     const std::size_t part = part_size(size, threads), parts = (size + part - 1) / part;
     const auto run = [&] {
         for_all(0, parts, 1, [&](std::size_t i) { work(i * part, std::min(part, size - i * part)); });

@@ -21,13 +21,13 @@ void check(const CompiledScene& scene, const RenderSettings& s) {
         if (!holds) throw ArgumentError(std::string("render: ") + what);
     };
     require(s.width > 0 && s.height > 0 && s.width <= kMaxSide && s.height <= kMaxSide,
-            "width and height must lie in 1 to 1048576");
+            "width and height must be in 1 to 1048576");
     require(s.samples_per_pixel > 0, "samples per pixel must be at least 1");
     require(s.max_depth > 0, "the depth limit must be at least 1");
     require(!s.error || is_target(*s.error), "the error asked for must be over 0 and finite");
     require(!s.time_limit || is_target(*s.time_limit), "the time limit must be over 0 and finite");
     require(s.max_samples_per_pixel > 0, "the most samples per pixel must be at least 1");
-    require(s.threads >= 0 && s.threads <= kMaxThreads, "threads must lie in 0 to 1024");
+    require(s.threads >= 0 && s.threads <= kMaxThreads, "threads must be in 0 to 1024");
     require(s.shard.count == 1 || (!s.error && !s.time_limit),
             "a shard ends by its samples or by a plan alone: the error is that of the whole picture");
     if (scene.flat().unassigned > 0)
@@ -67,7 +67,7 @@ FilmInfo film_info(const CompiledScene& scene, const Camera& camera, const Rende
                      .crop = settings.crop,
                      .transparent = settings.transparent,
                      .shard = settings.shard};
-    if (!is_window(info)) throw ArgumentError("render: the crop window must lie in the picture, and not be empty");
+    if (!is_window(info)) throw ArgumentError("render: the crop window must be inside the picture and not empty");
     return info;
 }
 

@@ -114,8 +114,8 @@ CameraRays::View view_of(const Camera& camera, int width, int height) {
     require(is_finite(camera.look_at), "look-at must be finite");
     require(is_height(camera.view_height.value_or(1)), "the height of the view must be positive and finite");
     require(is_finite(camera.up) && !(camera.up == Vec3{}), "up must be finite and not zero");
-    require(camera.vertical_fov > 0 && camera.vertical_fov < 180, "the vertical field of view must lie in (0, 180)");
-    require(camera.aperture_angle >= 0 && camera.aperture_angle < 180, "the aperture angle must lie in [0, 180)");
+    require(camera.vertical_fov > 0 && camera.vertical_fov < 180, "the vertical field of view must be in (0, 180)");
+    require(camera.aperture_angle >= 0 && camera.aperture_angle < 180, "the aperture angle must be in [0, 180)");
     require(v.shutter_open >= 0 && v.shutter_open <= v.shutter_close && v.shutter_close <= 1,
             "the shutter must satisfy 0 <= open <= close <= 1");
     // Compute the axes.

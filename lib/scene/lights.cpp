@@ -9,7 +9,7 @@ namespace limn {
 
 namespace {
 
-// Check a field, which `name` names in errors.
+// These check a field of a light. Errors call it `name`.
 void check_color(const Color& color, const char* name) {
     require(is_radiance(color), std::string(name) + " must be finite and not negative");
 }

@@ -29,8 +29,8 @@ const Vec3 kTowardsKey{-0.7, 1.1, 0.8};
 constexpr double kKeyDistance = 4, kKeySide = 2;
 
 // At the centre of the model a white surface that faces the key light gets a radiance of 0.7 from it, and more if it's
-// closer. The sky adds about 0.3. Nearly white surfaces then stay below the white of a display. The ground is darker
-// than most models, so that they stand out.
+// closer. The sky adds about 0.3. Nearly white surfaces stay below the white of a display. The ground is darker than
+// most models, so that models are distinct from it.
 constexpr Color kKeyRadiance{9.6, 9.2, 8.6};
 constexpr Background kSky = Background::gradient({0.16, 0.15, 0.14}, {0.36, 0.42, 0.52});
 constexpr Color kGround{0.4, 0.4, 0.4};
@@ -82,7 +82,7 @@ struct Reach {
 };
 
 // Returns the camera of the tightest frame. Its upper and lower planes, or its left and right planes, touch corners.
-// The eye is in the middle between the other two.
+// The eye is in the middle between the other two planes.
 Camera frame_perspective(const std::vector<Vec3>& corners, const Vec3& forward, const Vec3& right, const Vec3& up,
                          double aspect) {
     const double upward = kFilled * tangent(radians(kFieldOfView) / 2), across = upward * aspect;

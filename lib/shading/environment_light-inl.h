@@ -35,7 +35,8 @@ HWY_INLINE Doubles last_before(std::size_t count, const IsBefore& is_before) {
     return at;
 }
 
-// Samples a pdf that is linear over [0, 1] and proportional to a at 0 and to b at 1.
+// Returns a sample x in [0, 1] whose pdf is 2 ((1 - x) a + x b) / (a + b). It is uniform if a = b = 0.
+// \pre a >= 0, b >= 0, u in [0, 1]
 HWY_INLINE Doubles sample_linear(Doubles u, Doubles a, Doubles b) {
     const Doubles sum = a + b, root = sqrt((1.0 - u) * (a * a) + u * (b * b));
     return select(sum > 0.0, min(u * sum / (a + root), 1.0), u);

@@ -110,7 +110,7 @@ HWY_INLINE Importance importance_of(const Nodes& node, const Receiver& receiver)
     const Vector<Doubles> gaps{gap(way.x, half.x), gap(way.y, half.y), gap(way.z, half.z)};
     const Doubles over_gap = 1.0 / sqrt(length_squared(gaps));
     Importance i;
-    i.value = strength / max(max(d2, r2), 1e-300);
+    i.value = strength / max(max(d2, r2), 1e-300);  // finite if a light without extent is at the receiver
     i.alike = (kAlikeSquared * r2 <= d2) & ((spread >= kAlikeSpread) | (spread == flat::kNoNormals));
     const Mask<Doubles> planes = spread > 0.0;
     if (any(planes)) {

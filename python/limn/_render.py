@@ -119,7 +119,8 @@ def render(scene: Scene | CompiledScene, camera: Camera, **settings: Any) -> npt
             it.
         max_depth: largest number of ray segments of a path, at least 1, by default 10. None sets no limit.
         seed: an integer of at least 0. Another seed gives independent noise.
-        threads: number of threads, up to 1024. 0, the default, uses all. The picture does not depend on it.
+        threads: number of threads, up to 1024. 0, the default, uses all threads of the machine. The picture does not
+            depend on it.
         error: the largest relMSE wanted. The render ends when the upper end of the 95 % interval of its estimated
             relMSE is at or under this number.
         time_limit: seconds after which the render ends, with the samples taken so far. Each pixel gets at least its

@@ -303,7 +303,7 @@ def _rays_of_matrices(intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: in
 
 def _rays_of_view(fov_deg: float, center: Any, eye: Any, up: Any, width_px: int, height_px: int) -> Any:
     if not 0 < fov_deg < 180:
-        raise ValueError(f"fov_deg: must lie between 0 and 180, not {fov_deg}")
+        raise ValueError(f"fov_deg: must be between 0 and 180, not {fov_deg}")
     start = _double(eye, "eye", (3,))
     forward = _double(center, "center", (3,)) - start
     right = np.cross(forward, _double(up, "up", (3,)))

@@ -47,7 +47,7 @@ class RayMeshIntersector:
     Args:
         geometry: a trimesh.Trimesh, or another object with vertices (n, 3) and faces (m, 3).
         scale_to_box: accepted for compatibility, but not used. Answers do not depend on the size of a mesh.
-        threads: number of threads for each query, up to 1024. 0 uses all.
+        threads: number of threads for each query, up to 1024. 0 uses all threads of the machine.
     """
 
     def __init__(self, geometry: Any, scale_to_box: bool = True, threads: int = 0) -> None:

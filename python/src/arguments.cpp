@@ -41,7 +41,7 @@ long long whole(CountArgument argument, const char* name, long long lowest, long
     const long long value = PyLong_AsLongLongAndOverflow(index, &overflow);
     Py_DECREF(index);
     if (overflow != 0 || value < lowest || value > highest)
-        wrong_value(name, "must lie in " + std::to_string(lowest) + " to " + std::to_string(highest));
+        wrong_value(name, "must be in " + std::to_string(lowest) + " to " + std::to_string(highest));
     return value;
 }
 
@@ -108,7 +108,7 @@ Transform matrix(MatrixArgument argument, const char* name) {
 
 ArrayView::ArrayView(nb::handle object, const char* name, const char* expected) {
     if (object.is_none() || !nb::try_cast(object, array_, false)) wrong_type(name, expected, object);
-    if (array_.device_type() != nb::device::cpu::value) wrong_value(name, "must lie in the CPU's memory");
+    if (array_.device_type() != nb::device::cpu::value) wrong_value(name, "must be in the CPU's memory");
     if (array_.dtype().bits < 8) wrong_type(name, expected, object);  // DLPack has types smaller than a byte
     // Check that the strides are those of a C-contiguous array.
     std::int64_t stride = 1;

@@ -63,7 +63,7 @@ void make_plastic(Plastic* self, ColorArgument albedo, RoughnessArgument roughne
     std::shared_ptr<Texture> below;
     if (albedo.object.is_none() || !nb::try_cast(albedo.object, below)) {
         const Color even = color(albedo.object, "albedo");
-        if (!(max_component(even) <= 1)) wrong_value("albedo", "must lie in [0, 1]");
+        if (!(max_component(even) <= 1)) wrong_value("albedo", "must be in [0, 1]");
         below = std::make_shared<SolidColor>(even);
     }
     new (self) Plastic(std::shared_ptr<const Texture>(below), rough, n, std::shared_ptr<const Texture>(coat));

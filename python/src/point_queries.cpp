@@ -93,7 +93,7 @@ no meaning if the surfaces are open (see open_edges). A point with a NaN is outs
 
 Args:
     points: shape (..., 3), float64 or float32, C-contiguous, in world units.
-    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.)");
+    threads: number of threads, up to 1024. 0 uses all threads of the machine. The answers do not depend on it.)");
     type.def(
         "winding_number",
         [](const CompiledScene& scene, ArrayArgument points, CountArgument threads) {
@@ -122,7 +122,7 @@ deforms it to another shape.
 
 Args:
     points: shape (..., 3), float64 or float32, C-contiguous, in world units.
-    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.
+    threads: number of threads, up to 1024. 0 uses all threads of the machine. The answers do not depend on it.
     dtype: type of the numbers in the answer, "float64" or "float32".
 
 Returns:

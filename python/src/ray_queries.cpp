@@ -96,7 +96,8 @@ nb::dict cast_rays(const CompiledScene& scene, const RayRows& rays, int threads)
     return answer;
 }
 
-// Returns for each ray the triangle that it hits first, or -1, and t. limn.trimesh calls this.
+// Returns two arrays: the row of the triangle that each ray hits first, or -1; and its t, or inf. limn.trimesh
+// calls this function.
 nb::object nearest(const CompiledScene& scene, const RayRows& rays, int threads) {
     const NewArray<std::int64_t> triangles = new_array<std::int64_t>(rays.rows.shape());
     const NewArray<double> t_hit = new_array<double>(rays.rows.shape());
@@ -193,7 +194,7 @@ The boundary of a ConstantMedium counts as a surface. Moving objects are at time
 Args:
     rays: origins and directions in world units: shape (..., 6), float64 or float32, C-contiguous. A direction may have
         any length but 0. A ray misses if a number is NaN, an origin or a direction is infinite, or a direction is 0.
-    threads: number of threads, up to 1024. 0 uses all. The answers do not depend on it.
+    threads: number of threads, up to 1024. 0 uses all threads of the machine. The answers do not depend on it.
     t_min, t_max: a hit counts if t_min < t <= t_max. t is in units of the direction.
     dtype: type of the numbers in the answer, "float64" or "float32".
 
@@ -213,7 +214,8 @@ Returns:
         given("ray_origins"), given("ray_directions"), given("threads"),
         nb::sig("def _nearest(self, ray_origins: numpy.typing.NDArray, ray_directions: numpy.typing.NDArray, "
                 "threads: int) -> tuple[numpy.typing.NDArray, numpy.typing.NDArray]"),
-        "Returns for each ray the triangle that it hits first, or -1, and t. Both arrays have shape (n, 3).");
+        "Returns two arrays: the row of the triangle that each ray hits first, or -1; and its t, or inf. Both "
+        "arguments have shape (n, 3).");
     type.def(
         "_any",
         [](const CompiledScene& scene, ArrayArgument origins, ArrayArgument directions, CountArgument threads) {
@@ -247,9 +249,9 @@ The arguments are those of cast_rays.)");
         R"(Returns how often each ray passes through a surface: int64, shape (...).
 
 A passage through an edge or a vertex counts once. A ray that touches a closed surface or runs along it counts as
-passing through it twice or not at all. The number is therefore even if both ends of the ray are outside all closed
-surfaces. It is odd if one end is outside and the other is inside one closed surface. The number may differ from the
-number of hits that list_intersections returns. The arguments are those of cast_rays.)");
+passing through it twice or not at all. If all surfaces are closed, the number is even if both ends of the ray are
+outside all of them, and odd if one end is outside and the other is inside exactly one of them. The number may differ
+from the number of hits that list_intersections returns. The arguments are those of cast_rays.)");
     type.def(
         "list_intersections",
         [](const CompiledScene& scene, ArrayArgument rays, CountArgument threads, NumberArgument t_min,

@@ -63,7 +63,7 @@ def check_floors(tree, floors):
             continue
         for include in file.includes:
             target = ("include/" if include.path.startswith("limn/") else "lib/") + include.path
-            if include.angle or target not in paths:
+            if target not in paths:
                 continue
             other = room_of(target)
             used.add((room, other))
@@ -74,6 +74,34 @@ def check_floors(tree, floors):
     for room, below in floors.arrows.items():
         yield from (f"floors.txt: no file of {room} includes one of {other}" for other in below
                     if (room, other) not in used)
+
+
+# The classes of higher floors that a room may declare, to hold pointers to them. The room never looks inside.
+DECLARED_FROM_BELOW = {"math": {"Material", "MaterialThunks", "RayFrame"},
+                       "records": {"AlbedoTable", "Hittable", "Lobe", "Texture"}}
+
+
+def check_forward_declarations(tree, floors):
+    """A room declares classes of its own and of rooms that it may include. DECLARED_FROM_BELOW lists the exceptions;
+    each of them is used. Indented declarations are of nested classes, which the room defines itself."""
+    rooms_of, used = {}, set()
+    for file in of_lib(tree):
+        for match in re.finditer(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::[^;{]*)?\{", file.code):
+            rooms_of.setdefault(match[1], set()).add(room_of(file.path))
+    for file in of_lib(tree):
+        room = room_of(file.path)
+        allowed = {room, *floors.arrows.get(room, [])}
+        for match in re.finditer(r"(?m)^(?:class|struct)\s+(\w+)\s*;", file.code):
+            if not rooms_of.get(match[1]) or allowed & rooms_of[match[1]]:
+                continue
+            if match[1] in DECLARED_FROM_BELOW.get(room, ()):
+                used.add((room, match[1]))
+                continue
+            line = 1 + file.code.count("\n", 0, match.start(1))
+            yield at(file, line, f"{room} declares {match[1]} of {' '.join(sorted(rooms_of[match[1]]))}")
+    for room, names in DECLARED_FROM_BELOW.items():
+        yield from (f"DECLARED_FROM_BELOW: {room} does not declare {name} of a higher floor" for name in sorted(names)
+                    if (room, name) not in used)
 
 
 # In the room of the description each folder may include those after it.

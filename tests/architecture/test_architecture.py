@@ -15,7 +15,8 @@ FLOORS = Floors(TABLE)
 
 class TheHouse(unittest.TestCase):
     def test_every_rule_is_kept(self):
-        for rule in (lambda tree: rules.check_floors(tree, FLOORS), rules.check_description,
+        for rule in (lambda tree: rules.check_floors(tree, FLOORS),
+                     lambda tree: rules.check_forward_declarations(tree, FLOORS), rules.check_description,
                      rules.check_quoted_includes, rules.check_libraries,
                      rules.check_umbrella, rules.check_once, rules.check_virtuals, rules.check_flat,
                      rules.check_pointers, rules.check_lobes, rules.check_clocks, rules.check_elementary,
@@ -57,17 +58,32 @@ class MadeUpHouses(unittest.TestCase):
     def test_an_include_up_the_stairs(self):
         self.reports(rules.check_floors, [
             "include/limn/math/a.h:2: math -> scene is no arrow of the floors",
+            "include/limn/math/a.h:3: math -> scene is no arrow of the floors",
             "lib/flat/tree.h:1: a room includes the umbrella",
             "lib/scene/b.cpp:2: scene -> flat is no arrow of the floors",
             "lib/cellar/wine.h:1: the floors do not know the room cellar",
             "floors.txt: no file of flat includes one of math"], {
-                "include/limn/math/a.h": '#pragma once\n#include "limn/scene/shape/b.h"\n',
+                "include/limn/math/a.h": '#pragma once\n#include "limn/scene/shape/b.h"\n'
+                                         '#include <limn/scene/shape/b.h>\n',
                 "include/limn/scene/shape/b.h": '#pragma once\n#include "limn/math/a.h"\n',
                 "include/limn/limn.h": "",
                 "lib/flat/tree.h": '#include "limn/limn.h"\n#include "limn/scene/shape/b.h"\n',
                 "lib/scene/b.cpp": '#include "scene/c.h"\n  #  include "flat/tree.h"\n// #include "flat/tree.h"\n',
                 "lib/scene/c.h": "",
                 "lib/cellar/wine.h": ""}, Floors("flat -> scene math\nscene -> math\nmath ->"))
+
+    def test_a_class_of_a_higher_floor_that_is_declared(self):
+        declared = "".join(f"struct {name};\n" for name in sorted(rules.DECLARED_FROM_BELOW["records"]))
+        self.reports(rules.check_forward_declarations, [
+            "include/limn/math/b.h:2: math declares Camera of scene",
+            "DECLARED_FROM_BELOW: math does not declare Material of a higher floor",
+            "DECLARED_FROM_BELOW: math does not declare MaterialThunks of a higher floor"], {
+                "include/limn/math/a.h": "struct RayFrame;  // defined upstairs\nstruct Later;\nstruct Later {};\n",
+                "include/limn/math/b.h": "// class Camera;\nclass Camera;\nclass Own;\nclass Nowhere;\n  class Camera;\n",
+                "include/limn/records/c.h": declared + "struct Later;\n",
+                "lib/math/d.cpp": "class Own final : public Later {};\n",
+                "lib/scene/e.h": "class Camera {};\nstruct RayFrame {};\n" + declared.replace(";", " {};")},
+            Floors("scene -> records math\nrecords -> math\nmath ->"))
 
     def test_a_texture_that_knows_a_material(self):
         self.reports(rules.check_description, ["lib/scene/texture/a.cpp:2: scene/texture includes scene/material",

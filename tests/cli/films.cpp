@@ -194,7 +194,7 @@ TEST_CASE("Films: where no plan can be made the picture is saved, and the films 
     CHECK(render.folder.names() == Names{"a.exr", "a.film", "house.obj"});
 }
 
-TEST_CASE("Films: --error over shards, in rounds", "[cli][films]") {
+TEST_CASE("Films: rounds of shards with the plans of limn merge reach the error and then stop", "[cli][films]") {
     const Render render;
     const auto round = [&](const Words& more) {
         for (const char* i : {"1", "2"}) {
@@ -254,7 +254,7 @@ TEST_CASE("Films: what cannot be continued or written is refused before it costs
         CHECK(render.folder.read("a.film") == film);
     };
     const Words exr = {"-o", "x.exr"};
-    refused(exr + Words{"--checkpoint", "a.film"}, 1, "a.film: is there already");
+    refused(exr + Words{"--checkpoint", "a.film"}, 1, "a.film: exists: add --resume");
     refused(exr + Words{"--resume", "none.film"}, 1, "none.film: there is no such file");
     refused(exr + Words{"--resume", "a.film", "--max-depth", "3"}, 1, "a.film: is not of this render: its depth limit");
     refused(exr + Words{"--resume", "a.film", "--look-from", "0,0,9"}, 1, "a.film: is not of this render: its camera");
@@ -263,7 +263,7 @@ TEST_CASE("Films: what cannot be continued or written is refused before it costs
     refused(exr + Words{"--checkpoint", "c.film", "--every", "0"}, 2, "--every 0: must be over 0");
     refused({"--shard", "1/2"}, 2, "--shard: needs --film");
     refused(exr + Words{"--shard", "1/2", "--film", "b.film"}, 2, "--shard: a part of a picture");
-    refused({"--shard", "1/2", "--film", "b.film", "--error", "0.1"}, 2, "--shard: goes with --spp or --plan");
+    refused({"--shard", "1/2", "--film", "b.film", "--error", "0.1"}, 2, "--shard: excludes --error");
     refused({"--shard", "1/1000", "--film", "b.film"}, 2, "shard 1 of 1000");
     for (const char* shard : {"0/2", "3/2", "2", "a/b", "1/2/3", "1/", "/2", "-1/2"})
         refused({"--film", "b.film", "--shard", shard}, 2, "--shard");

@@ -135,7 +135,7 @@ TEST_CASE("Options: a value that cannot be right is refused by name", "[cli]") {
 
 TEST_CASE("Options: a number out of range is told the range, and what is no number that it is none", "[cli]") {
     for (const char* value : {"0", "2147483648", "99999999999999999999", "-99999999999999999999"})
-        CHECK(refusal({"--spp", value}).find("must lie in 1 .. 2147483647") != std::string::npos);
+        CHECK(refusal({"--spp", value}).find("must be in 1 .. 2147483647") != std::string::npos);
     for (const char* value : {"4.5", "x", "99999999999999999999x"})
         CHECK(refusal({"--spp", value}).find("is not a whole number") != std::string::npos);
 }

@@ -25,7 +25,8 @@ double covariance(const Image& a, const Image& b, int x0, int y0, int x1, int y1
 
 }  // namespace
 
-TEST_CASE("Figure 10: horizon, outline and mirrored sky", "[figures]") {
+TEST_CASE("Figure 10: the horizon and the ball's outline are where projection puts them, and the ball mirrors the sky",
+          "[figures]") {
     const Figure figure = figures::fig10_specular();
     CHECK(close(horizon(figure, 200), 129.56, .005));
     CHECK(close(horizon(figure, 0), 130.68, .005));

@@ -117,7 +117,7 @@ TEST_CASE("Figure 6: every pixel is exactly a texel times the sky", "[figures]")
     CHECK(close(on_sphere / 160000.0, .7217, 5e-4));  // centres counted instead of area
 }
 
-TEST_CASE("Figure 6: the ball's outline and the corners", "[figures]") {
+TEST_CASE("Figure 6: the ball has the radius that projection gives it, and the corners show the sky", "[figures]") {
     const MapFile map;
     const Figure figure = figures::fig06_earth({.texture = map.path});
     const double radius =

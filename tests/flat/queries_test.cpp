@@ -1,8 +1,12 @@
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include "catch.h"
 #include "limn/math/error.h"
 #include "limn/query/compiled_scene.h"
 #include "limn/scene/material/diffuse_light.h"
 #include "limn/scene/texture/checker.h"
+#include "support/same_scene.h"
 #include "support/scene_zoo.h"
 
 namespace limn::queries_test {
@@ -217,12 +221,15 @@ TEST_CASE("CompiledScene: outlives the Scene and every described object, and can
     CHECK(compiled.name() == "mixed 403");
 }
 
-TEST_CASE("compile: is pure, the same scene gives the same numbers", "[compile]") {
-    const ZooScene zoo = zoo_mixed(405);
-    const CompiledScene a = compile(zoo.scene), b = compile(zoo.scene);
-    CHECK(a.features() == b.features());
-    CHECK(a.stats().memory_bytes == b.stats().memory_bytes);
-    CHECK(a.stats().primitives == b.stats().primitives);
+TEST_CASE("compile: the same scene gives the same tables on any number of threads", "[compile]") {
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 7);
+    Scene scene = zoo_mixed(405).scene;
+    scene.add(std::make_shared<Mesh>(icosphere(6), nullptr));  // so large that many tasks build its tree
+    const auto compile_on = [&](int threads) {
+        return tbb::task_arena(threads).execute([&] { return compile(scene); });
+    };
+    const CompiledScene one = compile_on(1);
+    for (const int threads : {1, 7}) check_same(one, compile_on(threads));
 }
 
 TEST_CASE("compile: features name what is in the scene and nothing else", "[compile]") {

@@ -1,11 +1,10 @@
 // Scenes whose instances have moved: as if they had been compiled where they stand now.
-#include <cstring>
-
 #include "catch.h"
 #include "flat/scene.h"
 #include "limn/math/error.h"
 #include "limn/query/compiled_scene.h"
 #include "support/pictures.h"
+#include "support/same_scene.h"
 
 namespace limn::recompile_test {
 
@@ -71,29 +70,6 @@ std::vector<MovedObject> move_some(Random& random, Description& d, const Compile
         d.places[i] = moved.back();
     }
     return moved;
-}
-
-template <class Table>
-bool same_bytes(const Table& a, const Table& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
-}
-
-void check_same(const CompiledScene& a, const CompiledScene& b) {
-    CHECK(a.digest() == b.digest());
-    CHECK(a.features() == b.features());
-    CHECK(a.stats().stored_primitives == b.stats().stored_primitives);
-    CHECK(a.stats().degenerate == b.stats().degenerate);
-    CHECK(a.stats().lights == b.stats().lights);
-    CHECK(a.stats().memory_bytes == b.stats().memory_bytes);
-    const flat::Scene &s = a.flat(), &t = b.flat();
-    CHECK(same_bytes(s.nodes, t.nodes));
-    CHECK(same_bytes(s.blocks, t.blocks));
-    CHECK(same_bytes(s.references, t.references));
-    CHECK(same_bytes(s.lights.nodes, t.lights.nodes));
-    CHECK(s.kinds == t.kinds);
-    CHECK(s.list.planar == t.list.planar);
-    CHECK(s.list.round == t.list.round);
-    CHECK(s.media.size() == t.media.size());
 }
 
 void check_same_answers(const CompiledScene& a, const CompiledScene& b, const Scene& scene, Random& random) {

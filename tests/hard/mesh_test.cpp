@@ -99,7 +99,7 @@ TEST_CASE("Closed meshes: no ray from inside escapes from one seen through insta
     check(escapes({mesh, {}, 1, {small, mirrored}}, count(2e6), 558), "two instances");
 }
 
-TEST_CASE("Closed meshes: nor does any ray escape from one of single triangles in double", "[hard][mesh]") {
+TEST_CASE("Closed meshes: no ray escapes from one of single triangles in double", "[hard][mesh]") {
     Random random(560);
     for (const double shift : {0.0, 0.1, 1e3, 1e7, 1e12}) {
         const MeshData shape = bumpy_sphere(random, 4, 0.3, 1, {0, 0, 0});

@@ -1,5 +1,6 @@
-// One number for the picture of a scene and one for its records, the same in every build, on every instruction set, and whatever code the C
-// library picks for the processor. A change of it is a change of samples: film_file.h has their version.
+// One number for the picture of a scene and one for its records, the same in every build, on every instruction set, and
+// whatever code the C library picks for the processor. A change of it is a change of samples: film_file.h has their
+// version.
 #include "catch.h"
 #include "limn/limn.h"
 #include "math/system/checksum.h"
@@ -98,7 +99,8 @@ TEST_CASE("Digest: a picture of turned boxes and smoke has the same bits in ever
     CHECK(found.scene == "43d2f63aa82773c3");
 }
 
-TEST_CASE("Digest: so does one of all textures and lobes under a sky", "[hard][digest]") {
+TEST_CASE("Digest: a picture of all textures and lobes under a sky has the same bits in every build",
+          "[hard][digest]") {
     const Digests found = digests(outdoors(), {.look_from = {0.5, 1, 6}, .aperture_angle = 1, .focus_distance = 6});
     CHECK(found.picture == "a6fecda11b85f559");
     CHECK(found.scene == "d3e5089ec69ff45c");

@@ -48,9 +48,8 @@ TEST_CASE("glTF: what transmits half of its light or more is glass, as rough as 
     CHECK(is_of<RoughConductor>(glass(1, "\"roughnessFactor\": 0")));  // of metal nothing transmits
     CHECK(is_of<Plastic>(glass(0.25, smooth)));
     CHECK(glass(0.75, R"("metallicFactor": 0, "baseColorFactor": [1, 0, 0, 1])").warnings ==
-          std::vector<std::string>{
-              "transmissionFactor (but for whether it is below 0.5) of material 'material 0' is not used",
-              "baseColorFactor of material 'material 0' is not used"});
+          std::vector<std::string>{"the exact share of transmitted light of material 'material 0' is not used",
+                                   "baseColorFactor of material 'material 0' is not used"});
 }
 
 TEST_CASE("glTF: alphaMode says what the alpha of the base colour means", "[io][gltf]") {

@@ -171,7 +171,7 @@ TEST_CASE("glTF: an orthographic camera keeps its height", "[io][gltf]") {
     CHECK(model.cameras[0].name == "square");
 }
 
-TEST_CASE("glTF: materials become what there is", "[io][gltf]") {
+TEST_CASE("glTF: metallicFactor and emissiveFactor decide which of limn's materials a material becomes", "[io][gltf]") {
     CHECK(is_of<Plastic>(load(kSquare)));
     CHECK(is_of<RoughConductor>(load(with_material(R"("name": "default")"))));  // metallicFactor is 1 unless stated
     CHECK(is_of<MetallicRoughness>(load(with_material(R"("pbrMetallicRoughness": {"metallicFactor": 0.6})"))));

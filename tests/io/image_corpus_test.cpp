@@ -50,7 +50,7 @@ void judge(const Row (&rows)[N]) {
 
 }  // namespace
 
-TEST_CASE("Image corpus: PNG", "[io][image]") {
+TEST_CASE("Image corpus: a PNG loads with its colours if it is valid, else it is refused", "[io][image]") {
     const std::string plain = png(2, 3, kOrangeBytes + kOrangeBytes), broken = "is not a whole PNG: ";
     const std::string header = plain.substr(8, 25), data = plain.substr(33, plain.size() - 45),
                       end = png_chunk("IEND", "");
@@ -100,7 +100,7 @@ TEST_CASE("Image corpus: PNG", "[io][image]") {
     judge(rows);
 }
 
-TEST_CASE("Image corpus: JPEG", "[io][image]") {
+TEST_CASE("Image corpus: a JPEG loads with its colours if it is valid, else it is refused", "[io][image]") {
     const std::string plain = stored_file("orange.jpg"), broken = "is not a whole JPEG: ";
     const std::string cut = broken + "it breaks off";
     const std::size_t table = plain.find("\xff\xc4");  // length, name, then the numbers of codes
@@ -128,7 +128,8 @@ TEST_CASE("Image corpus: JPEG", "[io][image]") {
     judge(rows);
 }
 
-TEST_CASE("Image corpus: HDR, BMP and TGA", "[io][image]") {
+TEST_CASE("Image corpus: an HDR, BMP or TGA loads if it is valid; it and files of other kinds are refused otherwise",
+          "[io][image]") {
     std::string packed = {2, 2, 0, 9};  // nine columns, packed by channel
     for (const char c : kOrangeRgbe) packed += std::string{static_cast<char>(128 + 9), c};
     const std::string one = "-Y 1 +X 1", cut = "breaks off before its end";
@@ -171,7 +172,7 @@ TEST_CASE("Image corpus: HDR, BMP and TGA", "[io][image]") {
 
 #ifdef LIMN_WITH_OPENIMAGEIO
 
-TEST_CASE("Image corpus: EXR", "[io][image]") {
+TEST_CASE("Image corpus: an EXR loads with its colours if it is valid, else it is refused", "[io][image]") {
     const std::string plain = stored_file("images/rgba.exr"), attribute = zeros(1) + "box2i" + zeros(1);
     const std::size_t window = plain.find("dataWindow" + attribute) + 21;  // x and y of both corners
     REQUIRE(plain.find("dataWindow" + attribute) != std::string::npos);

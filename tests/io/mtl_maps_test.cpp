@@ -94,7 +94,7 @@ TEST_CASE("MTL: norm bends normals, and so do the heights of bump, of which whit
     // Their options, of which -bm of heights counts.
     const Model options = load_one(folder, "bump -bm 2 -s 2 h.png\n");
     CHECK(options.warnings ==
-          std::vector<std::string>{folder.path("a.mtl") + ": line 2: the options of bump are not used, but for -bm"});
+          std::vector<std::string>{folder.path("a.mtl") + ": line 2: the options of bump are not used, except -bm"});
 }
 
 }  // namespace limn::mtl_maps_test

@@ -149,7 +149,7 @@ TEST_CASE("MTL: illum decides what a material is, Ke before it", "[io][obj][mtl]
         if (row.kind != kGlass && row.kind != kClear) check_color(lowered.color(), row.color);
         CHECK(lowered.opacity() == row.opacity);
     }
-    CHECK(load_one(folder, "d 0\n").warnings == std::vector<std::string>{"material 'm' is invisible, for its d is 0"});
+    CHECK(load_one(folder, "d 0\n").warnings == std::vector<std::string>{"material 'm' is invisible: its d is 0"});
 }
 
 TEST_CASE("MTL: what has map_Kd shows it, whatever else the material says", "[io][obj][mtl]") {
@@ -255,7 +255,8 @@ TEST_CASE("MTL: faces keep their materials, those before any usemtl the default 
     check_color(lowered.color(2), Color{0, 0.5, 0});
     check_color(lowered.color(3), Color{1, 0, 0});
     REQUIRE(model.warnings.size() == 1);
-    CHECK(model.warnings[0] == folder.path("a.mtl") + ": line 5: material 'red' is there already; the first one stays");
+    CHECK(model.warnings[0] ==
+          folder.path("a.mtl") + ": line 5: material 'red' is defined twice; the first definition is used");
     const auto glass = std::make_shared<Dielectric>(1.5);
     const Lowered with_default(load_obj(folder.path("a.obj"), {.default_material = glass}));
     CHECK(with_default.materials[0].kind == "dielectric");
@@ -268,8 +269,9 @@ TEST_CASE("MTL: a material that an earlier library has is left out with a warnin
     const Model model = load_obj(folder.write("a.obj", "mtllib b.mtl\n" + triangles({"red", "green"})));
     check_color(Lowered(model).color(0), Color{1, 0, 0});
     check_color(Lowered(model).color(1), Color{0, 1, 0});
-    CHECK(model.warnings == std::vector<std::string>{folder.path("a.mtl") +
-                                                     ": line 3: material 'red' is there already; the first one stays"});
+    CHECK(model.warnings ==
+          std::vector<std::string>{folder.path("a.mtl") +
+                                   ": line 3: material 'red' is defined twice; the first definition is used"});
 }
 
 TEST_CASE("MTL: a library that is named twice is read once", "[io][obj][mtl]") {
@@ -283,7 +285,7 @@ TEST_CASE("MTL: a library that is named twice is read once", "[io][obj][mtl]") {
     CHECK(model.warnings ==
           std::vector<std::string>{
               folder.path("bad.mtl") + ": is no material library: it appears to be a TIFF picture",
-              folder.path("a.mtl") + ": line 3: material 'red' is there already; the first one stays"});
+              folder.path("a.mtl") + ": line 3: material 'red' is defined twice; the first definition is used"});
 }
 
 TEST_CASE("MTL: a missing library, material or texture is a warning, not an error", "[io][obj][mtl]") {

@@ -185,7 +185,7 @@ TEST_CASE("PLY: every broken or odd file has its verdict", "[io][ply]") {
         {"no format", with("format ascii 1.0\n", ""), 0, "the header does not say the format"},
         {"format without a version", with("ascii 1.0", "ascii"), 0, "line 2: format needs a name and a version"},
         {"unknown format", with("ascii", "binary"), 0, "line 2: 'binary' is no format of a PLY"},
-        {"unknown version", with("1.0", "2.0"), 0, "line 2: version 2.0 is not read"},
+        {"unknown version", with("1.0", "2.0"), 0, "line 2: version 2.0 cannot be read"},
         {"element without a number", with("face 1", "face"), 0, "line 8: element needs a name and a number"},
         {"an element twice", with("element face", "element vertex 9\nelement face"), 0,
          "line 8: a second element 'vertex'"},

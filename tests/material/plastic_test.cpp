@@ -36,7 +36,8 @@ TEST_CASE("Plastic: a white one loses no light, at any roughness, index and angl
             }
 }
 
-TEST_CASE("Plastic: nor does a smooth one, whose mirror is drawn as often as it reflects", "[material][plastic]") {
+TEST_CASE("Plastic: a smooth one that absorbs nothing loses no light, and samples its mirror as often as it reflects",
+          "[material][plastic]") {
     std::mt19937_64 random(5);
     const Plastic white(kWhite, 0), dark(Color{.3, .3, .3}, 0);
     for (const double degrees : {0.0, 45.0, 70.0, 85.0}) {
@@ -62,7 +63,8 @@ TEST_CASE("Plastic: nor does a smooth one, whose mirror is drawn as often as it 
     }
 }
 
-TEST_CASE("Plastic: it is the reference written out", "[material][plastic]") {
+TEST_CASE("Plastic: its value is the coat's reflection plus the albedo of what the coat transmits, by integrals",
+          "[material][plastic]") {
     const double alpha = 0.25, index = 1.6;
     // What the coat reflects, by integrals in numbers of their own.
     const auto once = [&](const Vec3& o, const Vec3& i) {

@@ -48,7 +48,8 @@ TEST_CASE("RoughConductor: one that reflects all loses no light, at any roughnes
         }
 }
 
-TEST_CASE("RoughConductor: nor does a brushed one", "[material][rough-conductor]") {
+TEST_CASE("RoughConductor: a brushed one that reflects all loses no light, at any azimuth",
+          "[material][rough-conductor]") {
     Surface s = kUp;
     s.dp_du = {1, 0, 0};
     for (const Roughness& roughness : {Roughness{0.1, 0.4}, {0.2, 0.9}, {1, 0.5}, {0.4, 0.6}})

@@ -71,7 +71,7 @@ TEST_CASE("Elementary: all functions are right to some units in the last place",
     CHECK(worst_power <= 1);
 }
 
-TEST_CASE("Elementary: ends and what is beyond them", "[core][elementary]") {
+TEST_CASE("Elementary: functions are exact at the ends of their domains, and NaN of a NaN", "[core][elementary]") {
     const double nan = std::nan("");
     CHECK(exponential(0) == 1);
     CHECK(exponential(kInfinity) == kInfinity);

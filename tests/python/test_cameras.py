@@ -29,7 +29,7 @@ class Projections(unittest.TestCase):
         expected = (np.sin(np.pi * (0.5 - (np.arange(16) + 0.5) / 16)) + 1) / 2
         np.testing.assert_allclose(image, np.broadcast_to(expected[:, None, None], image.shape), rtol=1e-5)
 
-    def test_wrong_ones(self):
+    def test_impossible_cameras_are_refused(self):
         for name, kind, value in (("projection", ValueError, "fisheye"), ("projection", TypeError, 1),
                                   ("view_height", TypeError, "high"), ("aspect_ratio", TypeError, "wide")):
             with self.assertRaisesRegex(kind, f"^{name}"):
@@ -51,14 +51,14 @@ class Windows(unittest.TestCase):
         np.testing.assert_array_equal(limn.first_hits(scene, CAMERA, width=24, height=16, crop=[5, 3, 17, 12]).depth,
                                       hits.depth[3:12, 5:17])
 
-    def test_wrong_ones(self):
+    def test_a_crop_outside_the_picture_is_refused(self):
         for kind, crop in ((ValueError, (0, 0, 4)), (TypeError, "all!"), (TypeError, 4), (TypeError, (0, 0, 4.5, 4)),
                            (ValueError, (-1, 0, 4, 4)), (ValueError, (4, 4, 4, 8)), (ValueError, (0, 0, 25, 4))):
             for call in (limn.render, limn.first_hits):
                 with self.subTest(crop=crop), self.assertRaisesRegex(kind, "crop"):
                     call(limn.Scene(), CAMERA, width=24, height=16, crop=crop)
 
-    def test_without_a_background(self):
+    def test_a_transparent_render_has_alpha_and_no_background(self):
         scene = furnace(limn.Lambertian(WHITE))
         result = limn.render_with_report(scene, CAMERA, transparent=True, max_depth=None, **SMALL)
         alpha = result.maps["alpha"]
@@ -70,7 +70,7 @@ class Windows(unittest.TestCase):
 
 
 class FirstHits(unittest.TestCase):
-    def test_what_is_seen(self):
+    def test_first_hits_are_those_of_the_surface_behind_a_cut_out(self):
         scene = limn.Scene()
         scene.add(wall(limn.Lambertian((0.5, 0.25, 0.75)), 9))
         scene.add(limn.Sphere((0, 0, 0), 1, limn.Lambertian(WHITE)))
@@ -88,7 +88,7 @@ class FirstHits(unittest.TestCase):
         np.testing.assert_allclose(hits.albedo[0, 0], (0.5, 0.25, 0.75), atol=1e-6)
         np.testing.assert_allclose(hits.albedo[7, 12], 1, atol=1e-6)
 
-    def test_where_there_is_nothing(self):
+    def test_a_pixel_that_sees_no_surface_has_no_object_and_infinite_depth(self):
         hits = limn.first_hits(limn.Scene(), CAMERA, width=3, height=2)
         np.testing.assert_array_equal(hits.depth, np.inf)
         for array in (hits.object, hits.primitive):
@@ -101,7 +101,7 @@ class FirstHits(unittest.TestCase):
         a, b = (limn.first_hits(scene, CAMERA, threads=n, width=48, height=32).normal for n in (1, 3))
         np.testing.assert_array_equal(a, b)
 
-    def test_wrong_arguments(self):
+    def test_refusals_name_the_argument(self):
         with self.assertRaisesRegex(TypeError, "^scene"):
             limn.first_hits(None, CAMERA)
         with self.assertRaisesRegex(TypeError, "^camera"):

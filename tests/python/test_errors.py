@@ -25,7 +25,7 @@ class Errors(unittest.TestCase):
             call(*arguments, **named)
         self.assertRegex(str(caught.exception), rf"^{name}\b")
 
-    def test_rays(self):
+    def test_rays_of_a_wrong_shape_or_type_are_refused(self):
         for query in ("cast_rays", "test_occlusions", "count_intersections", "list_intersections"):
             ask = getattr(self.scene, query)
             for bad in (np.ascontiguousarray(RAYS.T), RAYS[0, :5].copy(), RAYS[:, :5].copy(), np.zeros((0, 6)),
@@ -55,11 +55,11 @@ class Errors(unittest.TestCase):
         for query in (self.scene._nearest, self.scene._any):
             self.refuses("ray_directions", ValueError, query, np.zeros((3, 3)), np.ones((2, 3)), 0)
 
-    def test_scenes(self):
+    def test_scene_attributes_of_a_wrong_type_are_refused(self):
         for name, bad in (("background", None), ("background", 3), ("name", 3), ("name", None)):
             self.refuses(name, TypeError, setattr, limn.Scene(), name, bad)
 
-    def test_points(self):
+    def test_points_of_a_wrong_shape_or_type_are_refused(self):
         for query in ("contains", "winding_number", "compute_distance", "compute_signed_distance",
                       "compute_closest_points"):
             ask = getattr(self.scene, query)
@@ -68,7 +68,7 @@ class Errors(unittest.TestCase):
             for bad in (None, [[0, 0, 0]], POINTS.astype(np.int32)):
                 self.refuses("points", TypeError, ask, bad)
 
-    def test_meshes(self):
+    def test_invalid_mesh_arrays_are_refused_and_any_whole_number_type_is_taken(self):
         for make in (limn.Scene().add_triangles, limn.Mesh):
             for bad in (VERTICES.T.copy(), VERTICES[:0], VERTICES[::2], VERTICES[None], np.zeros((3, 4), np.float32)):
                 self.refuses("vertices", ValueError, make, bad, FACES)
@@ -173,14 +173,14 @@ class Errors(unittest.TestCase):
                 ("scale", TypeError, limn.EnvironmentMap, (np.ones((1, 1, 3)), None, "bright")),
                 ("environment", TypeError, surround, (np.ones((1, 1, 3)),)))
 
-    def test_skies(self):
+    def test_impossible_skies_are_refused(self):
         for name, kind, value in (("to_sun", ValueError, (0, -1, 0)), ("turbidity", ValueError, 99),
                                   ("turbidity", TypeError, "hazy"), ("ground", ValueError, (2, 0, 0)),
                                   ("scale", ValueError, -1), ("height", ValueError, 1), ("height", TypeError, 2.5)):
             with self.subTest(name=name), self.assertRaisesRegex(kind, name):
                 limn.make_sky(**{name: value})
 
-    def test_render(self):
+    def test_render_names_the_invalid_argument(self):
         camera = limn.Camera(look_from=(0, 0, 5))
         small = {"width": 8, "height": 8, "samples_per_pixel": 1}
         self.refuses("scene", TypeError, limn.render, None, camera)

@@ -24,13 +24,12 @@ def lit(*lights):
 
 
 class Punctual(unittest.TestCase):
-    def test_a_point(self):
-        """Intensity over the squared distance, by the cosine."""
+    def test_a_point_gives_intensity_over_squared_distance_times_cosine(self):
         np.testing.assert_allclose(lit(limn.PointLight((0, 0, 2), (4 * np.pi, 0, np.pi))), (1, 0, 0.25), rtol=1e-4)
         np.testing.assert_allclose(lit(limn.PointLight((2, 0, 2), PI)), np.sqrt(0.5) / 8, rtol=1e-4)
 
-    def test_a_spot(self):
-        """As KHR_lights_punctual: the square of a ramp in the cosine."""
+    def test_a_spot_falls_off_as_the_square_of_a_ramp_in_the_cosine(self):
+        """This is the falloff of KHR_lights_punctual."""
         inner, outer = 20, 40
         for angle in (0, 10, 30, 39, 41, 120):
             a, low, high = np.cos(np.radians((angle, outer, inner)))
@@ -39,7 +38,7 @@ class Punctual(unittest.TestCase):
             ramp = np.clip((a - low) / (high - low), 0, 1) ** 2
             np.testing.assert_allclose(lit(spot), ramp, rtol=1e-3, atol=1e-5)
 
-    def test_a_direction_and_a_sun(self):
+    def test_the_light_of_directions_and_suns_adds_up_by_the_cosine(self):
         slanted = (3, 0, -4)  # a cosine of 0.8
         np.testing.assert_allclose(lit(limn.DirectionalLight(slanted, PI)), 0.8, rtol=1e-5)
         np.testing.assert_allclose(lit(limn.SunLight(slanted, PI)), 0.8, rtol=1e-3)
@@ -66,7 +65,7 @@ class Environments(unittest.TestCase):
         image = limn.render(scene, CAMERA, max_depth=None, **(SMALL | {"samples_per_pixel": 256}))
         np.testing.assert_allclose(image.mean(), 1, atol=1e-2)
 
-    def test_directions(self):
+    def test_the_middle_of_a_map_is_towards_minus_z_and_its_matrix_turns_it(self):
         """Red above, green towards -z, blue to the right of that, +x."""
         map_ = np.zeros((64, 128, 3))
         map_[:16] = (1, 0, 0)

@@ -73,7 +73,7 @@ def listed(o3d):
 
 
 class Programs(unittest.TestCase):
-    def test_depth_image(self):
+    def test_a_depth_image_has_its_points_on_the_faces(self):
         answer = depth_image(limn.open3d)
         self.assertEqual(answer["t_hit"].shape, (240, 320))
         self.assertEqual(answer["t_hit"].dtype, np.float32)
@@ -83,7 +83,7 @@ class Programs(unittest.TestCase):
         self.assertTrue(on_face.all())
         np.testing.assert_array_equal(answer["primitive_ids"] == limn.INVALID_ID, ~hit)
 
-    def test_closest_geometry(self):
+    def test_closest_geometry_has_the_right_object_and_the_inside(self):
         answer = closest_geometry(limn.open3d)
         self.assertEqual(list(answer["names"].values()), ["cube", "ball"])
         grid = np.linspace([-2, -2, -2], [2, 2, 2], num=20)
@@ -94,7 +94,7 @@ class Programs(unittest.TestCase):
         np.testing.assert_array_equal(answer["inside"][sure], (in_cube | (from_ball < 0.5))[sure])
         self.assertTrue((answer["ids"][in_cube] == 0).all() and (answer["ids"][from_ball < 0.5] == 1).all())
 
-    def test_listed(self):
+    def test_listed_hits_have_the_same_points_by_weights_and_by_t(self):
         answer = listed(limn.open3d)
         np.testing.assert_allclose(answer["by_weights"], answer["by_t"], atol=1e-6)
         self.assertEqual(answer["ray_splits"].dtype, np.uint32)

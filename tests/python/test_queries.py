@@ -79,7 +79,7 @@ class Answers(unittest.TestCase):
         self.assertEqual(scene.cast_rays(ray, t_min=1.0)["t_hit"][0], 2)  # t_min itself is out
         self.assertEqual(scene.count_intersections(ray, t_min=0.5, t_max=1.5)[0], 1)
 
-    def test_points(self):
+    def test_inside_distance_and_nearest_point_agree_in_a_hollow_box(self):
         scene = compiled(box((-2, -2, -2), (2, 2, 2)), inverted(box((-1, -1, -1), (1, 1, 1))))
         points = np.array([[0, 0, 0], [1.5, 0, 0], [3, 0, 0], [2, 0, 0], [1, 1, 1]], float)
         np.testing.assert_array_equal(scene.contains(points), [False, True, False, True, True])

@@ -35,7 +35,7 @@ class Pictures(unittest.TestCase):
             image = limn.render(scene, CAMERA, max_depth=None, **SMALL)
             np.testing.assert_allclose(image.mean(), 1, atol=0.03)
 
-    def test_textures(self):
+    def test_every_texture_is_seen_in_a_picture(self):
         pixels = np.zeros((2, 2, 3), np.uint8)
         pixels[0, 0] = 255
         quad = lambda texture: limn.Quad((-2, -2, 0), (4, 0, 0), (0, 4, 0), limn.DiffuseLight(texture))
@@ -63,7 +63,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(result.maps["samples"].shape, (32, 32))
         self.assertGreater(result.report["rays"], 0)
 
-    def test_srgb(self):
+    def test_srgb_clamps_and_makes_a_nan_black(self):
         linear = np.array([[0, 1, 0.5, -1, 9, np.nan]], np.float32)
         np.testing.assert_array_equal(limn.to_srgb(linear), [[0, 255, 188, 0, 255, 0]])
 

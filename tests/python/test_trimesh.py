@@ -47,7 +47,7 @@ class Trimesh(unittest.TestCase):
         np.testing.assert_array_equal(first, self.theirs.intersects_first(self.origins, self.ways))
         np.testing.assert_array_equal(self.ours.intersects_any(self.origins, self.ways), first != -1)
 
-    def test_contains_points(self):
+    def test_contains_points_is_true_inside_the_ball_and_false_outside(self):
         points = np.random.default_rng(6).uniform(-1.1, 1.1, (500, 3))
         sure = np.abs(np.linalg.norm(points, axis=1) - 0.975) > 0.03
         np.testing.assert_array_equal(self.ours.contains_points(points)[sure],
@@ -68,7 +68,7 @@ class Trimesh(unittest.TestCase):
         self.mesh.ray = self.ours
         self.assertTrue(self.mesh.contains([[0, 0, 0]])[0])
 
-    def test_copies_and_pickles(self):
+    def test_copies_and_pickles_answer_alike(self):
         for other in (copy.copy(self.ours), copy.deepcopy(self.ours), pickle.loads(pickle.dumps(self.ours))):
             np.testing.assert_array_equal(other.intersects_first(self.origins, self.ways),
                                           self.ours.intersects_first(self.origins, self.ways))

@@ -32,7 +32,7 @@ struct Measured {
     void add(double x) { sum += x, squares += x * x, ++count; }
     double mean() const { return sum / count; }
     double error() const { return std::sqrt((squares / count - mean() * mean()) / (count - 1)); }
-    // Whether the mean is the reference number, which is rounded to `digits` decimals and was itself measured on 200
+    // Returns true if the mean is the published number, which is rounded to `digits` decimals and was measured on 200
     // lattices, of another program.
     bool agrees(double published, int digits) const {
         CAPTURE(mean(), error(), published);
@@ -195,14 +195,15 @@ TEST_CASE("Perlin textures: finite wherever they are asked", "[texture][perlin]"
     CHECK(marble(lattice, 4, {0, 0, kInfinity}) == 0.5);  // the middle, where there is no phase
 }
 
-TEST_CASE("Perlin noise: the reference statistics", "[texture][perlin]") {
+TEST_CASE("Perlin noise: its mean, standard deviation and kurtosis are the published ones", "[texture][perlin]") {
     const Moments m(noise);
     CHECK(m.mean.agrees(0, 3));
     CHECK(m.deviation.agrees(.182, 3));
     CHECK(m.kurtosis.agrees(2.63, 2));
 }
 
-TEST_CASE("Perlin turbulence: the reference statistics", "[texture][perlin]") {
+TEST_CASE("Perlin turbulence: its mean and standard deviation are the published ones, and it is at least 0 and below 1",
+          "[texture][perlin]") {
     const Moments m(turbulence);
     CHECK(m.mean.agrees(.170, 3));
     CHECK(m.deviation.agrees(.125, 3));
@@ -210,8 +211,9 @@ TEST_CASE("Perlin turbulence: the reference statistics", "[texture][perlin]") {
     CHECK(m.largest < 1);
 }
 
-TEST_CASE("Perlin marble: the reference statistics, the arcsine law of a sine with uniform phase",
-          "[texture][perlin]") {
+TEST_CASE(
+    "Perlin marble: its mean, standard deviation and deciles are those of a sine with uniform phase, as published",
+    "[texture][perlin]") {
     const Moments m([](const PerlinLattice& lattice, const Point3& p) { return marble(lattice, 4, p); });
     CHECK(m.mean.agrees(.499, 3));
     CHECK(m.deviation.agrees(.354, 3));

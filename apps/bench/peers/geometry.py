@@ -4,19 +4,21 @@ import json
 
 import numpy as np
 
-RARELY = 0.02  # sampling weight of the back of a lamp that is close to a wall; other sides have 1
-NEAR = 2  # largest distance of such a wall
-GAP = 1e-3  # distance between the front and the back of a lamp
+RARELY = 0.02  # sampling weight of a lamp's back that a triangle of another mesh is close behind; otherwise 1
+NEAR = 2  # largest depth of such a triangle behind the lamp's plane, in world units
+GAP = 1e-3  # distance between the front and the back of a lamp, in world units
 LARGE = 50  # radius from which a ball counts as the ground
-LIFT = 0.2  # how far media are moved up, because Mitsuba misses a boundary that touches the floor
+LIFT = 0.2  # media are moved up by this, for all peers, because Mitsuba misses a boundary that touches the floor
 
 
 class Scene:
-    """A scene whose meshes have arrays of vertices, triangles, normals and uvs.
+    """A scene in world space. The vertices, triangles, normals and uvs of its meshes and boundaries are numpy arrays.
+    Normals and uvs are None if the mesh has none.
 
-    A colour is one of three: a list of red, green and blue; a dict {"cell", "even", "odd"} for a checkerboard; a dict
-    {"picture"} for an image with rows from the top, which is interpolated bilinearly and repeated. `sky` is a colour, a
-    latitude-longitude map, or None if there is no light around the scene."""
+    A colour is one of three: a list of red, green and blue; a dict {"cell", "even", "odd"} for a checkerboard of cubes
+    with edges of length `cell` in world units; a dict {"picture"} for an image with rows from the top, which is
+    interpolated bilinearly and repeated. `sky` is a colour, a latitude-longitude map, or None if there is no light
+    around the scene."""
 
     def __init__(self, text):
         told = json.loads(text)
@@ -41,7 +43,8 @@ class Scene:
             self.sky = top if any(top) else None
 
     def backs(self):
-        """Yields the back of each lamp and its sampling weight, for renderers whose lamps emit on one side only."""
+        """Yields, for each mesh that emits, a mesh for its back and the sampling weight of that back. Renderers whose
+        lamps emit on one side only need them."""
         for lamp in self.meshes:
             if lamp["material"]["kind"] != "light":
                 continue
@@ -55,15 +58,16 @@ class Scene:
 
 
 def sphere_mesh(sphere, rings):
-    """Returns a ball as a mesh with exact normals, which point inward if the radius is negative. A large ball is the
-    ground and has more rings towards its top."""
+    """Returns a ball as a mesh with exact normals, which point inward if the radius is negative. A ball of radius LARGE
+    or more counts as the ground. It has 401 rows of vertices, closer together towards the top, whatever `rings` is."""
     segments, polar = 2 * rings, np.linspace(0, np.pi, rings + 1)
     if abs(sphere["radius"]) >= LARGE:
         segments, polar = 512, np.concatenate([[0], np.geomspace(1e-4, np.pi, 400)])
     around = 2 * np.pi * np.arange(segments) / segments
     sine, cosine = np.sin(polar)[:, None], np.cos(polar)[:, None]
     normals = np.stack(np.broadcast_arrays(sine * np.cos(around), cosine, -sine * np.sin(around)), -1).reshape(-1, 3)
-    # Connect the rings. a and b are neighbours in a ring, c and d are below them. The poles are the outermost rings.
+    # Connect the rings. a and b are neighbours in a ring, c and d are below them. The first and
+    # the last ring are the poles: their vertices coincide.
     rows, here = segments * np.arange(len(polar) - 1)[:, None], np.arange(segments)
     a, b = (rows + here).ravel(), (rows + np.roll(here, -1)).ravel()
     c, d = a + segments, b + segments
@@ -85,7 +89,8 @@ def index_of(metal):
 
 
 def sky_image(bottom, top, height=512):
-    """Returns the gradient as a latitude-longitude map. Its first row is straight up, its last row straight down."""
+    """Returns the vertical gradient from `bottom` to `top` as a latitude-longitude map. Its first row is straight up,
+    its last row straight down."""
     upward = np.cos(np.pi * (np.arange(height) + 0.5) / height)[:, None, None]
     rows = (1 - upward) / 2 * np.array(bottom) + (1 + upward) / 2 * np.array(top)
     return np.ascontiguousarray(np.broadcast_to(rows, (height, 2 * height, 3)), dtype=np.float32)

@@ -1,5 +1,5 @@
 /// \file
-/// Reading and writing image files.
+/// Reading and writing image files. Implemented in lib/io/image_file.cpp and save_image.cpp.
 ///
 /// - The suffix of a file's name decides the format in which it is written: EXR or PNG; PNG or HDR in a build without
 ///   OpenImageIO.

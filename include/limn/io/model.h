@@ -20,7 +20,7 @@ struct ModelOptions {
     /// 0.6) if it has map_Kd but no Kd. A material of a glTF takes its factors.
     bool textures = true;
     /// The crease angle in degrees, 0 to 180: a mesh without normals gets normals from smooth_normals with this angle.
-    /// By default such a mesh stays flat.
+    /// By default a mesh without normals is shaded flat.
     std::optional<double> crease{};
 };
 

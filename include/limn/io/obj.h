@@ -15,9 +15,9 @@ using ObjOptions = ModelOptions;  ///< options of load_obj
 /// - Decimals become the nearest float32.
 /// - Polygons are cut by ear clipping. A polygon with many thousand corners is dropped with a warning if cutting it
 ///   takes too long.
-/// - If no face names normals or texture coordinates, the vertices are those of the file. Otherwise there is a vertex
-///   for each combination that occurs. A corner without a normal, or with a normal of length zero, gets the normal of
-///   its face. A corner without a texture coordinate gets (0, 0).
+/// - If no face names normals or texture coordinates, the mesh has the vertices of the file. Otherwise it has a vertex
+///   for each combination of position, normal and texture coordinate that occurs. A corner without a normal, or with a
+///   normal of length zero, gets the normal of its face. A corner without a texture coordinate gets (0, 0).
 /// - Indices may refer to elements further down in the file.
 /// - Groups become Model::parts.
 /// - Weights, vertex colours, lines, points and smoothing groups are not used.

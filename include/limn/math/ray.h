@@ -16,7 +16,8 @@ struct Ray {
     Vec3 direction;            ///< finite and not zero, of any length
     double t_min = 0;          ///< excluded: a hit at t_min is not found
     double t_max = kInfinity;  ///< included: a hit at t_max is found
-    /// The time. Objects move from time 0 to time 1, and clamp it to [0, 1].
+    /// The time at which the ray sees moving objects. They move from time 0 to time 1. A time below 0 counts as 0, and
+    /// a time above 1 counts as 1.
     double time = 0;
     /// Internal data of a ray inside an instance; null in a ray that you make. The origin and the direction in the
     /// space of an instance are rounded. The frame describes the exact ray, so that limn's shapes can decide exactly
@@ -32,8 +33,8 @@ struct Ray {
     constexpr Point3 at(double t) const { return origin + t * direction; }
 };
 
-/// Returns true if a ray can be traced. Its origin, direction and time are then finite, its direction is not zero,
-/// t_min <= t_max and t_min < +infinity. In every query an unusable ray misses.
+/// Returns true if the ray can be traced: origin, direction and time are finite, the direction is not zero,
+/// t_min <= t_max, and t_min < +infinity. In every query an unusable ray misses.
 inline bool is_usable(const Ray& r) {
     return is_finite(r.origin) && is_finite(r.direction) && !(r.direction == Vec3{}) && r.t_min <= r.t_max &&
            r.t_min < kInfinity && std::isfinite(r.time);

@@ -14,7 +14,7 @@ class Material;
 struct MaterialThunks;
 
 /// The material of a surface: a row of the compiled scene's table of materials, or a user-defined object and the
-/// functions to call on it. It owns nothing, and is valid as long as the scene that it came from.
+/// functions to call on it. It owns nothing, and is valid while the compiled scene exists.
 struct MaterialRef {
     static constexpr std::uint32_t kNone = 0xffffffff;    ///< the id if there is no material
     static constexpr std::uint32_t kObject = 0xfffffffe;  ///< the id of a user-defined material
@@ -34,7 +34,7 @@ struct Surface {
     /// True if the ray came from the side of the shape's outward normal. For a ray within 1e-15 radians of the surface
     /// either value is possible.
     bool front_face = true;
-    MaterialRef material;  ///< the material; valid as long as the compiled scene
+    MaterialRef material;  ///< the material; valid while the compiled scene exists
     /// The derivatives of the position with respect to uv.u and uv.v. They are zero on user-defined shapes and at the
     /// poles of spheres. In a mesh triangle whose texture coordinates have no area they are edges of the triangle.
     ///@{

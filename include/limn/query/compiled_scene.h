@@ -25,8 +25,8 @@ struct Scene;
 
 /// The size of a compiled scene and the time that compiling took.
 struct SceneStats {
-    std::size_t memory_bytes = 0;  ///< memory of the scene, with the mesh arrays that it shares with the description
-    std::uint64_t primitives = 0;  ///< number of primitives; an instanced one counts for each instance
+    std::size_t memory_bytes = 0;         ///< memory of the scene, with the mesh arrays that it shares with the Scene
+    std::uint64_t primitives = 0;         ///< number of primitives; an instanced one counts for each instance
     std::uint64_t stored_primitives = 0;  ///< number of primitives; an instanced one counts once
     std::uint64_t degenerate = 0;         ///< number of stored triangles of exactly zero area, which no ray can hit
     std::uint64_t lights = 0;             ///< number of light sources that can be sampled
@@ -35,8 +35,9 @@ struct SceneStats {
 
 /// A scene in the flat form that limn traces rays against. `compile` makes it from a Scene.
 ///
-/// It is immutable, and any number of threads may query it at the same time. It shares ownership of what it needs of
-/// the Scene, which may be destroyed. A moved-from CompiledScene may only be assigned to or destroyed.
+/// It is immutable, and any number of threads may query it at the same time. It shares ownership of the arrays and
+/// objects of the Scene that it needs. The Scene may be destroyed. A moved-from CompiledScene may only be assigned to
+/// or destroyed.
 ///
 /// Queries decide exactly what is hit, crossed or inside. docs/queries.md explains their rules, with examples. They
 /// throw what the functions of user-defined objects throw, and ArgumentError as said below.
@@ -50,13 +51,13 @@ public:
     ///@}
     ~CompiledScene();
 
-    /// Returns the nearest hit with t in (t_min, t_max]. Of equally near hits it is the one whose primitive has the
-    /// lowest number. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable ray (see
-    /// is_usable) misses.
+    /// Returns the nearest hit with t in (t_min, t_max]. If several are equally near, the one on the primitive with the
+    /// lowest number is returned. The boundary of a medium is a hit too; RayHit::index_matched marks it. An unusable
+    /// ray (see is_usable) misses.
     /// \param filter the primitives that the ray ignores. Queries with a filter are somewhat slower.
-    /// \throws ArgumentError if `filter.objects` is neither empty nor as long as the scene has objects
+    /// \throws ArgumentError if `filter.objects` is not empty and does not have one value for each object of the scene
     std::optional<RayHit> closest_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
-    /// Returns true if closest_hit finds a hit for the ray. Throws as closest_hit does.
+    /// Returns true if closest_hit finds a hit for the ray. Throws ArgumentError as closest_hit does.
     bool any_hit(const Ray& ray, const RayFilter& filter = kNoFilter) const;
 
     /// Returns every hit with t in (t_min, t_max], sorted by t. Hits with the same t are sorted by the number of the
@@ -89,7 +90,7 @@ public:
 
     /// Returns the winding number of the surfaces around a point, and whether the point is exactly on a surface. If a
     /// surface is not closed (see open_edges), the winding number depends on the ray along which it is counted, which
-    /// is unspecified. A point with a coordinate that isn't finite counts as outside.
+    /// is unspecified. If a coordinate or the time isn't finite, the point counts as outside.
     /// \param point in world space
     /// \param time the time, see Ray::time
     PointLocation locate(const Point3& point, double time = 0) const;
@@ -100,22 +101,22 @@ public:
     /// meshes and boxes are closed, and winding numbers are meaningful.
     ///
     /// - An edge that coincides with several shorter ones is open.
-    /// - The edges of a surface that only several instances close together are open.
+    /// - If a surface is closed only by several instances taken together, the edges at which they meet count as open.
     /// - The rim of a disk is an open edge.
     ///
     /// The function takes about 100 ns and 50 bytes for each triangle.
     std::uint64_t open_edges() const;
 
-    /// Returns the point of all surfaces that is nearest to `point`. Of equally near ones it is that of the primitive
-    /// with the lowest number. The error of the distance is at most 2^-32 of the largest coordinate of the point, of
-    /// the surfaces and of the intermediate results inside instances. Returns std::nullopt if no surface is within
-    /// `max_distance`, or if a coordinate is not finite.
+    /// Returns the point of all surfaces that is nearest to `point`. If several are equally near, the one on the
+    /// primitive with the lowest number is returned. Let M be the largest coordinate of the point, of the surfaces and
+    /// of what is computed inside instances. The distance is off by at most 2^-32 M. Returns std::nullopt if no surface
+    /// is within `max_distance`, or if a coordinate or the time is not finite.
     /// \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a sphere or disk
     /// that may be the nearest is in an instance that shears it or scales it unevenly
     std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
                                               double time = 0) const;
     /// Returns the distance of closest_point. It is negative if the point is inside, 0 if the point is exactly on a
-    /// surface, and kInfinity if there is no surface or a coordinate is not finite.
+    /// surface, and kInfinity if there is no surface, or if a coordinate or the time is not finite.
     /// \throws ArgumentError as closest_point does
     double signed_distance(const Point3& point, double time = 0) const;
 
@@ -125,8 +126,11 @@ public:
     /// \param threads the number of threads: 1 is the calling thread, 0 as many as the caller's TBB arena has. The
     /// results do not depend on it.
     /// \return the number of unusable rays
-    /// \throws ArgumentError if spans differ in length, `threads` is not in 0 to 1024, `filter.objects` is neither
-    /// empty nor as long as the scene has objects, or `filter.without_each` is neither empty nor as long as `rays`
+    /// \throws ArgumentError if
+    /// - spans differ in length,
+    /// - `threads` is not in 0 to 1024,
+    /// - `filter.objects` is not empty and does not have one value for each object of the scene,
+    /// - `filter.without_each` is not empty and does not have one value for each ray.
     ///@{
     std::size_t closest_hit(std::span<const Ray> rays, std::span<RayHit> hits, int threads = 1,
                             const RayFilter& filter = kNoFilter) const;
@@ -152,13 +156,14 @@ public:
     /// \pre `hit` was found in this scene for `ray`, by closest_hit or all_hits; for a user-defined shape only by
     /// closest_hit
     Surface surface_at(const Ray& ray, const RayHit& hit) const;
-    /// Returns the share of light along the shading normal that the surface scatters. It is the mean weight of 16 fixed
-    /// samples of the material: the albedo of a diffuse material, white for glass, and black if there is no material.
+    /// Returns the albedo: the share of the light arriving along the shading normal that is scattered. It is the mean
+    /// weight of 16 fixed samples of the material. It is exact for a diffuse material, white for a Dielectric, and
+    /// black if there is no material.
     Color albedo(const Surface& surface) const;
     Color emission(const Surface& surface) const;  ///< returns the radiance that is emitted towards the viewer
     /// Returns the name that the model file gives to the material of the surface (Model::materials), even if
     /// Model::replace_material has replaced the material. The name is empty if the object is not from a model, or the
-    /// face has no material in the file. It is valid as long as the scene.
+    /// face has no material in the file. The view is valid while the scene exists.
     /// \pre `hit` was found in this scene
     std::string_view material_name(const RayHit& hit) const;
 
@@ -191,9 +196,9 @@ private:
 /// - the background is negative or not finite.
 CompiledScene compile(const Scene& scene);
 
-/// Returns the scene that `compile` would make from the description with some Instances at other places. The trees of
-/// instanced objects are kept. The tree over all objects, the lights and the media are built again. So it is fast if
-/// moving objects and large static meshes are Instances.
+/// Returns the scene that `compile` would make from the Scene with some Instances at other places. The trees of
+/// instanced objects are kept. Three things are built again: the tree over all objects, the table of lights, and the
+/// list of media. `recompile` is therefore fast if moving objects and large static meshes are Instances.
 /// \pre no render or query of `scene` is running
 /// \throws ArgumentError if an object does not exist, isn't an Instance, is an Instance without primitives or is moved
 /// twice, or if its matrices are invalid for an Instance; `scene` is then unchanged

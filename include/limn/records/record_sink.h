@@ -36,8 +36,8 @@ public:
     ///@}
 
     /// Adds a shape to the current BLAS, which is the scene itself except inside `blas`. The ids in the record must
-    /// come from this sink. The arrays of a mesh must be valid as long as `owner`. A user-defined shape must live as
-    /// long as the compiled scene, which keeps alive the objects of the Scene and the objects given to `blas`.
+    /// come from this sink. The arrays of a mesh must be valid while `owner` exists. A user-defined shape must exist
+    /// while the compiled scene does, which keeps the objects of the Scene and the objects given to `blas` alive.
     ///
     /// \throws ArgumentError if there are too many primitives
     ///@{
@@ -76,9 +76,9 @@ public:
     /// Records the tag of a user-defined object. A null pointer records that an object has no tag.
     void identify(const Tagged* object);
 
-    /// Mark the beginning and the end of the description of an object that contains others. The object calls
-    /// `enter(this)` before it describes the others and `leave(this)` afterwards. An object that contains itself is
-    /// found that way.
+    /// Mark the beginning and the end of the description of an object that contains other objects. The object calls
+    /// `enter(this)` before it describes them and `leave(this)` afterwards. This detects an object that contains
+    /// itself.
     ///
     /// \throws ArgumentError if the object contains itself: it was entered and not left
     ///@{
@@ -86,7 +86,7 @@ public:
     void leave(const void* object);
     ///@}
 
-    /// Keeps `owner` alive as long as the records. A record may then point to what `owner` owns.
+    /// Keeps `owner` alive while the records exist. A record may point to data that `owner` owns.
     void keep(const std::shared_ptr<const void>& owner);
 
     /// Returns the number of primitives that the current BLAS has so far.

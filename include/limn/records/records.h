@@ -190,7 +190,7 @@ static_assert(sizeof(DiskRecord) == 64);
 
 /// A triangle mesh. The record refers to the arrays of the described mesh and shares their ownership.
 struct MeshRecord {
-    MeshView arrays;                      ///< valid as long as `owner`
+    MeshView arrays;                      ///< valid while `owner` exists
     std::vector<MaterialId> materials;    ///< by material slot; at least one
     std::shared_ptr<const void> owner{};  ///< owner of the arrays; RecordSink::mesh sets it
 };
@@ -249,7 +249,7 @@ struct PrimitiveRange {
 /// The primitives of one BLAS, over which one tree is built.
 struct BlasRecord {
     std::vector<PrimitiveRange> ranges;  ///< in the order of description
-    std::uint64_t primitives = 0;        ///< their number; those of an instanced BLAS count once for each instance
+    std::uint64_t primitives = 0;        ///< number of primitives; an instanced one counts for each instance
 };
 
 /// All records of one scene.

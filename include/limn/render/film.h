@@ -249,7 +249,7 @@ private:
     std::size_t across_ = 0;            // number of tiles in a row
     std::vector<std::uint32_t> tiles_;  // numbers of the film's tiles, ascending
     std::vector<std::uint32_t> slots_;  // for each tile of the window: its index in tiles_, or tiles_.size()
-    std::vector<Pixel> pixels_;         // tile by tile; then a black tile for those that the film lacks
+    std::vector<Pixel> pixels_;         // tile by tile; then a black tile that represents all tiles the film lacks
     std::vector<double> clear_;         // in a transparent film: for each of pixels_ the sum of `clear`
     std::vector<Counts> counts_;        // for each of tiles_
     SamplePlan plan_;

@@ -17,10 +17,10 @@ namespace limn {
 ///
 /// - Boundaries of media, and shapes that say that they are index-matched, don't count as surfaces.
 /// - Surfaces with an AlphaMask are skipped until half of the light is stopped.
-/// - Albedo and normal are means over the camera rays of the pixel's first kRays samples. So they show edges, blur by a
-///   lens and blur by motion as the picture does.
-/// - Position, depth, object and primitive are those of one ray, through the middle of the pixel, of the lens and of
-///   the shutter.
+/// - Albedo and normal are means over the camera rays of the pixel's first kRays samples. They show edges, depth of
+///   field and motion blur as the picture does.
+/// - Position, depth, object and primitive come from a single ray, through the middle of the pixel, the lens and the
+///   shutter.
 struct FirstHits {
     static constexpr int kRays = 16;  ///< number of rays per pixel for albedo and normal
 

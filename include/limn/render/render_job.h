@@ -42,7 +42,7 @@ public:
     void load_plan(const std::string& path);
 
     /// Renders until the samples, the error, the time limit or the progress callback of the settings end the run. A
-    /// later run continues where the last one was ended, also by an exception. The time limit holds for each run.
+    /// later run continues where the last one ended, even if an exception ended it. The time limit holds for each run.
     /// \return why the run ended
     StoppedBy run();
     /// Renders `count` more samples per pixel, in the mean over the pixels. RenderSettings::error is ignored. If the

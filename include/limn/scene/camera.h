@@ -67,8 +67,8 @@ public:
     /// \param time_u in [0, 1): the time of the ray is shutter_open + time_u * (shutter_close - shutter_open)
     Ray ray(double x, double y, double lens_u, double lens_v, double time_u) const;
 
-    bool has_lens() const { return view_.lens_radius > 0; }                        ///< true if lens_u and lens_v matter
-    bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< true if time_u matters
+    bool has_lens() const { return view_.lens_radius > 0; }  ///< returns true if lens_u and lens_v matter
+    bool has_shutter() const { return view_.shutter_close > view_.shutter_open; }  ///< returns true if time_u matters
 
     /// \cond
     // The numbers that the rays are computed from.

@@ -45,7 +45,7 @@ struct ModelLight {
 /// A run of consecutive faces of an OBJ that have the same object and group names. It ends where the next run begins.
 struct ModelPart {
     std::string object;          ///< name on the last line `o`; empty before the first
-    std::string group;           ///< name on the last line `g` since then; empty if there is none
+    std::string group;           ///< name on the last line `g` after that line; empty if there is none
     std::size_t first_face = 0;  ///< number of the first face, as Mesh::face counts them
 };
 

@@ -161,7 +161,8 @@ void FileReplacement::require_contents() {
         read.add(std::span(buffer).first(static_cast<std::size_t>(got)));
         position += got;
     }
-    if (read.digest() != written_.digest()) throw FileError(path_, "what was written does not read back");
+    if (read.digest() != written_.digest())
+        throw FileError(path_, "the bytes that were read back differ from those written");
 }
 
 void FileReplacement::take_the_targets_place() {

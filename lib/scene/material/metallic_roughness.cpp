@@ -24,7 +24,7 @@ struct Albedos {
     N facets, coat;
 };
 
-constexpr double kLeastRoughness = 1e-3;
+constexpr double kLeastRoughness = 1e-3;  // its square is kLeastAlpha
 
 // A metal, mixed with a diffuse base below a coat. The green and the blue of Input::factors are the factors of
 // roughness and metallic.
@@ -49,7 +49,7 @@ struct Vertex {
         const N base = mean_of(s.albedo), matte = 1.0 - metallic;
         const N once = metallic * schlick(base, frame.out.z) * seen.facets + matte * seen.coat;
         const N rest = metallic * base * (1.0 - seen.facets) + matte * base * (1.0 - seen.coat);
-        by_facets = once / max(once + rest, 1e-300);
+        by_facets = once / max(once + rest, 1e-300);  // 0, not 0 / 0, if the surface reflects nothing
     }
     HWY_INLINE Albedos<N> albedos(const Vector<N>& w) const {
         const N cosine = share(w.z);

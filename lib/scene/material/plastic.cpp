@@ -28,7 +28,7 @@ struct Vertex : Facets<Input<N>> {
 
     HWY_INLINE explicit Vertex(const Input<N>& input) : Base(input), coat(this->albedo(frame.out)) {
         const N shine = coat * mean_of(s.factors), below = (1.0 - coat) * mean_of(s.albedo);
-        by_coat = shine / max(shine + below, 1e-300);
+        by_coat = shine / max(shine + below, 1e-300);  // 0, not 0 / 0, if the surface reflects nothing
     }
     HWY_INLINE LobeValue<N> value(const Vector<N>& world) const {
         const Vector<N> in = frame.to_local(world), &out = frame.out;

@@ -59,8 +59,8 @@ struct Conductor {
     static HWY_INLINE LobeValue<N> value(const Input<N>& s, const Vector<N>& in) {
         return Vertex<N>(s).value(in);
     }
-    // Draws directions by the visible normals, or by the cosine. The probability of the latter is the share of the
-    // light that is scattered more than once.
+    // Samples the visible normals, or the cosine. The probability of sampling the cosine is the share of the light that
+    // is scattered more than once.
     template <class N>
     static HWY_INLINE LobeSample<N> sample(const Input<N>& s, const Vector<N>& random) {
         const Vertex<N> facets(s);
@@ -104,7 +104,7 @@ struct Tinted {
     double reflectance, edge_tint;
 };
 
-// Returns the reflectance and the tint for which ConductorIndex computes eta and k again.
+// Returns the reflectance and the tint from which ConductorIndex computes eta and k.
 Tinted tinted(double eta, double k) {
     const double below = (eta - 1) * (eta - 1) + k * k, above = (eta + 1) * (eta + 1) + k * k;
     const double reflectance = below / above, root = std::sqrt(reflectance);

@@ -1,4 +1,4 @@
-// Checks of arguments that several shapes share. Each throws ArgumentError if its argument is invalid.
+// Checks of arguments, used by several shapes. Each throws ArgumentError if its argument is invalid.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ void require_not_null(const T& pointer, const char* shape, const char* argument)
     if (!pointer) throw ArgumentError(std::string(shape) + ": " + argument + " must not be null");
 }
 
-// Checks the length of an array of MeshData. It may be empty; otherwise it must have an entry for each vertex, or for
-// each triangle.
+// Checks the length of an array of MeshData. Throws unless the array is empty or has `expected` entries, one for each
+// vertex or each triangle.
 inline void require_length(std::size_t length, std::size_t expected, std::string_view who, const char* array) {
     if (length != 0 && length != expected)
         throw ArgumentError(std::string(who) + ": " + array + " has " + std::to_string(length) +

@@ -17,7 +17,7 @@ enum class Fresnel : std::uint8_t { exact, schlick };
 
 /// A smooth interface between two clear media. `sample` reflects with the probability of the reflectance and refracts
 /// otherwise. The weight is 1. Radiance is not scaled by 1/n^2 when it enters a medium of index n. The factor cancels
-/// as long as the camera and the lights are outside. A direction that an interpolated shading normal sends to the wrong
+/// if the camera and the lights are outside. A direction that an interpolated shading normal sends to the wrong
 /// side of the geometric surface is absorbed.
 class Dielectric final : public Material {
 public:

@@ -16,9 +16,9 @@ namespace limn {
 ///
 /// - A subclass that is specular overrides `sample` alone, and its pdf is 0. Any other subclass overrides `value` too.
 /// - `sample` and `value` describe the same function: weight == value / pdf.
-/// - A mixture of a specular part and a rest chooses one of them in `sample`. The weight of the specular part is
-///   divided by the probability of choosing it. `value` returns f |cos| of the rest, and a pdf that includes the
-///   probability of choosing the rest.
+/// - A mixture of a specular and a diffuse or glossy part chooses one of them in `sample`. The weight of the specular
+///   part is divided by the probability of choosing it. `value` returns f |cos| of the other part. Its pdf is
+///   multiplied by the probability of choosing that part.
 /// - Implementations are immutable and thread-safe. They use no random numbers except those in `random`.
 ///
 /// docs/extending.md works out an example.

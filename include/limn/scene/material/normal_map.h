@@ -13,8 +13,8 @@ namespace limn {
 /// - green: perpendicular to red in that plane, towards Surface::dp_dv
 /// - blue: along the shading normal; its sign is ignored
 ///
-/// The normal is not bent if Surface::dp_du is zero. A bent normal that faces away from the viewer is turned until its
-/// cosine with the direction to the viewer is 0.001.
+/// The normal is not bent if Surface::dp_du is zero. A bent normal whose cosine with the direction to the viewer is
+/// below 0.001 is turned towards the viewer, to about this cosine or a larger one.
 ///
 /// Light that limn's opaque materials reflect below the geometric surface isn't lost. It is mirrored at the geometric
 /// surface, which models the tangent facet of Schüssler, Heitz, Hanika and Dachsbacher, Microfacet-based Normal Mapping

@@ -39,8 +39,8 @@ public:
     ///
     /// \param reflectance in [0, 1], or a texture
     /// \param roughness see Roughness
-    /// \param edge_tint in [0, 1]. At 0 the reflectance rises as late as that of an interface without absorption, at 1
-    /// much earlier.
+    /// \param edge_tint in [0, 1]. At 0 the reflectance rises only near grazing incidence, as without absorption. At 1
+    /// it rises much earlier.
     ///
     /// \throws ArgumentError if an argument is outside its range or not finite, or the texture is null
     ///@{

@@ -27,8 +27,8 @@ struct Hit {
     bool index_matched = false;  ///< true for the boundary of a medium: light goes straight through
 };
 
-/// The interface of every object that a ray can hit. A subclass overrides `bounds` and `hit`. Rays then find it through
-/// the same BVH as the built-in shapes. CompiledScene::closest_point throws ArgumentError if the scene has such a
+/// The interface of every object that a ray can hit. A subclass overrides `bounds` and `hit`. Rays find it through the
+/// same BVH as the built-in shapes. CompiledScene::closest_point throws ArgumentError if the scene has a user-defined
 /// shape. Implementations are thread-safe, and immutable once they are added to a scene.
 class Hittable {
 public:
@@ -40,7 +40,7 @@ public:
 
     /// Returns the nearest hit with t in (t_min, t_max], or std::nullopt if there is none.
     ///
-    /// - Of equally near hits it returns the one with the lowest element.
+    /// - If several hits are equally near, it returns the one with the lowest element.
     /// - The function is pure. Every interval that contains this hit and no nearer one gives the same bits.
     /// - Shapes are closed sets: a ray hits them at a tangent, an edge or a vertex too.
     /// - An unusable ray (see is_usable) misses.
@@ -48,7 +48,7 @@ public:
     virtual std::optional<Hit> hit(const Ray& ray) const = 0;
 
     /// Writes the records of the object's primitives, in the order of its elements. The default writes one record of a
-    /// user-defined shape: the compiled scene calls `hit`. Such a shape is a single element, so it must leave
+    /// user-defined shape: the compiled scene calls `hit`. A user-defined shape is a single element. It must leave
     /// Hit::element at 0.
     virtual void lower(RecordSink& sink) const;
 };

@@ -38,7 +38,7 @@ public:
     /// \throws ArgumentError if there are fewer materials than `mesh` has
     Mesh(const Mesh& mesh, std::vector<std::shared_ptr<const Material>> materials);
 
-    const MeshData& data() const { return *data_; }  ///< arrays, valid as long as the mesh
+    const MeshData& data() const { return *data_; }  ///< arrays; valid while the mesh exists
     const std::vector<std::shared_ptr<const Material>>& materials() const { return materials_; }  ///< materials by slot
     /// Returns the index of the polygon that a triangle was cut from. \pre element < data().triangles.size()
     std::uint32_t face(std::uint64_t element) const;
