@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "limn/math/math.h"
+#include "limn/math/ray.h"
 #include "limn/math/transform.h"
 #include "limn/math/vec.h"
 

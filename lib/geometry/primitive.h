@@ -16,6 +16,8 @@
 //     void surface(ray, found, with_uv, out) const   writes the surface at the hit `found` to `out`, in the primitive's
 //                                                    own space, with outward normals (an output parameter, because a
 //                                                    copy of the result would stall on its recent stores)
+//     void tangents(out) const                       writes dp_du and dp_dv of the surface that surface() wrote; not
+//                                                    needed if the kind has a patch, whose edges are the tangents
 //     bool intersect(frame, search, hit) const       finds the first hit; not needed if trace/shapes-inl.h calls the
 //                                                    predicate itself
 //

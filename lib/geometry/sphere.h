@@ -32,6 +32,14 @@ struct Sphere : Primitive {
         s.normal = s.shading_normal = Normal3((radius < 0 ? -1.0 : 1.0) * outward);
         if (with_uv) s.uv = sphere_uv(Vec3(s.normal));
     }
+    // These are the derivatives of the position by u and v of sphere_uv. The normal is (sin(pi v) cos(phi), -cos(pi v),
+    // -sin(pi v) sin(phi)), where phi = 2 pi u - pi. At the poles, dp_dv is set to 0.
+    void tangents(Surface& s) const {
+        const Vec3 n(s.normal);
+        const double sine = std::sqrt(n.x * n.x + n.z * n.z);
+        s.dp_du = (2 * kPi * radius) * Vec3{n.z, 0, -n.x};
+        s.dp_dv = sine > 0 ? (kPi * radius) * Vec3{-n.y * n.x / sine, sine, -n.y * n.z / sine} : Vec3{};
+    }
 };
 
 struct MovingSphere : SphereRecord, Primitive {
@@ -58,6 +66,7 @@ struct MovingSphere : SphereRecord, Primitive {
     void surface(const Ray& ray, const PlanarHit& found, bool with_uv, Surface& s) const {
         at(ray.time).surface(ray, found, with_uv, s);
     }
+    void tangents(Surface& s) const { Sphere(*this).tangents(s); }
 };
 
 }  // namespace limn::primitives

@@ -6,8 +6,8 @@
 
 namespace limn {
 
-// Decodes the first channels, at most `most`, of a PNG, JPEG, HDR, BMP or TGA file in memory. \pre require_sound() has
-// accepted the file.
+// Decodes the first channels, at most `most`, of a file in memory. stb decodes its format (PictureFormat::stb). \pre
+// require_sound() has accepted the file.
 // \throws FileError naming `name`
 StoredImage decode_stb(FileFormat format, std::span<const std::byte> bytes, const std::string& name, int most = 3);
 

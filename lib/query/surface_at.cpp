@@ -1,7 +1,5 @@
 #include "query/surface_at.h"
 
-#include <cmath>
-
 #include "geometry/hit_error.h"
 #include "geometry/mesh_triangle.h"
 
@@ -27,24 +25,16 @@ void on_user_defined(const flat::UserDefined& shape, Ray ray, double t, SurfaceH
     out.index_matched = hit.index_matched;
 }
 
-// Sets the tangents of a flat primitive to its edges: u and v are the weights of the edges.
+// Sets the tangents at a hit. Those of a flat primitive are its edges, because u and v are the weights of the edges.
 template <class Primitive>
-requires requires(const Primitive& p) { p.patch(); }
 void set_tangents(const Primitive& primitive, Surface& s) {
-    const primitives::Patch patch = primitive.patch();
-    s.dp_du = patch.edge_u;
-    s.dp_dv = patch.edge_v;
-}
-
-// Sets the tangents of a sphere to the derivatives of its position by u and v of sphere_uv. The normal of the sphere is
-// (sin(pi v) cos(phi), -cos(pi v), -sin(pi v) sin(phi)), where phi = 2 pi u - pi. At the poles, dp_dv is set to 0.
-template <class Primitive>
-requires requires(const Primitive& p) { p.ball(); }
-void set_tangents(const Primitive& primitive, Surface& s) {
-    const Vec3 n(s.normal);
-    const double sine = std::sqrt(n.x * n.x + n.z * n.z), radius = primitive.ball().radius;
-    s.dp_du = (2 * kPi * radius) * Vec3{n.z, 0, -n.x};
-    s.dp_dv = sine > 0 ? (kPi * radius) * Vec3{-n.y * n.x / sine, sine, -n.y * n.z / sine} : Vec3{};
+    if constexpr (requires { primitive.patch(); }) {
+        const primitives::Patch patch = primitive.patch();
+        s.dp_du = patch.edge_u;
+        s.dp_dv = patch.edge_v;
+    } else {
+        primitive.tangents(s);
+    }
 }
 
 // Replaces the tangents of a mesh triangle, which are its edges, by the derivatives of the position by the texture
