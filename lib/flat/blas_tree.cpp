@@ -26,7 +26,7 @@ public:
     void build(flat::Blas& blas) {
         // Store the sizes of the tables below the root's tree.
         if (&blas == &scene_.blases.front())
-            scene_.below_root = {scene_.nodes.size(), scene_.blocks.size(),     scene_.references.size(),
+            scene_.below_root = {scene_.nodes.size(), scene_.lines.size(),      scene_.references.size(),
                                  scene_.kinds,        scene_.stored_primitives, scene_.degenerate};
         // Collect the primitives and their bounds.
         for (std::uint32_t i = 0; i < blas.range_count; ++i) add(blas.first_range + i);
@@ -151,13 +151,15 @@ private:
         std::copy_n(box.upper, 3, scene_.list.rest_upper);
     }
 
-    // Adds the kinds of the primitives left in the tree to Scene::kinds. Returns the largest error of packing them.
+    // Adds the kinds of the primitives left in the tree to Scene::kinds. Returns the largest error of packing a
+    // triangle or quad of them.
     double note_what_is_left() {
         double packed_error = 0;
         for (const Candidate& other : others_) {
             if (other.box.is_empty()) continue;
-            packed_error = std::max(packed_error, other.packed_error);
-            scene_.kinds |= flat::bit(scene_.ranges[other.reference.range].kind);
+            const unsigned kind = flat::bit(scene_.ranges[other.reference.range].kind);
+            if ((kind & flat::kPlanarKinds) != 0) packed_error = std::max(packed_error, other.packed_error);
+            scene_.kinds |= kind;
         }
         return packed_error;
     }

@@ -105,11 +105,8 @@ void reserve_places(flat::Scene& s) {
 
 // Releases the arrays of meshes whose vertices are in the tree. Releases `kept` if there are no user-defined objects.
 void release_arrays(flat::Scene& s) {
-    const bool fits = s.blocks.size() / 2 * flat::kMaxBlock < flat::kNothing;
     for (flat::Mesh& mesh : s.meshes) {
-        if (mesh.arrays.triangles.empty()) continue;
-        if (!fits) mesh.places = {};
-        if (mesh.places.empty()) continue;
+        if (mesh.arrays.triangles.empty() || mesh.places.empty()) continue;
         mesh.slots.assign(mesh.arrays.material_slots.begin(), mesh.arrays.material_slots.end());
         mesh.arrays = {};
         mesh.arrays.material_slots = mesh.slots;
@@ -119,29 +116,16 @@ void release_arrays(flat::Scene& s) {
     if (!f.user_defined_shapes && !f.user_defined_materials && !f.user_defined_textures) s.kept.clear();
 }
 
-// The largest number of primitives for which a table of their objects is made. In larger scenes the object is found by
-// a binary search.
-constexpr std::uint64_t kFewPrimitives = 4096;
-
-// Makes the table of the objects of primitives.
+// Fills Scene::object_guide, with about one entry for each primitive or, if there are many, two for each object.
 void name_objects(flat::Scene& s) {
-    if (s.first_of_object.size() < 2 || s.primitives > kFewPrimitives) return;
-    s.object_of.resize(s.primitives);
-    for (std::size_t i = 0; i < s.first_of_object.size(); ++i)
-        std::fill(s.object_of.begin() + static_cast<std::ptrdiff_t>(s.first_of_object[i]), s.object_of.end(),
-                  static_cast<std::uint32_t>(i));
-}
-
-// A tree larger than this is read from memory, and rays wait for it.
-constexpr std::size_t kCacheBytes = std::size_t{32} << 20;
-// If the expected cost of a ray (Blas::cost) is at least this, most of its nodes are prefetched in time, and
-// interleaving rays gains nothing.
-constexpr double kCostOfManyNodes = 48;
-
-// Sets Scene::is_larger_than_cache.
-void judge_memory(flat::Scene& s) {
-    const std::size_t bytes = s.nodes.size() * sizeof(s.nodes[0]) + s.blocks.size() * sizeof(s.blocks[0]);
-    s.is_larger_than_cache = bytes > kCacheBytes && s.blases.front().cost < kCostOfManyNodes;
+    const std::uint64_t most = std::max<std::uint64_t>(4096, 2 * s.first_of_object.size());
+    while (s.primitives >> s.object_shift > most) ++s.object_shift;
+    s.object_guide.assign((s.primitives >> s.object_shift) + 2, 0);
+    std::uint32_t object = 0;
+    for (std::size_t i = 0; i < s.object_guide.size(); ++i) {
+        while (object + 1 < s.first_of_object.size() && s.first_of_object[object + 1] <= i << s.object_shift) ++object;
+        s.object_guide[i] = object;
+    }
 }
 
 // Counts the stored primitives without a material. Boundaries of media need none.
@@ -171,7 +155,7 @@ std::size_t memory_of(const flat::Scene& s) {
     };
     std::size_t sum = sizeof(s) + bytes(s.meshes, s.instances, s.user_defined, s.materials, s.textures, s.kept);
     sum += std::apply(bytes, s.rows);
-    sum += bytes(s.blases, s.ranges, s.references, s.nodes, s.blocks, s.first_of_object, s.object_of);
+    sum += bytes(s.blases, s.ranges, s.references, s.nodes, s.lines, s.first_of_object, s.object_guide);
     sum += bytes(s.list.entries, s.list.planar, s.list.round);
     sum += bytes(s.medium_shapes, s.media, s.medium_instances);
     const flat::LightTable& l = s.lights;
@@ -200,7 +184,6 @@ void place_instance(flat::Instance& instance, const Transform& at_time0, const T
 }
 
 void derive(flat::Scene& s) {
-    judge_memory(s);
     place_media(s);
     collect_lights(s);
     gather_features(s);

@@ -66,8 +66,7 @@ void drop_what_moves(flat::Scene& scene) {
     const flat::BelowRoot& below = scene.below_root;
     scene.nodes.resize(below.nodes);
     scene.references.resize(below.references);
-    scene.blocks.resize(below.block_words - std::min(below.block_words, flat::kSlackWords));
-    scene.blocks.resize(below.block_words);  // the slack is zeros again
+    scene.lines.resize(below.lines);
     scene.kinds = static_cast<unsigned>(below.kinds);
     scene.stored_primitives = below.stored_primitives;
     scene.degenerate = below.degenerate;

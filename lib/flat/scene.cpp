@@ -34,8 +34,7 @@ Place locate(const Scene& scene, std::uint64_t number, BlasId id) {
 TriangleVertices triangle_of(const Scene& scene, const Mesh& mesh, std::uint64_t element) {
     if (!mesh.arrays.triangles.empty()) return triangle_vertices(mesh.arrays, element);
     const std::uint32_t place = mesh.places[element];
-    const BlockView block{scene.blocks.data() + std::size_t{2} * (place / kMaxBlock)};
-    return packed_triangle(block, block.header().count, place % kMaxBlock);
+    return BlockView(&scene.lines[place / kMaxBlock]).triangle(place % kMaxBlock);
 }
 
 MaterialId material_of(const Scene& scene, const PrimitiveRange& range, std::uint64_t element) {

@@ -42,8 +42,9 @@ static_assert(sizeof(Reference) == 8);
 
 // A mesh. If it has neither normals nor texture coordinates, its vertices are stored only in the blocks of the tree,
 // and `arrays` has nothing but material slots. For such a mesh:
-// - places[i] is the place of triangle i in the tree: kMaxBlock * p + its lane in the block. The block begins at word
-//   2 p of Scene::blocks. The place is kNothing if the triangle has no area, because it isn't in the tree then.
+// - places[i] is the place of triangle i in the tree: kMaxBlock * p + its lane in the block, where p is the first row
+// of
+//   the block in Scene::lines. The place is kNothing if the triangle has no area, because it isn't in the tree then.
 // - `slots` owns the material slots.
 struct Mesh : MeshRecord {
     std::vector<std::uint32_t> places, slots;
@@ -71,7 +72,7 @@ struct Blas {
     std::uint32_t range_count = 0;
     Box bounds;
     double extent = 0;       // the largest finite coordinate in the tree
-    float packed_error = 0;  // the largest error of rounding a primitive to the floats of its block
+    float packed_error = 0;  // the largest error of rounding a triangle or quad to the floats of its block
     double cost = 0;         // expected cost of a ray that intersects the bounds: see accel::BuildSettings
     double scale = 1;        // multiplies the nodes' boxes: a power of two that keeps them in the range of float
 };
@@ -98,7 +99,7 @@ struct Features {
 // The sizes of the tables before the root's tree is built, which is the last. When instances move, the tables are cut
 // to these sizes and only the root's tree is rebuilt.
 struct BelowRoot {
-    std::size_t nodes = 0, block_words = 0, references = 0;
+    std::size_t nodes = 0, lines = 0, references = 0;
     std::uint64_t kinds = 0;
     std::uint64_t stored_primitives = 0, degenerate = 0;
 };
@@ -114,11 +115,12 @@ struct Scene {
     std::vector<PrimitiveRange> ranges;
     std::vector<Reference> references;
     HugeVector<Node> nodes;
-    HugeVector<std::uint32_t> blocks;            // see Block
+    HugeVector<Line> lines;                      // the blocks of leaves
     PrimitiveList list;                          // all primitives of a small scene, or the large ones
-    bool is_larger_than_cache = false;           // true if a batch should interleave its rays to hide memory latency
     std::vector<std::uint64_t> first_of_object;  // number of the first primitive of each object, ascending
-    std::vector<std::uint32_t> object_of;        // object of each primitive; empty in scenes of many primitives
+    // object_guide[i] is the object of primitive i * 2^object_shift.
+    std::vector<std::uint32_t> object_guide;
+    unsigned object_shift = 0;
 
     std::vector<MediumRecord> medium_shapes;
     std::vector<Medium> media;
@@ -168,10 +170,11 @@ Place locate(const Scene& scene, std::uint64_t number, BlasId blas = BlasId::roo
 
 // Returns the number of the object that a primitive belongs to.
 inline std::size_t object_of(const Scene& scene, std::uint64_t number) {
-    if (!scene.object_of.empty()) return scene.object_of[number];
-    if (scene.first_of_object.size() <= 1) return 0;
-    const auto after = std::upper_bound(scene.first_of_object.begin(), scene.first_of_object.end(), number);
-    return static_cast<std::size_t>(after - scene.first_of_object.begin() - 1);
+    const std::uint64_t i = number >> scene.object_shift;
+    const std::uint32_t first = scene.object_guide[i], last = scene.object_guide[i + 1];
+    if (first == last) return first;
+    const auto objects = scene.first_of_object.begin();
+    return static_cast<std::size_t>(std::upper_bound(objects + first + 1, objects + last + 1, number) - objects - 1);
 }
 
 // Returns the material of one primitive. Returns `none` for instances and media, and for user-defined shapes, which

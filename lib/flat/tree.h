@@ -8,55 +8,66 @@
 #include <cstdint>
 
 #include "geometry/bvh/node.h"
+#include "geometry/bvh/wide_bvh.h"
 #include "geometry/mesh_triangle.h"
 #include "geometry/registry.h"
 #include "limn/records/records.h"
 
 namespace limn::flat {
 
-// Boxes are multiplied by Blas::scale and rounded outward to float. The Child of a leaf is kLeaf | the place of its
-// first block in Scene::blocks, in pairs of words.
+// Boxes are multiplied by Blas::scale and rounded outward to float. The Child of a leaf is the sum of
+// - kLeaf
+// - the form of its block, shifted left by kFormShift
+// - the place of its block: its first row of Scene::lines.
 using accel::Node, accel::Child, accel::kLeaf, accel::kNothing, accel::kWidth;
 
-// The header of a block. A block has up to kMaxBlock primitives of a leaf, all of one kind. It consists of 32-bit
-// words:
-// - this header
-// - an id for each primitive: the triangle of a mesh, or a row of Scene::references for other kinds
-// - rows of floats, with one number for each primitive in a row
-// - a word of padding if the number of words is odd
-// SIMD loads read past the end of a row, so kSlackWords follow the last block.
-struct Block {
-    PrimitiveKind kind;
-    std::uint8_t count;
-    bool last;  // true for the last block of its leaf
-    std::uint8_t unused;
-    std::uint32_t range;  // row of Scene::ranges; used for meshes
-};
-static_assert(sizeof(Block) == 8);
+// The forms in which primitives are packed into blocks, and the rows of floats of each:
+// - triangles and quads: the x y z of three vertices or corners
+// - spheres: the centre, the radius, and four times the error of packing the centre
+// - moving spheres: both centres, the radius and that error; a still sphere may be packed like that
+// - any other primitive: its box, as in a node
+enum class Form : std::uint32_t { triangles, quads, spheres, moving_spheres, boxes };
+inline constexpr std::size_t kForms = 5, kMostRows = 9;
+inline constexpr std::array<std::uint32_t, kForms> kRowsOf{9, 9, 5, 8, 6};
 
-inline constexpr std::size_t kHeaderWords = sizeof(Block) / 4, kSlackWords = 16, kMaxBlock = 8;
-
-// The number of rows of each kind. The rows hold:
-// - x y z of the three vertices of a triangle, or of three corners of a quad
-// - the centre and radius of a sphere; both centres and the radius of a moving sphere
-// - the box of any other primitive, as in a node
-inline constexpr std::size_t kBoxRows = 6, kMostRows = 9;
-inline constexpr auto kRowsOf = [] {
-    std::array<std::uint8_t, 32> rows;  // indexed by kind
-    rows.fill(kBoxRows);
-    rows[static_cast<std::size_t>(PrimitiveKind::mesh)] = kMostRows;
-    primitives::for_each_kind([&]<class Kind>(std::type_identity<Kind>) {
-        if constexpr (requires(Kind k) { k.pack(); })
-            rows[static_cast<std::size_t>(Kind::kKind)] = std::tuple_size_v<decltype(std::declval<Kind>().pack())>;
-    });
-    return rows;
-}();
-constexpr std::size_t rows_of(PrimitiveKind kind) { return kRowsOf[static_cast<std::size_t>(kind)]; }
-
-// Returns the number of words of a block with `count` primitives.
-constexpr std::size_t words_of(PrimitiveKind kind, std::size_t count) {
-    return (kHeaderWords + count * (1 + rows_of(kind)) + 1) / 2 * 2;
+constexpr Form form_of(PrimitiveKind kind) {
+    switch (kind) {
+        case PrimitiveKind::mesh:
+        case PrimitiveKind::triangle: return Form::triangles;
+        case PrimitiveKind::quad: return Form::quads;
+        case PrimitiveKind::sphere: return Form::spheres;
+        case PrimitiveKind::moving_sphere: return Form::moving_spheres;
+        default: return Form::boxes;
+    }
 }
+
+// 64 bytes of a block: two of its rows. A block has up to kMaxBlock primitives of one form. It consists of rows with a
+// number for each primitive:
+// - the rows of floats of its form
+// - a row of ids
+// - a row of padding if the number of rows is odd
+// An id is the number of a mesh's triangle in its BLAS. All other primitives, and triangles whose number is too large,
+// have kReference | a row of Scene::references. A block with fewer primitives repeats the last one; the ids of these
+// copies are kNothing.
+struct alignas(64) Line {
+    float rows[2][kWidth];  // ids are stored by their bits
+};
+inline constexpr std::size_t kMaxBlock = kWidth;
+inline constexpr std::uint32_t kReference = 0x40000000u;
+
+inline constexpr unsigned kFormShift = 28;
+inline constexpr Child kPlaceMask = (Child{1} << kFormShift) - 1;
+constexpr Form form_of(Child leaf) { return static_cast<Form>(leaf >> kFormShift & 7); }
+constexpr Child leaf_child(Form form, std::size_t place) {
+    return kLeaf | static_cast<Child>(form) << kFormShift | static_cast<Child>(place);
+}
+
+// Returns the number of lines of a block.
+constexpr std::size_t lines_of(Form form) { return (kRowsOf[static_cast<std::size_t>(form)] + 2) / 2; }
+
+// The most entries of a stack of children: a visit of a node pushes at most 7, and a whole vector is written. The
+// blocks of a leaf with several forms add a level (pack.cpp).
+inline constexpr std::size_t kMaxStack = (accel::kMaxWideDepth + 1) * (kWidth - 1) + kWidth;
 
 // Returns the bit of a kind in a set of kinds.
 constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(kind); }
@@ -64,31 +75,36 @@ constexpr unsigned bit(PrimitiveKind kind) { return 1u << static_cast<unsigned>(
 inline constexpr unsigned kPlanarKinds =
     bit(PrimitiveKind::triangle) | bit(PrimitiveKind::quad) | bit(PrimitiveKind::mesh);
 
-// Gives access to a block in Scene::blocks.
-struct BlockView {
-    const std::uint32_t* words;
+inline constexpr unsigned kRoundKinds = bit(PrimitiveKind::sphere) | bit(PrimitiveKind::moving_sphere);
 
-    // Reads the header field by field. In scenes with shapes beside meshes, this saves 2 to 5 instructions a ray
-    // compared with reading words.
-    Block header() const {
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
-        return {static_cast<PrimitiveKind>(bytes[offsetof(Block, kind)]), bytes[offsetof(Block, count)],
-                bytes[offsetof(Block, last)] != 0, 0, words[1]};
+// Returns the set of the forms of a set of kinds: bit i is Form i.
+constexpr unsigned forms_of(unsigned kinds) {
+    unsigned forms = 0;
+    for (unsigned kind = 0; kind < 32; ++kind)
+        if ((kinds >> kind & 1) != 0) forms |= 1u << static_cast<unsigned>(form_of(static_cast<PrimitiveKind>(kind)));
+    return forms;
+}
+
+// Gives access to a block.
+struct BlockView {
+    const float* rows;
+
+    explicit BlockView(const Line* first) : rows(first->rows[0]) {}
+
+    const float* row(std::size_t r) const { return rows + kWidth * r; }
+    const float* ids(Form form) const { return row(kRowsOf[static_cast<std::size_t>(form)]); }
+    std::uint32_t id(Form form, std::size_t i) const { return std::bit_cast<std::uint32_t>(ids(form)[i]); }
+    // Returns the number of primitives.
+    std::size_t count(Form form) const {
+        std::size_t n = kMaxBlock;
+        while (id(form, n - 1) == kNothing) --n;
+        return n;
     }
-    std::uint32_t id(std::size_t i) const { return words[kHeaderWords + i]; }
-    const std::uint32_t* rows(std::size_t count) const { return words + kHeaderWords + count; }
-    // Returns a number of primitive i. \pre `count` is that of the header
-    float number(std::size_t count, std::size_t row, std::size_t i) const {
-        return std::bit_cast<float>(rows(count)[row * count + i]);
+    // Returns triangle i. \pre the form is `triangles`
+    TriangleVertices triangle(std::size_t i) const {
+        const auto vertex = [&](std::size_t r) { return Point3{row(r)[i], row(r + 1)[i], row(r + 2)[i]}; };
+        return {vertex(0), vertex(3), vertex(6)};
     }
 };
-
-// Returns triangle i of a block of a mesh. \pre `count` is that of the header
-inline TriangleVertices packed_triangle(const BlockView& block, std::size_t count, std::size_t i) {
-    const auto vertex = [&](std::size_t row) {
-        return Point3{block.number(count, row, i), block.number(count, row + 1, i), block.number(count, row + 2, i)};
-    };
-    return {vertex(0), vertex(3), vertex(6)};
-}
 
 }  // namespace limn::flat

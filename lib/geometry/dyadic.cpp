@@ -8,7 +8,6 @@ namespace limn {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
-__extension__ using SignedWide = __int128;
 
 std::uint64_t low(Wide x) { return static_cast<std::uint64_t>(x); }
 std::uint64_t high(Wide x) { return static_cast<std::uint64_t>(x >> 64); }
@@ -16,30 +15,36 @@ std::uint64_t high(Wide x) { return static_cast<std::uint64_t>(x >> 64); }
 }  // namespace
 
 Dyadic::Dyadic(double x) {
-    int exponent = 0;
-    const double fraction = std::frexp(std::abs(x), &exponent);
-    set(static_cast<Limb>(std::ldexp(fraction, 53)), exponent - 53);
+    // Take the mantissa and the exponent from the bits of a double.
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto biased = static_cast<std::ptrdiff_t>(bits >> 52 & 0x7ff);
+    const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52) - 1);
+    const bool is_normal = biased != 0;
+    set(is_normal ? fraction | std::uint64_t{1} << 52 : fraction, (is_normal ? biased : 1) - 1075);
     negative_ = x < 0;
 }
 
 void Dyadic::set(Limb bits, std::ptrdiff_t exponent) {
     exponent_ = exponent >> 6;  // exponent / 64, rounded down
     const Wide shifted = Wide{bits} << (exponent & 63);
-    size_ = 2;
-    inline_[0] = low(shifted);
+    // Drop zero limbs at both ends.
+    const bool is_high = low(shifted) == 0;
+    exponent_ += is_high ? 1 : 0;
+    inline_[0] = is_high ? high(shifted) : low(shifted);
     inline_[1] = high(shifted);
-    trim();
+    size_ = bits == 0 ? 0 : is_high || high(shifted) == 0 ? 1 : 2;
 }
 
 void Dyadic::trim() {
     // Drop zero limbs at both ends.
-    while (size_ > 0 && limbs()[size_ - 1] == 0) --size_;
-    std::size_t zeros = 0;
-    while (zeros < size_ && limbs()[zeros] == 0) ++zeros;
-    if (zeros > 0) {
-        std::copy(limbs() + zeros, limbs() + size_, limbs());
+    Limb* const first = limbs();
+    while (size_ > 0 && first[size_ - 1] == 0) --size_;
+    if (size_ > 0 && first[0] == 0) {
+        std::size_t zeros = 1;
+        while (first[zeros] == 0) ++zeros;
         size_ -= zeros;
         exponent_ += static_cast<std::ptrdiff_t>(zeros);
+        for (std::size_t i = 0; i < size_; ++i) first[i] = first[i + zeros];
     }
     // Move the limbs out of the heap if they fit.
     if (heap_ && size_ <= kInline) {
@@ -54,77 +59,79 @@ Dyadic Dyadic::operator-() const {
     return opposite;
 }
 
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-    if (a.size_ == 0) return b;
-    if (b.size_ == 0) return a;
+Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_negative) {
+    if (a.size_ == 0 || b.size_ == 0) {
+        Dyadic copy = a.size_ == 0 ? b : a;
+        copy.negative_ = a.size_ == 0 ? b_negative : a.negative_;
+        return copy;
+    }
+    // Copy the limbs of `a` to their places in the sum.
     const std::ptrdiff_t first = std::min(a.exponent_, b.exponent_), last = std::max(a.end(), b.end());
-    Dyadic sum(static_cast<std::size_t>(last - first + 1), first, a.negative_);
-    Dyadic::Limb* const limbs = sum.limbs();
-    // Add the limbs, with the sign of `a` taken as positive. A negative carry is a borrow. If the last carry is
-    // negative, the limbs are the sum in two's complement.
-    SignedWide carry = 0;
-    for (std::ptrdiff_t place = first; place <= last; ++place) {
-        const SignedWide x = a.limb_at(place), y = b.limb_at(place);
-        carry += a.negative_ == b.negative_ ? x + y : x - y;
-        limbs[place - first] = static_cast<Dyadic::Limb>(carry);
+    Dyadic result(static_cast<std::size_t>(last - first + 1), first, a.negative_);
+    Limb* const limbs = result.limbs();
+    const auto a_place = static_cast<std::size_t>(a.exponent_ - first);
+    const auto b_place = static_cast<std::size_t>(b.exponent_ - first);
+    const Limb *const of_a = a.limbs(), *const of_b = b.limbs();
+    for (std::size_t i = 0; i < a_place; ++i) limbs[i] = 0;
+    for (std::size_t i = 0; i < a.size_; ++i) limbs[a_place + i] = of_a[i];
+    for (std::size_t i = a_place + a.size_; i < result.size_; ++i) limbs[i] = 0;
+    // Add or subtract the magnitude of `b`. Subtraction adds the complement, and 1.
+    const bool subtracts = a.negative_ != b_negative;
+    const Limb flip = subtracts ? ~Limb{0} : 0;
+    Wide carry = subtracts ? 1 : 0;
+    for (std::size_t i = b_place; i < result.size_; ++i) {
+        const std::size_t k = i - b_place;
+        carry += Wide{limbs[i]} + ((k < b.size_ ? of_b[k] : 0) ^ flip);
+        limbs[i] = low(carry);
         carry >>= 64;
     }
-    // Negate the limbs of a negative sum.
-    if (carry < 0) {
-        sum.negative_ = !a.negative_;
+    // Without a last carry the difference is negative, in two's complement. Negate it then.
+    if (subtracts && carry == 0) {
+        result.negative_ = !a.negative_;
         Wide up = 1;
-        for (std::size_t i = 0; i < sum.size_; ++i) {
+        for (std::size_t i = 0; i < result.size_; ++i) {
             up += ~limbs[i];
             limbs[i] = low(up);
             up >>= 64;
         }
     }
-    sum.trim();
-    return sum;
+    result.trim();
+    return result;
 }
 
 Dyadic operator*(const Dyadic& a, const Dyadic& b) {
     if (a.size_ == 0 || b.size_ == 0) return {};
     Dyadic product(a.size_ + b.size_, a.exponent_ + b.exponent_, a.negative_ != b.negative_);
-    std::fill_n(product.limbs(), product.size_, 0);
+    Dyadic::Limb* const limbs = product.limbs();
+    const Dyadic::Limb *const of_a = a.limbs(), *const of_b = b.limbs();
+    for (std::size_t i = 0; i < b.size_; ++i) limbs[i] = 0;
     for (std::size_t i = 0; i < a.size_; ++i) {
         Wide carry = 0;
         for (std::size_t j = 0; j < b.size_; ++j) {
-            carry += Wide{a.limbs()[i]} * b.limbs()[j] + product.limbs()[i + j];
-            product.limbs()[i + j] = low(carry);
+            carry += Wide{of_a[i]} * of_b[j] + limbs[i + j];
+            limbs[i + j] = low(carry);
             carry >>= 64;
         }
-        product.limbs()[i + b.size_] = low(carry);
+        limbs[i + b.size_] = low(carry);
     }
     product.trim();
     return product;
 }
 
-Dyadic::Leading Dyadic::leading() const {
-    const Limb first = limb_at(end() - 1), second = limb_at(end() - 2), third = limb_at(end() - 3);
-    const int shift = std::countl_zero(first);
-    const std::ptrdiff_t exponent = 64 * (end() - 2) - shift;
-    if (shift == 0) return {first, second, exponent};
-    return {first << shift | second >> (64 - shift), second << shift | third >> (64 - shift), exponent};
-}
-
-double ratio(const Dyadic& a, const Dyadic& b) {
-    if (a.size_ == 0) return 0;
-    const Dyadic::Leading over = a.leading(), under = b.leading();
-    // Divide half of the leading 128 bits of `a` by the leading 64 bits of `b`, which are at least 2^63. The halving
-    // makes the quotient fit into 64 bits. The quotient has at least 62 bits.
+double ratio(const LeadingBits& over, const LeadingBits& under) {
+    // Divide half of the leading 128 bits of `over` by the leading 64 bits of `under`, which are at least 2^63. The
+    // halving makes the quotient fit into 64 bits. The quotient has at least 62 bits.
     const Wide numerator = (Wide{over.high} << 64 | over.low) >> 1;
     const double quotient = static_cast<double>(low(numerator / under.high));
     const std::ptrdiff_t exponent = std::clamp<std::ptrdiff_t>(over.exponent + 1 - (under.exponent + 64), -9999, 9999);
-    const double magnitude = std::ldexp(quotient, static_cast<int>(exponent));
-    return a.negative_ != b.negative_ ? -magnitude : magnitude;
+    return std::ldexp(quotient, static_cast<int>(exponent));
 }
 
 Dyadic Dyadic::square_root() const {
     if (size_ == 0) return {};
     // Shift the leading bits so that their exponent is even and they are below 2^126. Then the root has at most 63
     // bits.
-    const Leading top = leading();
+    const LeadingBits top = leading();
     const int shift = top.exponent % 2 == 0 ? 2 : 3;
     const Wide square = (Wide{top.high} << 64 | top.low) >> shift;
     // The first guess has 53 correct bits. One step of Newton's iteration doubles their number.

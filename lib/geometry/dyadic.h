@@ -3,14 +3,31 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
 namespace limn {
 
+// The leading 128 bits of a positive number: it is (2^64 high + low) 2^exponent, rounded down. The highest bit of
+// `high` is set.
+struct LeadingBits {
+    std::uint64_t high, low;
+    std::ptrdiff_t exponent;
+
+    // Returns the leading bits of (2^128 first + 2^64 second + third) 2^exponent. \pre first is not 0
+    static LeadingBits of(std::uint64_t first, std::uint64_t second, std::uint64_t third, std::ptrdiff_t exponent) {
+        const int shift = std::countl_zero(first), rest = 63 - shift;
+        return {first << shift | second >> rest >> 1, second << shift | third >> rest >> 1, exponent + 64 - shift};
+    }
+};
+// Returns a / b with a relative error of at most 2^-61, then rounded to the nearest double. It is exact if the quotient
+// is a double, and infinite if the quotient is beyond their range.
+double ratio(const LeadingBits& a, const LeadingBits& b);
+
 // An integer of any size times a power of two. Sums, differences and products of finite doubles are exact and do not
-// overflow or underflow. An operation takes about 20 ns. Therefore filters in double are tried first.
+// overflow or underflow. An operation takes about 5 ns. Therefore filters in double are tried first.
 class Dyadic {
 public:
     Dyadic() = default;
@@ -30,17 +47,18 @@ public:
     int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
 
     Dyadic operator-() const;
-    friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
-    friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + -b; }
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b) { return sum(a, b, b.negative_); }
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, !b.negative_); }
     friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
 
     // Returns the square root, rounded down to at least 62 bits. It is exact if the root has no more than 62 bits. \pre
     // sign() >= 0
     Dyadic square_root() const;
 
-    // Returns a / b with a relative error of at most 2^-61, then rounded to the nearest double. It is exact if the
-    // quotient is a double, and infinite if the quotient is beyond their range. \pre b.sign() != 0
-    friend double ratio(const Dyadic& a, const Dyadic& b);
+    // Returns the leading bits of the magnitude. \pre sign() != 0
+    LeadingBits leading() const {
+        return LeadingBits::of(limb_at(end() - 1), limb_at(end() - 2), limb_at(end() - 3), 64 * (end() - 3));
+    }
 
 private:
     using Limb = std::uint64_t;
@@ -50,6 +68,9 @@ private:
         : size_(limbs), exponent_(exponent), negative_(negative) {
         if (limbs > kInline) heap_ = std::make_shared<Limb[]>(limbs);
     }
+    // Returns a + b, where the sign of b is replaced.
+    static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_negative);
+
     Limb* limbs() { return heap_ ? heap_.get() : inline_.data(); }
     const Limb* limbs() const { return heap_ ? heap_.get() : inline_.data(); }
     // Returns the limb of weight 2^(64 place).
@@ -64,14 +85,6 @@ private:
     // Removes zero limbs at both ends, and the heap memory if it is no longer needed.
     void trim();
 
-    // The leading 128 bits of a number: its magnitude is (2^64 high + low) 2^exponent, rounded down. The highest bit of
-    // `high` is set.
-    struct Leading {
-        Limb high, low;
-        std::ptrdiff_t exponent;
-    };
-    Leading leading() const;
-
     // The magnitude is the sum of limb i times 2^(64 (exponent_ + i)). The first and the last limb are not 0.
     std::size_t size_ = 0;
     std::ptrdiff_t exponent_ = 0;
@@ -80,7 +93,14 @@ private:
     std::array<Limb, kInline> inline_;  // else the limbs; only size_ are set, clearing all takes a third more time
 };
 
-double ratio(const Dyadic& a, const Dyadic& b);
+// Returns a / b, rounded as above. \pre b.sign() is not 0
+template <class Number>
+double ratio_of(const Number& a, const Number& b) {
+    if (a.sign() == 0) return 0;
+    const double magnitude = ratio(a.leading(), b.leading());
+    return a.sign() != b.sign() ? -magnitude : magnitude;
+}
+inline double ratio(const Dyadic& a, const Dyadic& b) { return ratio_of(a, b); }
 
 inline bool operator==(const Dyadic& a, const Dyadic& b) { return (a - b).sign() == 0; }
 inline bool operator<(const Dyadic& a, const Dyadic& b) { return (a - b).sign() < 0; }

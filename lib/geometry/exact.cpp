@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/dyadic.h"
+#include "geometry/fixed.h"
 
 namespace limn {
 
@@ -17,47 +17,70 @@ Dyadic3 exact_cross(const Point3& a, const Point3& b, const Point3& c) {
     return cross(to_dyadic(b) - origin, to_dyadic(c) - origin);
 }
 
-}  // namespace
-
-// Let A, B and C be the vertices relative to the ray's origin, D the direction and n the normal. The edge values are
-//     wa = D.(B x C), wb = D.(C x A), wc = D.(A x B).
-// Their sum is D.n. The ray hits if no two of them have opposite signs and the sum is not 0. Then t = n.A / n.D, where
-// n.A = A.(B x C).
-bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
-                    PlanarHit& hit) {
-    const ExactRay ray = exact_ray(frame);
-    const Dyadic3 from_a = from_origin(a, ray), from_b = from_origin(b, ray), from_c = from_origin(c, ray);
-    const Dyadic3 b_cross_c = cross(from_b, from_c);
-    const Dyadic wa = dot(ray.direction, b_cross_c);
-    const Dyadic wb = dot(ray.direction, cross(from_c, from_a));
-    if (wa.sign() * wb.sign() < 0) return false;
-    const Dyadic wc = dot(ray.direction, cross(from_a, from_b));
-    if (wa.sign() * wc.sign() < 0 || wb.sign() * wc.sign() < 0) return false;
-    const Dyadic sum = wa + wb + wc;
-    if (sum.sign() == 0) return false;
-    hit = {ratio(dot(from_a, b_cross_c), sum), ratio(wb, sum), ratio(wc, sum)};
+// Let Q be the corner of a quad or triangle relative to the ray's origin, U and V the edges from it, and D the
+// direction. This solves Q + u U + v V = t D. In the scalar product of both sides with V x D only u remains. With U x D
+// only v remains, and with U x V only t. The quotients have a common denominator, `det`. The t of these numbers is
+// multiplied by 2^t_exponent.
+template <bool kQuad, class Vector>
+bool hits_planar(const Vector& q, const Vector& u, const Vector& v, const Vector& d, int t_exponent,
+                 const Search& search, PlanarHit& hit) {
+    // A ray that starts in the plane either has t = 0 or is in the plane.
+    const auto normal = cross(u, v);
+    const auto height = dot(normal, q);
+    if (height.sign() == 0 && search.t_min >= 0) return false;
+    const auto det = dot(normal, d);
+    if (det.sign() == 0 || (search.t_min >= 0 && height.sign() != det.sign())) return false;
+    // Compare u and v with their limits.
+    const auto is_weight = [&](const auto& w) { return w.sign() * det.sign() >= 0; };
+    const auto wu = dot(cross(d, v), q), wv = dot(cross(u, d), q);
+    if (!is_weight(wu) || !is_weight(wv)) return false;
+    if (kQuad ? !is_weight(det - wu) || !is_weight(det - wv) : !is_weight(det - wu - wv)) return false;
+    hit = {std::ldexp(ratio(height, det), t_exponent), ratio(wu, det), ratio(wv, det)};
     return search.contains(hit.t);
 }
 
-// Solves Q + u U + v V = t D, where Q is the corner relative to the ray's origin, U and V are the edges, and D is the
-// direction. In the scalar product of both sides with V x D only u remains. With U x D only v remains, and with U x V
-// only t.
+// A ray in world space as integers of fixed size, and the points and vectors of a shape.
+struct FixedRay {
+    FixedGrid space, along;
+    Int64x3 origin, direction;
+
+    // \pre the coordinates of the shape are at most `largest` in magnitude
+    FixedRay(const Ray& ray, double largest)
+        : space(larger(largest, max_abs(ray.origin))),
+          along(max_abs(ray.direction)),
+          origin(space(ray.origin)),
+          direction(along(ray.direction)) {}
+
+    Int64x3 from_origin(const Point3& p) { return space(p) - origin; }
+    // Returns false if a number was not held exactly.
+    bool is_exact() const { return space.is_exact() && along.is_exact(); }
+    int t_exponent() const { return along.shift() - space.shift(); }
+};
+
+}  // namespace
+
+bool exact_triangle(const Point3& a, const Point3& b, const Point3& c, const RayFrame& frame, const Search& search,
+                    PlanarHit& hit) {
+    if (frame.outer == nullptr) {
+        FixedRay ray(frame.ray, larger(max_abs(a), larger(max_abs(b), max_abs(c))));
+        const Int64x3 q = ray.from_origin(a), u = ray.from_origin(b) - q, v = ray.from_origin(c) - q;
+        if (ray.is_exact()) return hits_planar<false>(q, u, v, ray.direction, ray.t_exponent(), search, hit);
+    }
+    const ExactRay ray = exact_ray(frame);
+    const Dyadic3 q = from_origin(a, ray), u = from_origin(b, ray) - q, v = from_origin(c, ray) - q;
+    return hits_planar<false>(q, u, v, ray.direction, 0, search, hit);
+}
+
 bool exact_quad(const Point3& corner, const Vec3& edge_u, const Vec3& edge_v, const RayFrame& frame,
                 const Search& search, PlanarHit& hit) {
+    if (frame.outer == nullptr) {
+        FixedRay ray(frame.ray, larger(max_abs(corner), larger(max_abs(edge_u), max_abs(edge_v))));
+        const Int64x3 q = ray.from_origin(corner), u = ray.space(edge_u), v = ray.space(edge_v);
+        if (ray.is_exact()) return hits_planar<true>(q, u, v, ray.direction, ray.t_exponent(), search, hit);
+    }
     const ExactRay ray = exact_ray(frame);
-    const Dyadic3 q = from_origin(corner, ray);
     const Dyadic3 u = ray.unit * to_dyadic(edge_u), v = ray.unit * to_dyadic(edge_v);
-    const Dyadic3 normal = cross(u, v);
-    const Dyadic det = dot(ray.direction, normal);
-    if (det.sign() == 0) return false;
-    // True if w / det is in [0, 1].
-    const auto is_weight = [&](const Dyadic& w) {
-        return w.sign() * det.sign() >= 0 && (det - w).sign() * det.sign() >= 0;
-    };
-    const Dyadic wu = dot(q, cross(ray.direction, v)), wv = dot(q, cross(u, ray.direction));
-    if (!is_weight(wu) || !is_weight(wv)) return false;
-    hit = {ratio(dot(q, normal), det), ratio(wu, det), ratio(wv, det)};
-    return search.contains(hit.t);
+    return hits_planar<true>(from_origin(corner, ray), u, v, ray.direction, 0, search, hit);
 }
 
 // Solves A t^2 + 2 B t + C = 0. With q = B + sign(B) sqrt(B^2 - A C), the root that does not cancel is -q / A

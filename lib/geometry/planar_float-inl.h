@@ -15,26 +15,34 @@ HWY_BEFORE_NAMESPACE();
 namespace limn::HWY_NAMESPACE {
 
 // A ShearedRay in float. Its axes are permuted, and its origin is the sum of two floats, `high` and `low`. The
-// derivation of the bounds is that of ShearedRay.
+// derivation of the bounds is that of ShearedRay. Coordinates are those of the origin relative to the vertices, which
+// are the negatives of the coordinates there; products of two of them are the same.
 //
-// Let u = 2^-24, and M the largest magnitude of the coordinates of a vertex relative to the origin.
-//   - Such a coordinate is off by 2 u M, the rounding of two differences, plus an absolute error x of vertex and
-//     origin.
+// A sheared coordinate is x = ((high.x - v.x) - shear_x (high.z - v.z)) + shift_x, where shift_x = low.x - shear_x
+// low.z. Let u = 2^-24, M the largest magnitude of the coordinates of the origin relative to a vertex, and R the
+// largest magnitude of the coordinates of the origin and the vertices.
+//   - high - v is off by u M, its rounding, plus an absolute error of vertex and origin.
 //   - The shear is off by 4 u.
-//   - Therefore a sheared coordinate is off by 11 u M + 2 x: 2 u M + x from each of two coordinates, 4 u M from the
-//     shear, and 3 u M from the rounding of product and difference.
+//   - |low| <= u R, so |shift_x| <= 2 u R. Its rounding, and the error of the shear times low.z, are at most 2^-45 R.
+//   - Therefore a sheared coordinate is off by 11 u M + 2 x: u M from each of two coordinates, 4 u M from the shear, 3
+//   u
+//     M from the rounding of product and difference, 2 u M from the rounding of the last sum. Here x is the absolute
+//     error, which includes those 2^-45 R.
 //   - The rounding of products and differences in a determinant adds 2 u M, as in ShearedRay.
 // So a sheared coordinate is off by at most E = relative M + absolute, where relative >= 13 u and absolute >= 2 x. For
 // an inexact direction `relative` is larger. A determinant is off by at most 4 (P + E) E, where P is the largest
 // magnitude of x and y after shearing.
 template <class N>
 struct PlanarFloatRay {
-    static constexpr std::size_t kNumbers = 14;
-    Vector<N> high, low;
+    static constexpr std::size_t kNumbers = 16;
+    Vector<N> high;
+    N relative;
+    Vector<N> low;
+    N absolute;
     N shear_x, shear_y;
-    N relative, absolute;
+    N t_from_z;         // t = z * t_from_z, where z is that of the origin relative to the point that is hit
     N direction_error;  // bound on the relative error of the direction's z
-    N t_from_z;         // t = z * t_from_z
+    N shift_x, shift_y;
     // The bound on the error of determinants for the farthest possible vertex is coarse_slope P + coarse, that is 4 E P
     // + 4 E^2.
     N coarse_slope, coarse;
@@ -42,13 +50,13 @@ struct PlanarFloatRay {
     // Returns the ray whose i-th number is number(i), i < kNumbers.
     template <class Number>
     HWY_INLINE static PlanarFloatRay from(const Number& number) {
-        return {three<N>(number, 0), three<N>(number, 3), number(6),  number(7),  number(8),
-                number(9),           number(10),          number(11), number(12), number(13)};
+        return {three<N>(number, 0), number(3),  three<N>(number, 4), number(7),  number(8),  number(9),
+                number(10),          number(11), number(12),          number(13), number(14), number(15)};
     }
 };
 
-// The vertices of a triangle, relative to the origin of a ray and sheared. Their z is not scaled. For a quad these are
-// its corner and the ends of both edges.
+// The origin of a ray relative to the vertices of a triangle, sheared. The z leave `low` out and are not scaled. For a
+// quad the vertices are its corner and the ends of both edges.
 template <class N>
 struct SeenTriangle {
     Vector<N> a, b, c;
@@ -57,8 +65,9 @@ struct SeenTriangle {
     template <class Vertex>
     HWY_INLINE SeenTriangle(const Vertex& vertex, const PlanarFloatRay<N>& ray) {
         const auto seen = [&](std::size_t i) HWY_ATTR {
-            const Vector<N> q = (vertex(i) - ray.high) - ray.low;
-            return Vector<N>{neg_mul_add(ray.shear_x, q.z, q.x), neg_mul_add(ray.shear_y, q.z, q.y), q.z};
+            const Vector<N> q = ray.high - vertex(i);
+            return Vector<N>{neg_mul_add(ray.shear_x, q.z, q.x) + ray.shift_x,
+                             neg_mul_add(ray.shear_y, q.z, q.y) + ray.shift_y, q.z};
         };
         a = seen(0);
         b = seen(1);
@@ -106,7 +115,7 @@ HWY_INLINE EdgeValues<N> edge_values(const SeenTriangle<N>& p) {
 // A ray that starts on a surface needs this test for that surface: the t of the hit is so close to 0 that the bounds on
 // t seldom exclude t > 0. The side of the plane on which the origin is decides more often.
 //
-// Let n = u x v be the normal and q the vector from the origin to a vertex. n.q is a sum of products of three numbers.
+// Let n = u x v be the normal and q the vector from a vertex to the origin. n.q is a sum of products of three numbers.
 // Its error is at most the sum of
 //   - 16 u times the sum of the magnitudes of these products, u = 2^-24. This covers the rounding: 5 u for a difference
 //     of products of edges (u and v are differences of vertices, not relative to the origin), 2 u for q, and the rest
@@ -116,7 +125,7 @@ HWY_INLINE EdgeValues<N> edge_values(const SeenTriangle<N>& p) {
 template <class N, class Vertex>
 HWY_INLINE Mask<N> is_surely_behind(const Vertex& vertex, const PlanarFloatRay<N>& ray, N det) {
     // Compute n.q and the sum of the magnitudes of its products.
-    const Vector<N> a = vertex(0), u = vertex(1) - a, v = vertex(2) - a, q = (a - ray.high) - ray.low;
+    const Vector<N> a = vertex(0), u = vertex(1) - a, v = vertex(2) - a, q = (ray.high - a) + ray.low;
     N product = 0.0f, size = 0.0f;
     const auto add = [&](N u1, N v2, N u2, N v1, N along) HWY_ATTR {
         const N left = u1 * v2, right = u2 * v1;
@@ -130,14 +139,14 @@ HWY_INLINE Mask<N> is_surely_behind(const Vertex& vertex, const PlanarFloatRay<N
     const N edge = max(max_abs(u), max_abs(v));
     const N moved = edge * ray.absolute * mul_add(16.0f, max_abs(q), 3.0f * edge);
     const N error = mul_add(size, 16 * 0x1p-24f, moved + 0x1p-120f);
-    // The plane is behind the origin if n.q and n.d have opposite signs. n.d < 0 if det and the direction's z have the
-    // same sign. t_from_z has the sign of z.
+    // The plane is behind the origin if n.q and n.d have the same sign. n.d < 0 if det and the direction's z have the
+    // same sign. t_from_z has the opposite sign of z.
     const N sign = product ^ det ^ ray.t_from_z;
     return (abs(product) > error) & (copy_sign(1.0f, sign) > 0.0f);
 }
 
 // Tests a ray against a triangle or quad in float. vertex(i) returns the i-th vertex with permuted axes. `there` are
-// the lanes to test. In the lanes of `leaving`, hits behind the origin do not count.
+// the lanes to test. If `excludes_behind`, hits behind the origin do not count.
 //
 // Let the vertices be A, B and C. A quad is A + u (B - A) + v (C - A). The edge values wa, wb and wc are those of
 // TrianglePredicate, each off by at most e. The edge values of a quad are wb, wc, wa + wb and wa + wc; the sums are off
@@ -148,8 +157,8 @@ HWY_INLINE Mask<N> is_surely_behind(const Vertex& vertex, const PlanarFloatRay<N
 // are at most 4 E, with room for the rounding of the bounds themselves. If the hit is not certain, z is between the
 // smallest and the largest z of the vertices; for a quad it may exceed them by their difference.
 template <bool kQuad, class N, class Vertex>
-HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N>& ray, Mask<N> there, Mask<N> leaving,
-                                    const Interval<N>& within) {
+HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N>& ray, Mask<N> there,
+                                    bool excludes_behind, const Interval<N>& within) {
     const SeenTriangle<N> p(vertex, ray);
     const EdgeValues<N> w = edge_values<kQuad>(p);
     FloatHits<N> hits;
@@ -158,16 +167,17 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     if (HWY_LIKELY(!any(hits.possible))) return hits;
 
     // Compute E, e and the mean z. As |shear| <= 1, M is at most across + largest_z.
-    const N largest_z = max(abs(p.a.z), max(abs(p.b.z), abs(p.c.z)));
+    const N az = p.a.z + ray.low.z, bz = p.b.z + ray.low.z, cz = p.c.z + ray.low.z;
+    const N largest_z = max(abs(az), max(abs(bz), abs(cz)));
     const N coordinate_error = mul_add(ray.relative, w.across + largest_z, ray.absolute);
     const N e = 4.0f * (w.across + coordinate_error) * coordinate_error;
     const N det = w.wa + (w.wb + w.wc), inverse = 1.0f / det;
-    const N mean = mul_add(w.wa, p.a.z, mul_add(w.wb, p.b.z, w.wc * p.c.z)) * inverse;
+    const N mean = mul_add(w.wa, az, mul_add(w.wb, bz, w.wc * cz)) * inverse;
     // Find the range of z. An infinite bound is made finite here: below, infinity minus an infinite error would be a
     // NaN, which min and max may ignore.
     constexpr float kMost = std::numeric_limits<float>::max();
-    const N lowest = min(min(p.a.z, min(p.b.z, p.c.z)), N(kMost));
-    const N highest = max(max(p.a.z, max(p.b.z, p.c.z)), N(-kMost)), depth = highest - lowest;
+    const N lowest = min(min(az, min(bz, cz)), N(kMost));
+    const N highest = max(max(az, max(bz, cz)), N(-kMost)), depth = highest - lowest;
     // Compute the bounds on t.
     const N weight_error = 10.0f * e * abs(inverse), e4 = 4.0f * coordinate_error;
     const N z_error = mul_add(weight_error, depth, mul_add(ray.direction_error, abs(mean), e4));
@@ -181,8 +191,8 @@ HWY_INLINE FloatHits<N> test_planar(const Vertex& vertex, const PlanarFloatRay<N
     // and drop nothing.
     hits.possible = hits.possible & !(w.are_missed(e) | (hits.near > within.t_max) | (hits.far < within.t_min));
     // Drop hits of planes behind the origin.
-    const auto is_close = hits.possible & leaving & (hits.near < 0.0f);
-    if (any(is_close)) hits.possible = hits.possible & !(hits.certain & leaving & is_surely_behind(vertex, ray, det));
+    if (excludes_behind && any(hits.possible & hits.certain & (hits.near < 0.0f)))
+        hits.possible = hits.possible & !(hits.certain & is_surely_behind(vertex, ray, det));
     return hits;
 }
 

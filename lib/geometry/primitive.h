@@ -24,7 +24,7 @@
 // A kind whose leaves are tested by the float filter, up to eight primitives at once, has a case in
 // trace/traversal-inl.h and these members:
 //
-//     std::array<float, n> pack() const              returns the primitive's rows in a block: see flat::rows_of
+//     std::array<float, n> pack() const              returns the primitive's rows in a block: see flat::Form
 //     double packed_error() const                    returns the largest distance by which pack() moves its points
 //
 // A planar kind that can be sampled as a light has this member:

@@ -19,18 +19,19 @@ namespace limn::HWY_NAMESPACE {
 // the direction is rounded to float.
 template <class N>
 struct SphereFloatRay {
-    static constexpr std::size_t kNumbers = 14;
-    Vector<N> high, low, direction;
+    static constexpr std::size_t kNumbers = 13;
+    Vector<N> high;
     N inverse_squared;  // 1 / |direction|^2
-    N inverse_length;   // at least 1 / |direction|
+    Vector<N> low;
+    N inverse_length;  // at least 1 / |direction|
+    Vector<N> direction;
     N relative, absolute;
-    N t_scale;  // factor from the parameter along `direction` to t
 
     // Returns the ray whose i-th number is number(i), i < kNumbers.
     template <class Number>
     HWY_INLINE static SphereFloatRay from(const Number& number) {
-        return {three<N>(number, 0), three<N>(number, 3), three<N>(number, 6), number(9),
-                number(10),          number(11),          number(12),          number(13)};
+        return {three<N>(number, 0), number(3),  three<N>(number, 4), number(7),
+                three<N>(number, 8), number(11), number(12)};
     }
 };
 
@@ -73,10 +74,10 @@ HWY_INLINE FloatRoots<N> float_roots(const Vector<N>& center, N radius, const Sp
                                  mul_add(2.0f * half_chord, relative, 16 * kUlp * (abs(foot_t) + half_chord)));
     const N first = foot_t - half_chord, last = foot_t + half_chord;
     const N near = foot_t - half, far = foot_t + half;
-    r.near_first = ray.t_scale * select(r.certain, first - root_error, near);
-    r.far_first = ray.t_scale * select(r.certain, first + root_error, far);
-    r.near_last = ray.t_scale * select(r.certain, last - root_error, near);
-    r.far_last = ray.t_scale * select(r.certain, last + root_error, far);
+    r.near_first = select(r.certain, first - root_error, near);
+    r.far_first = select(r.certain, first + root_error, far);
+    r.near_last = select(r.certain, last - root_error, near);
+    r.far_last = select(r.certain, last + root_error, far);
     return r;
 }
 

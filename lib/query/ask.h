@@ -30,6 +30,12 @@ inline bool is_fit(const Ray& r) {
     return (bits(d.x) | bits(d.y) | bits(d.z)) != 0 && r.t_min <= r.t_max && r.t_min < kInfinity;
 }
 
+// Returns true if the ray is unusable and the search doesn't find that out. The search of a scene that is a tree alone
+// does: most rays are then checked only once.
+inline bool is_refused(const flat::Scene& scene, const Ray& ray) {
+    return (!scene.list.empty() || !scene.media.empty()) && !is_fit(ray);
+}
+
 // A filter in the form that traversal uses. It is std::nullopt if nothing is excluded.
 using Excluded = std::optional<trace::Filter>;
 
@@ -67,7 +73,7 @@ auto ask(const CompiledScene& compiled, const Ray& ray, const RayFilter& filter,
     return ask(compiled, [&](const flat::Scene& scene) {
         if (&filter != &kNoFilter) [[unlikely]]
             return answer_filtered(scene, ray, filter, who, work);
-        return is_fit(ray) ? work(scene, ray, Excluded()) : decltype(work(scene, ray, Excluded())){};
+        return is_refused(scene, ray) ? decltype(work(scene, ray, Excluded())){} : work(scene, ray, Excluded());
     });
 }
 

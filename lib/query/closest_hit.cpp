@@ -1,6 +1,5 @@
 // Implements CompiledScene::closest_hit and any_hit, for one ray and for batches.
 #include <algorithm>
-#include <array>
 
 #include "limn/query/compiled_scene.h"
 #include "query/batches.h"
@@ -78,12 +77,12 @@ std::size_t answer_together(const flat::Scene& scene, std::span<const Ray> rays,
 
 // Find the closest hits of usable rays, and whether they have any hit.
 struct ClosestTogether {
-    std::array<trace::Hit, trace::kMostRays> found;
+    trace::RoomForRays<trace::Hit> found;
 
     void operator()(const flat::Scene& scene, std::span<const Ray> rays, RayHit* hits) {
-        trace::closest_hits(scene, rays, found.data());
+        trace::closest_hits(scene, rays, found.of.data());
         for (std::size_t i = 0; i < rays.size(); ++i)
-            hits[i] = found[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found[i]);
+            hits[i] = found.of[i].primitive == flat::RawHit::kMiss ? RayHit{} : complete(scene, found.of[i]);
     }
 };
 struct AnyTogether {

@@ -33,7 +33,7 @@ void prefetch(const flat::Scene& scene, std::span<const RayHit> hits) {
         if (places[i] != nullptr) hwy::Prefetch(places[i]);
     }
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (places[i] != nullptr) hwy::Prefetch(scene.blocks.data() + std::size_t{2} * (*places[i] / flat::kMaxBlock));
+        if (places[i] != nullptr) hwy::Prefetch(&scene.lines[*places[i] / flat::kMaxBlock]);
 }
 
 }  // namespace

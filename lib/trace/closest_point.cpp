@@ -5,8 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "geometry/bvh/slab.h"
-#include "geometry/bvh/wide_bvh.h"
 #include "limn/math/error.h"
 #include "math/scaled_matrix.h"
 
@@ -14,8 +12,8 @@ namespace limn::trace {
 
 namespace {
 
-// Boxes are compared by what they may be off by: 2^-40 of the squared way to them, 2^-45 of a transformed box's
-// coordinates.
+// Bounds on rounding errors: kLess is the factor for a squared distance to a box, 1 less 2^-40. kSlack is the error of
+// the coordinates of a transformed box.
 constexpr double kLess = 1 - 0x1p-40, kSlack = 0x1p-45;
 
 Transform placed(const flat::Instance& instance, const Transform* outer, double time) {
@@ -23,7 +21,7 @@ Transform placed(const flat::Instance& instance, const Transform* outer, double 
     return outer != nullptr ? *outer * m : m;
 }
 
-// What a matrix scales lengths by, where it keeps shapes.
+// Returns the factor by which a matrix scales lengths. \throws ArgumentError if it isn't the same in all directions
 double similarity_of(const Transform& m) {
     const ScaledMatrix scaled(m);
     const auto& rows = scaled.matrix.rows;
@@ -38,11 +36,12 @@ double similarity_of(const Transform& m) {
     return std::ldexp(std::sqrt(square), scaled.exponent);
 }
 
-// A BLAS as it stands in the world, seen from the point, in units in which all is of size 1 at most.
+// Maps the space of a BLAS to one in which the query point is the origin and the coordinates of the world are at
+// most 1.
 struct Seen {
-    Vec3 origin;         // of the world
-    const Transform* m;  // null: the world's own
-    double unit;
+    Vec3 origin;         // the query point, times `unit`
+    const Transform* m;  // the matrix from the BLAS to the world, or null for the world itself
+    double unit;         // factor of world coordinates
 
     Vec3 point(const Point3& p) const {
         const Point3 q = m != nullptr ? transform_point(*m, p) : p;
@@ -51,7 +50,7 @@ struct Seen {
     Vec3 vector(const Vec3& v) const { return unit * (m != nullptr ? transform_vector(*m, v) : v); }
     double size() const { return m != nullptr ? unit * similarity_of(*m) : unit; }
 
-    // A lower bound on the square of the distance of a box.
+    // Returns a lower bound on the square of the distance of a box.
     double to_box(const double* lower, const double* upper) const {
         double sum = 0;
         if (m == nullptr) {
@@ -91,7 +90,7 @@ public:
         const flat::Blas& blas = flat::blas_at(scene_, id);
         if (blas.root == flat::kNothing) return;
         const Seen seen{origin_, m, unit_};
-        std::array<Entry, accel::kMaxWideDepth*(flat::kWidth - 1) + flat::kWidth> stack;
+        std::array<Entry, flat::kMaxStack> stack;
         stack[0] = {0, blas.root};
         for (std::size_t size = 1; size > 0;) {
             const Entry entry = stack[--size];
@@ -126,7 +125,7 @@ public:
         NearestSurface found = best_;
         if (found.primitive == flat::RawHit::kMiss) return found;
         found.distance = length(best_.point.at) / unit_;
-        if (found.distance > max_distance_) return {};  // by the slack of its square
+        if (found.distance > max_distance_) return {};  // its square was within the slack
         found.position = Point3{} + (1 / unit_) * (origin_ + best_.point.at);
         return found;
     }
@@ -160,33 +159,27 @@ private:
         return seen.to_box(lower, upper);
     }
 
-    void visit_leaf(flat::Child child, const flat::Blas& blas, const Seen& seen, std::uint64_t first_number) {
-        flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
-        for (;;) {
-            const flat::Block header = block.header();
-            for (std::uint32_t lane = 0; lane < header.count; ++lane) {
-                const std::uint32_t id = block.id(lane);
-                if (header.kind == PrimitiveKind::mesh) {
-                    const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
-                    take(on_triangle(seen, v), first_number + scene_.ranges[header.range].first_number + id);
-                } else {
-                    visit_reference(scene_.references[id], block, lane, blas, seen, first_number);
-                }
-            }
-            if (header.last) return;
-            block.words += flat::words_of(header.kind, header.count);
+    void visit_leaf(flat::Child leaf, const flat::Blas& blas, const Seen& seen, std::uint64_t first_number) {
+        const flat::BlockView block(&scene_.lines[leaf & flat::kPlaceMask]);
+        const flat::Form form = flat::form_of(leaf);
+        for (std::size_t lane = 0; lane < block.count(form); ++lane) {
+            const std::uint32_t id = block.id(form, lane);
+            if ((id & flat::kReference) != 0)
+                visit_reference(scene_.references[id & ~flat::kReference], block, lane, blas, seen, first_number);
+            else
+                take(on_triangle(seen, block.triangle(lane)), first_number + id);
         }
     }
 
-    void visit_reference(const flat::Reference& reference, const flat::BlockView& block, std::uint32_t lane,
+    void visit_reference(const flat::Reference& reference, const flat::BlockView& block, std::size_t lane,
                          const flat::Blas& blas, const Seen& seen, std::uint64_t first_number) {
         const PrimitiveRange& range = scene_.ranges[reference.range];
         const std::uint64_t number = first_number + range.first_number + reference.element;
+        if (range.kind == PrimitiveKind::mesh)
+            return visit_row(seen, range.kind, range.first_row, reference.element, number);
         if (range.kind != PrimitiveKind::instance)
             return visit_row(seen, range.kind, range.first_row + reference.element, 0, number);
-        const std::size_t count = block.header().count;
-        const double squared =
-            to_box(seen, 1 / blas.scale, [&](std::size_t p) { return block.number(count, p, lane); });
+        const double squared = to_box(seen, 1 / blas.scale, [&](std::size_t p) { return block.row(p)[lane]; });
         if (squared > best_squared_) return;
         const flat::Instance& instance = scene_.instances[range.first_row];
         const Transform m = placed(instance, seen.m, time_);

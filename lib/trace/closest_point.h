@@ -1,4 +1,4 @@
-// The nearest point of all surfaces, by a walk through the trees that rays walk through, nearer boxes first.
+// Finds the nearest point of all surfaces. It walks through the trees that rays walk through, the nearest boxes first.
 #pragma once
 
 #include "flat/scene.h"
@@ -6,14 +6,16 @@
 
 namespace limn::trace {
 
+// The result of closest_point().
 struct NearestSurface {
-    double distance = kInfinity;  // kInfinity: none within the search
+    double distance = kInfinity;  // infinite if there is no surface within the search
     Point3 position;
     NearestPoint point;
     std::uint64_t primitive = flat::RawHit::kMiss;
 };
 
-// \pre the point is finite. \throws ArgumentError at a round shape in an instance that turns it into another
+// Returns the surface point nearest to `point` up to max_distance. \pre the point is finite
+// \throws ArgumentError if a round shape is in an instance that scales it unevenly
 NearestSurface closest_point(const flat::Scene& scene, const Point3& point, double max_distance, double time);
 
 }  // namespace limn::trace

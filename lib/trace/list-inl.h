@@ -1,5 +1,5 @@
-// Rays against listed primitives: in float, up to sixteen rays or primitives at once, and exactly. Per-target include
-// guard, as Highway has it.
+// Tests of rays against listed primitives: in float, for up to sixteen rays or primitives at once, and exactly. The
+// include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_LIST_INL_H
 #undef LIMN_TRACE_LIST_INL_H
@@ -22,17 +22,22 @@ using flat::PrimitiveList;
 using RayFloats = Wide<hn::CappedTag<float, 16>>;
 inline constexpr std::size_t kPacket = kLanes<RayFloats>;
 
-// A ray, or one in each lane, in float. With u = 2^-24 and coordinates no larger than R = |origin| + extent:
+// A ray, or one in each lane, in float.
 //
-// The plane n.x = k, |n| <= 1 along each axis, is met at t = a / b, a = k - n.o, b = n.d. a is off by 16 u R, b by 16 u
-// D, D the largest coordinate of d; where |b| > 2^-15 D, so is t by (16 u R + 16 u D |t|) / (|b| - 16 u D) and 2 u |t|
-// of its own, of D that is at most u T (17 s + 2), T = R + |t| D, s = D / |b|. The point o + t d is off by that and 3 u
-// T, the weights u.x - k' by what the point is off and 8 u T, times the sum of the magnitudes of u: by that sum times G
-// = u T (17 s + 11).
+// Bounds on errors. Let u = 2^-24, D the largest coordinate of the direction d, and R = |origin| + extent, which bounds
+// all coordinates. The plane n.x = k has |n| <= 1 along each axis. The ray meets it at t = a / b with a = k - n.o and b
+// = n.d.
+//   - a is off by 16 u R, and b by 16 u D.
+//   - So if |b| > 2^-15 D, t is off by (16 u R + 16 u D |t|) / (|b| - 16 u D), plus 2 u |t| for its rounding. With T =
+//   R
+//     + |t| D and s = D / |b|, D times that is at most u T (17 s + 2).
+//   - The point o + t d is off by that, plus 3 u T for rounding.
+//   - A weight v.x - k' is off by the sum of the magnitudes of v, times the error of the point plus 8 u T. The second
+//     factor is G = u T (17 s + 11).
 struct ListRay {
     Vector<RayFloats> origin, direction;
     RayFloats reach, size, inverse_size;  // R, D, 1 / D
-    Mask<RayFloats> is_ordinary;          // float can hold it
+    Mask<RayFloats> is_ordinary;          // true if these bounds hold: see the constructor
 
     HWY_INLINE ListRay(const Vector<RayFloats>& o, const Vector<RayFloats>& d, float extent)
         : origin(o), direction(d), reach(max_abs(o) + extent), size(max_abs(d)), inverse_size(1.0f / size) {
@@ -40,7 +45,8 @@ struct ListRay {
     }
 };
 
-// Of the t that count, and of the nearest hit so far, what rounding may make of them.
+// The interval of a search in float. Hits before possible_after are outside it, and hits between the next two are
+// surely inside, whatever the rounding. Hits after `bound` are outside, or not the nearest.
 struct ListLimits {
     RayFloats possible_after, certain_after, certain_before, bound;
 
@@ -50,12 +56,12 @@ struct ListLimits {
           certain_before(below(t_max)),
           bound(above(t_max)) {}
 };
-// No t that is met comes near this.
+// Larger than any t of a hit.
 inline constexpr float kMostListed = 0x1p120f;
 
-// Where nothing is known of t, its bounds are infinite.
+// The result of a test. If nothing is known of t, its bounds are infinite.
 struct ListedHits : FloatHits<RayFloats> {
-    Mask<RayFloats> inside;  // for sure, whatever t is
+    Mask<RayFloats> inside;  // the line of the ray surely passes through the shape, at some t
     RayFloats along;         // n.d
 
     HWY_INLINE Mask<RayFloats> may_be_behind() const {
@@ -63,14 +69,15 @@ struct ListedHits : FloatHits<RayFloats> {
     }
 };
 
-// `row(r)`: a row of PrimitiveList, of one primitive or of one in each lane.
+// Tests a ray against a planar primitive. row(r) returns row r of PrimitiveList, of one primitive in all lanes or of
+// one in each.
 template <class Row>
 HWY_INLINE ListedHits test_listed_plane(const Row& row, Mask<RayFloats> is_triangle, const ListRay& ray,
                                         const ListLimits& limits) {
     using List = PrimitiveList;
     constexpr float kUlp = 0x1p-24f, kEndless = std::numeric_limits<float>::infinity();
     const Vector<RayFloats>&o = ray.origin, &d = ray.direction;
-    // That of the rows from `first` on at a point.
+    // Compute t, and the weights at the point that is hit.
     const auto weight = [&](const Vector<RayFloats>& p, std::size_t first, std::size_t offset) HWY_ATTR {
         return mul_add(row(first), p.x, mul_add(row(first + 1), p.y, mul_sub(row(first + 2), p.z, row(offset))));
     };
@@ -93,19 +100,18 @@ HWY_INLINE ListedHits test_listed_plane(const Row& row, Mask<RayFloats> is_trian
     return hits;
 }
 
-// The ray as listed spheres see it: see float_roots. A centre seen from the origin is off by u R, R as above, and u of
-// itself.
+// Returns the ray for float_roots(). The vector from the origin to a centre is off by 2 u R for the rounding of both,
+// with R as in ListRay, and by u of itself.
 HWY_INLINE SphereFloatRay<RayFloats> sphere_ray(const ListRay& ray) {
     constexpr float kUlp = 0x1p-24f;
     const Vector<RayFloats>& d = ray.direction;
     return {.high = ray.origin,
-            .low = {0.0f, 0.0f, 0.0f},
-            .direction = d,
             .inverse_squared = 1.0f / mul_add(d.x, d.x, mul_add(d.y, d.y, d.z * d.z)),
+            .low = {0.0f, 0.0f, 0.0f},
             .inverse_length = ray.inverse_size * (1 + 0x1p-20f),
+            .direction = d,
             .relative = 48 * kUlp,
-            .absolute = 4.01f * kUlp * ray.reach,
-            .t_scale = 1.0f};
+            .absolute = 4.01f * kUlp * ray.reach};
 }
 template <class Row>
 HWY_INLINE FloatRoots<RayFloats> listed_roots(const Row& row, const SphereFloatRay<RayFloats>& ray) {
@@ -126,7 +132,8 @@ HWY_INLINE bool with_listed(const flat::Scene& scene, const PrimitiveList::Entry
     return with_shape<kListedKinds>(scene, e.kind, e.row, e.element, 0, visit);
 }
 
-// Of flat ones: whether the plane lies behind an origin. `against`: where the direction goes against the normal.
+// Returns true if the plane of a planar primitive is surely behind the origin. `against` is true if the direction goes
+// against the normal.
 template <class N>
 HWY_INLINE Mask<N> is_behind(const PrimitiveList::Entry& e, const Vector<N>& origin, Mask<N> against) {
     const Vector<N> u = broadcast<N>(e.edge_u), v = broadcast<N>(e.edge_v);
@@ -135,7 +142,8 @@ HWY_INLINE Mask<N> is_behind(const PrimitiveList::Entry& e, const Vector<N>& ori
     return is_behind(u, v, broadcast<N>(e.corner) - origin, edge_error, N(e.error), against);
 }
 
-// visit(shape, frame) with a primitive and a ray as it sees it. `frame`: of the world.
+// Calls visit() with the predicate of a primitive and the frame of the ray in the space of the primitive. `frame` is
+// that in world space.
 template <class Visit>
 HWY_INLINE void as_seen(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
                         const Visit& visit) {
@@ -149,7 +157,7 @@ HWY_INLINE void as_seen(const flat::Scene& scene, const PrimitiveList::Entry& e,
                [&](const RayFrame& inner) HWY_ATTR { return is_usable(inner.ray) && visit_shape(inner); });
 }
 
-// One primitive, exactly; what is hit is reported to the query. `frame`: of the world.
+// Intersects a primitive exactly, and reports a hit to the query. `frame` is that in world space.
 template <class Query>
 HWY_NOINLINE void intersect_listed(const flat::Scene& scene, const PrimitiveList::Entry& e, const RayFrame& frame,
                                    Query& query) {
@@ -158,7 +166,8 @@ HWY_NOINLINE void intersect_listed(const flat::Scene& scene, const PrimitiveList
     });
 }
 
-// Each in turn, until the query has ended: for rays that float cannot hold. Whether it has.
+// Intersects all primitives exactly, until the query has ended: for rays that are not ordinary. Returns true if it has
+// ended.
 template <class Query>
 bool intersect_all_listed(const flat::Scene& scene, const RayFrame& frame, Query& query) {
     for (const PrimitiveList::Entry& e : scene.list.entries) {

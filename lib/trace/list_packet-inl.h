@@ -1,5 +1,5 @@
-// Rays of any directions against all listed primitives, a ray in each lane. Per-target include guard, as Highway has
-// it.
+// Searches the list with several rays of any directions: a ray in each lane. The include guard is per target, as
+// Highway requires.
 #if defined(LIMN_TRACE_LIST_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_LIST_PACKET_INL_H
 #undef LIMN_TRACE_LIST_PACKET_INL_H
@@ -7,21 +7,115 @@
 #define LIMN_TRACE_LIST_PACKET_INL_H
 #endif
 
+#include <tuple>
+
 #include "geometry/sphere_side.h"
-#include "trace/box_ray.h"
-#include "trace/deferred_hits-inl.h"
 #include "trace/list-inl.h"
 #include "trace/queries.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// Query: Closest or Any, one for each ray. As in Traversal, sure hits wait, of which the nearest alone is to be
-// intersected exactly.
+// A listed primitive that a ray in world space surely hits.
+struct DeferredHit {
+    const PrimitiveList::Entry* entry;
+    const Ray* ray;
+    Closest* query;
+};
+
+// Sure hits of shapes of one kind, in columns. The filter decides them in vectors.
+template <template <class> class Predicate>
+class DeferredShapes {
+public:
+    DeferredShapes() : size_(0) {}  // the columns are not initialised
+
+    bool is_full() const { return size_ == kSize; }
+
+    // Adds a hit. `frame` is that of the ray in the space of the shape.
+    HWY_INLINE void add(const Predicate<double>& shape, const RayFrame& frame, const DeferredHit& hit) {
+        const double of_ray[kRay] = {frame.ray.origin.x,    frame.ray.origin.y,    frame.ray.origin.z,
+                                     frame.ray.direction.x, frame.ray.direction.y, frame.ray.direction.z,
+                                     frame.origin_error,    frame.direction_error, frame.ray.t_min,
+                                     frame.ray.t_max};
+        for (std::size_t k = 0; k < kRay; ++k) ray_[k][size_] = of_ray[k];
+        // Copy the numbers one by one: a vector could not be loaded from numbers that have just been stored.
+        [&]<std::size_t... k>(std::index_sequence<k...>) HWY_ATTR {
+            ((shape_[k][size_] = number_of<double>(shape, k)), ...);
+        }
+        (std::make_index_sequence<Predicate<double>::kNumbers>());
+        hits_[size_++] = hit;
+    }
+
+    // Reports all hits to their queries, and empties the columns. What the filter leaves undecided is intersected
+    // exactly.
+    HWY_INLINE void flush(const flat::Scene& scene) {
+        // Fill the last vector with copies.
+        constexpr std::size_t kWidth = kLanes<Doubles>;
+        for (std::size_t i = size_; i % kWidth != 0; ++i) {
+            for (auto& row : ray_) row[i] = row[size_ - 1];
+            for (auto& row : shape_) row[i] = row[size_ - 1];
+        }
+        // Run the filter, and report.
+        for (std::size_t i = 0; i < size_; i += kWidth) {
+            const auto of_ray = [&](std::size_t k) HWY_ATTR { return load<Doubles>(ray_[k] + i); };
+            const auto of_shape = [&](std::size_t k) HWY_ATTR { return load<Doubles>(shape_[k] + i); };
+            const RayOf<Doubles> ray{three<Doubles>(of_ray, 0), three<Doubles>(of_ray, 3), of_ray(6), of_ray(7)};
+            const auto shape = Predicate<Doubles>::from(of_shape);
+            const FilterResult<Doubles> r = shape.filter(typename Predicate<Doubles>::Ray(ray), {of_ray(8), of_ray(9)});
+            HWY_ALIGN double t[kWidth], u[kWidth], v[kWidth];
+            store(r.t, t);
+            store(r.u, u);
+            store(r.v, v);
+            const std::uint32_t hits = bits(r.hit), decided = hits | bits(r.miss);
+            for (std::size_t k = 0; k < kWidth && i + k < size_; ++k) {
+                const DeferredHit& hit = hits_[i + k];
+                if ((hits >> k & 1) != 0)
+                    hit.query->report({t[k], u[k], v[k]}, hit.entry->number, false);
+                else if ((decided >> k & 1) == 0)
+                    intersect_listed(scene, *hit.entry, RayFrame(*hit.ray), *hit.query);
+            }
+        }
+        size_ = 0;
+    }
+
+private:
+    // A multiple of the lanes, and small enough for the first-level cache (docs/tried.md).
+    static constexpr std::size_t kSize = 16, kRay = 10;
+
+    std::size_t size_;
+    HWY_ALIGN double ray_[kRay][kSize], shape_[Predicate<double>::kNumbers][kSize];
+    DeferredHit hits_[kSize];
+};
+
+// The sure hits of a batch.
+class DeferredHits {
+public:
+    explicit DeferredHits(const flat::Scene& scene) : scene_(scene) {}
+
+    template <template <class> class Predicate>
+    HWY_INLINE void add(const Predicate<double>& shape, const RayFrame& frame, const DeferredHit& hit) {
+        auto& shapes = std::get<DeferredShapes<Predicate>>(shapes_);
+        shapes.add(shape, frame, hit);
+        if (shapes.is_full()) shapes.flush(scene_);
+    }
+
+    // Reports the hits that are left.
+    HWY_INLINE void finish() {
+        std::apply([&](auto&... shapes) HWY_ATTR { (shapes.flush(scene_), ...); }, shapes_);
+    }
+
+private:
+    const flat::Scene& scene_;
+    std::tuple<DeferredShapes<QuadPredicate>, DeferredShapes<TrianglePredicate>, DeferredShapes<SpherePredicate>>
+        shapes_;
+};
+
+// Up to kPacket rays against the list. Query is Closest or Any; each ray has its own. As in Traversal sure hits wait,
+// because only the nearest has to be intersected exactly.
 template <class Query>
 class ListPacket {
 public:
-    // All is kept by reference. \pre 0 < count <= kPacket
+    // The arguments must outlive this object. \pre 0 < count <= kPacket
     ListPacket(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries)
         : scene_(scene), list_(scene.list), rays_(rays), queries_(queries), count_(count) {
         for (std::size_t i = 0; i < kPacket; ++i) {
@@ -30,12 +124,14 @@ public:
                 origin_[a][i] = ray.origin[a];
                 direction_[a][i] = ray.direction[a];
             }
-            t_min_[i] = ray.t_min, t_max_[i] = i < count ? queries[i].limit() : -kInfinity;
+            t_min_[i] = ray.t_min;
+            t_max_[i] = i < count ? queries[i].limit() : -kInfinity;
         }
     }
 
-    // Returns the lanes that may still meet what is not listed.
+    // Searches the list. Returns the lanes whose rays may hit what is not in the list.
     std::uint32_t run() {
+        // Round the rays to float.
         const auto limited = [](const double* t)
                                  HWY_ATTR { return max(-kMostListed, min(load_rounded<RayFloats>(t), kMostListed)); };
         const auto in_float = [](const double(&v)[3][kPacket]) HWY_ATTR {
@@ -51,6 +147,7 @@ public:
         const std::uint32_t unusual = there & ~active_;
         leaving_ = bits(t_min >= 0.0f);
 
+        // Test planar primitives, then spheres.
         const auto none = first_lanes<RayFloats>(0);
         for (std::uint32_t i = 0; i < list_.quads && active_ != 0; ++i) planar(i, none, ray, limits);
         for (std::uint32_t i = list_.quads; i < list_.planars() && active_ != 0; ++i) planar(i, !none, ray, limits);
@@ -59,15 +156,13 @@ public:
             for (std::uint32_t i = 0; i < list_.spheres && active_ != 0; ++i) sphere(i, ray_of_spheres, limits);
         }
         std::uint32_t rest = list_.is_all ? 0 : active_ & meets_rest(ray, limits);
-        const bool is_planar = (scene_.kinds & ~flat::kPlanarKinds) == 0;  // what stands in trees, and in no instance
-        if (Query::kFirstHit && rest != 0 && is_planar) rest &= ~ends_before_rest(rest);
         for (std::size_t r = 0; r < count_; ++r)
             if ((unusual >> r & 1) != 0 && !intersect_all_listed(scene_, RayFrame(rays_[r]), queries_[r]))
                 rest |= 1u << r;
         return list_.is_all ? 0 : rest;
     }
 
-    // Once, after run().
+    // Adds the sure hits that may be the nearest to `deferred`. \pre run() was called
     void defer_candidates(DeferredHits& deferred) {
         for (std::uint32_t lanes = waiting_; lanes != 0; lanes &= lanes - 1) {
             const auto r = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -75,19 +170,20 @@ public:
             Query& query = queries_[r];
             query.lower_limit(double{bound_[r]});
             as_seen(scene_, e, RayFrame(rays_[r]), [&](const auto& shape, const RayFrame& frame) HWY_ATTR {
-                deferred.add(shape, frame, query, e.number);
+                deferred.add(shape, frame, {&e, &rays_[r], &query});
                 return false;
             });
         }
     }
 
 private:
-    // As BoxRay has it, but for the order.
+    // Returns the lanes whose rays meet the bounds of what is not in the list. These are widened as those of WalkRay,
+    // with the same widening for all axes.
     HWY_INLINE std::uint32_t meets_rest(const ListRay& ray, const ListLimits& limits) const {
         RayFloats enter = limits.possible_after, leave = load<RayFloats>(bound_);
-        const RayFloats wider = BoxRay::kWider * ray.reach;
+        const RayFloats wider = WalkRay::kWider * ray.reach;
         const auto cut = [&](RayFloats o, RayFloats direction, std::size_t a) HWY_ATTR {
-            const RayFloats inverse = 1.0f / copy_sign(max(abs(direction), BoxRay::kLeast), direction);
+            const RayFloats inverse = 1.0f / copy_sign(max(abs(direction), WalkRay::kLeast), direction);
             const RayFloats shift = -(o * inverse), widening = wider * abs(inverse);
             const RayFloats lower = mul_add(list_.rest_lower[a], inverse, shift);
             const RayFloats upper = mul_add(list_.rest_upper[a], inverse, shift);
@@ -111,7 +207,7 @@ private:
         std::uint32_t certain = bits(hits.certain) & possible;
         if (certain != possible) {
             std::uint32_t undecided = possible & ~certain;
-            // A ray leaves the surface that it starts on, and a shadow ray ends just before the light.
+            // A ray starts on a surface and leaves it. A shadow ray ends just before the light.
             const std::uint32_t leaving = undecided & leaving_ & bits(hits.may_be_behind());
             if (leaving != 0) undecided &= ~behind(list_.entries[i], leaving, bits(hits.along < 0.0f));
             const std::uint32_t within = undecided & bits(hits.inside);
@@ -153,31 +249,14 @@ private:
         if (certain != 0) take(index, certain, hits.near, hits.far);
     }
 
-    // Of rays to a point, which end just before t = 1, those whose point lies in front of the box of the rest along
-    // some axis, as the origin does: shadow rays for lamps that lie in its sides. What is there is met at t >= 1, so a
-    // filter that finds less than t_max < 1 has an error of at least the way to 1, and leaves it to the exact fallback
-    // (judge). The point as computed is off by 2 u of its terms at most.
-    HWY_INLINE std::uint32_t ends_before_rest(std::uint32_t lanes) const {
-        return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
-            auto apart = first_lanes<Doubles>(0);
-            for (std::size_t a = 0; a < 3; ++a) {
-                const auto o = load<Doubles>(origin_[a] + h), way = load<Doubles>(direction_[a] + h), end = o + way;
-                const Doubles error = (abs(o) + abs(way)) * (4 * kRoundoff);
-                apart = apart | (max(o, end) + error < double{list_.rest_lower[a]}) |
-                        (min(o, end) - error > double{list_.rest_upper[a]});
-            }
-            return bits(apart & (load<Doubles>(t_max_ + h) < 1.0));
-        });
-    }
-
-    // The sure hits of some lanes.
+    // Takes the sure hits of the lanes `certain` with primitive i.
     HWY_INLINE void take(std::uint32_t i, std::uint32_t certain, RayFloats near, RayFloats far) {
         if constexpr (Query::kFirstHit) {
             active_ &= ~certain;
             for (; certain != 0; certain &= certain - 1) queries_[std::countr_zero(certain)].report({}, 0, false);
         } else {
             const auto bound = load<RayFloats>(bound_), new_bound = min(bound, above(far));
-            // Where the one before may still be the nearest it is intersected now.
+            // If the sure hit before it may still be the nearest, intersect that now.
             const std::uint32_t both = certain & waiting_ & bits(load<RayFloats>(near_) <= new_bound);
             for (std::uint32_t lanes = both; lanes != 0; lanes &= lanes - 1) {
                 const auto r = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -191,7 +270,7 @@ private:
         }
     }
 
-    // visit(first lane, mask of lanes) for the lanes of each vector of doubles; its results together.
+    // Calls visit(first lane, mask of lanes) for each vector of doubles, and returns the results as one mask.
     template <class Visit>
     HWY_INLINE static std::uint32_t by_halves(std::uint32_t lanes, const Visit& visit) {
         constexpr std::size_t kSome = kLanes<Doubles>;
@@ -207,14 +286,14 @@ private:
         return {load<Doubles>(v[0] + h), load<Doubles>(v[1] + h), load<Doubles>(v[2] + h)};
     }
 
-    // Those of the lanes whose origin the plane lies behind.
+    // Returns the lanes of whose origin the plane is surely behind.
     HWY_INLINE std::uint32_t behind(const PrimitiveList::Entry& e, std::uint32_t lanes, std::uint32_t against) const {
         return by_halves(lanes, [&](std::size_t h, std::uint32_t) HWY_ATTR {
             return bits(is_behind(e, doubles(origin_, h), mask_of<Doubles>(against >> h)));
         });
     }
 
-    // Those of the lanes that the filter decides; a hit is reported.
+    // Runs the filter, and reports hits. Returns the lanes that it decides.
     HWY_NOINLINE std::uint32_t decide(std::uint32_t i, std::uint32_t lanes) {
         const PrimitiveList::Entry& e = list_.entries[i];
         std::uint32_t decided = 0;
@@ -232,7 +311,9 @@ private:
         const FilterResult<Doubles> r =
             shape.filter(typename Shape::Ray(ray), {load<Doubles>(t_min_ + h), load<Doubles>(t_max_ + h)});
         HWY_ALIGN double t[8], u[8], v[8];
-        store(r.t, t), store(r.u, u), store(r.v, v);
+        store(r.t, t);
+        store(r.u, u);
+        store(r.v, v);
         const std::uint32_t hits = bits(r.hit);
         for (std::uint32_t rest = hits & lanes; rest != 0; rest &= rest - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(rest));
@@ -242,7 +323,7 @@ private:
         return hits | bits(r.miss);
     }
 
-    // After a report.
+    // Updates the lane of a ray after a report to its query.
     void note_limit(std::size_t r) {
         const double limit = queries_[r].limit();
         t_max_[r] = limit;
@@ -261,7 +342,7 @@ private:
     const Ray* rays_;
     Query* queries_;
     std::size_t count_;
-    std::uint32_t active_ = 0, leaving_ = 0, waiting_ = 0;  // by lane
+    std::uint32_t active_ = 0, leaving_ = 0, waiting_ = 0;  // masks of lanes
     HWY_ALIGN double origin_[3][kPacket], direction_[3][kPacket], t_min_[kPacket], t_max_[kPacket];
     HWY_ALIGN float bound_[kPacket], near_[kPacket], candidate_[kPacket];
 };

@@ -1,4 +1,4 @@
-// One ray against all listed primitives, a primitive in each lane. Per-target include guard, as Highway has it.
+// Searches the list with one ray: a primitive in each lane. The include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_LIST_RAY_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_LIST_RAY_INL_H
 #undef LIMN_TRACE_LIST_RAY_INL_H
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// What a ray knows of its nearest hit. Sure hits wait: those that may be the nearest are intersected at the end.
+// What is known of the nearest hit. Sure hits wait: those that may be the nearest are intersected exactly at the end.
 struct ListedBound {
     ListLimits limits;
     float bound;
@@ -28,9 +28,15 @@ HWY_INLINE float limited(double t) {
     return static_cast<float>(larger(-double{kMostListed}, limn::smaller(double{kMostListed}, t)));
 }
 
-// Takes what the test of the primitives from `first` on has found; is_missed(index, lane) tells some of the others for
-// sure. `near`: of all primitives; a member of ListedBound would keep that out of registers. True if the query has
-// ended.
+// The sure hits of the list that wait for the end of the search.
+struct WaitingHits {
+    std::uint64_t entries = 0;  // bit i is set for entry i
+    HWY_ALIGN float near[PrimitiveList::kMost + 2 * kPacket];
+};
+
+// Takes the result of the test of the primitives from `first` on. is_missed(entry, lane) returns true for some of those
+// that the ray surely misses. `near` has a number for each primitive of the list; as a member of ListedBound it would
+// keep that out of registers. Returns true if the query has ended.
 template <class Query, class IsMissed>
 HWY_INLINE bool take_listed(const flat::Scene& scene, const FloatHits<RayFloats>& hits, std::size_t first,
                             const RayFrame& frame, Query& query, ListedBound& found, float* near,
@@ -54,24 +60,23 @@ HWY_INLINE bool take_listed(const flat::Scene& scene, const FloatHits<RayFloats>
     return false;
 }
 
-// As ListPacket, but for the way the lanes go. search_rest() searches what is not listed.
-template <class Query, class SearchRest>
-HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query,
-                            const SearchRest& search_rest) {
+// Searches the list, but for the sure hits that are left in `waiting`. Returns true if the query has ended.
+template <class Query>
+HWY_INLINE bool search_list(const flat::Scene& scene, const Ray& ray, const RayFrame& frame, Query& query,
+                            WaitingHits& waiting) {
+    // Round the ray to float.
     const PrimitiveList& list = scene.list;
     const auto in_float = [](const auto& v) HWY_ATTR {
         return Vector<RayFloats>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     };
     const ListRay seen(in_float(ray.origin), in_float(ray.direction),
                        static_cast<float>(flat::blas_at(scene, BlasId::root).extent));
-    if (HWY_UNLIKELY(!any(seen.is_ordinary))) {
-        if (!intersect_all_listed(scene, frame, query)) search_rest();
-        return;
-    }
+    if (HWY_UNLIKELY(!any(seen.is_ordinary))) return intersect_all_listed(scene, frame, query);
     const float t_max = limited(query.limit());
     ListedBound found{.limits = ListLimits(limited(ray.t_min), t_max), .bound = above(t_max)};
-    HWY_ALIGN float near[PrimitiveList::kMost + 2 * kPacket];
+    float* const near = waiting.near;
 
+    // Test planar primitives, then spheres.
     for (std::size_t i = 0; i < list.planars(); i += kPacket) {
         const float* rows = list.planar.data() + i;
         const auto row = [&](std::size_t r) HWY_ATTR { return load<RayFloats>(rows + r * list.planar_stride); };
@@ -83,7 +88,7 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
             return ray.t_min >= 0 && (bits(hits.may_be_behind()) >> k & 1) != 0 &&
                    is_behind(e, broadcast<double>(ray.origin), (bits(hits.along < 0.0f) >> k & 1) != 0);
         };
-        if (take_listed(scene, hits, i, frame, query, found, near, is_missed)) return;
+        if (take_listed(scene, hits, i, frame, query, found, near, is_missed)) return true;
     }
     if (list.spheres != 0) {
         const auto ray_of_spheres = sphere_ray(seen);
@@ -98,15 +103,21 @@ HWY_INLINE void search_list(const flat::Scene& scene, const Ray& ray, const RayF
             auto hits = first_listed(roots, found.limits);
             hits.possible = hits.possible & first_lanes<RayFloats>(list.spheres - i);
             if (!any(hits.possible)) continue;
-            if (take_listed(scene, hits, list.planars() + i, frame, query, found, near, is_missed)) return;
+            if (take_listed(scene, hits, list.planars() + i, frame, query, found, near, is_missed)) return true;
         }
     }
+    waiting.entries = found.waiting;
     if constexpr (Query::kNearest)
         if (found.waiting != 0) query.lower_limit(double{found.bound});
-    search_rest();
-    for (; found.waiting != 0; found.waiting &= found.waiting - 1) {
-        const auto k = static_cast<std::size_t>(std::countr_zero(found.waiting));
-        if (near[k] <= query.limit()) intersect_listed(scene, list.entries[k], frame, query);
+    return false;
+}
+
+// Intersects the sure hits that may be the nearest.
+template <class Query>
+HWY_INLINE void finish_list(const flat::Scene& scene, const RayFrame& frame, Query& query, WaitingHits& waiting) {
+    for (; waiting.entries != 0; waiting.entries &= waiting.entries - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(waiting.entries));
+        if (waiting.near[k] <= query.limit()) intersect_listed(scene, scene.list.entries[k], frame, query);
     }
 }
 

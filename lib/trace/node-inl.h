@@ -1,4 +1,4 @@
-// A ray against the eight boxes of a node. Per-target include guard, as Highway has it.
+// Tests of a ray against the eight boxes of a node. The include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_NODE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_NODE_INL_H
 #undef LIMN_TRACE_NODE_INL_H
@@ -12,25 +12,21 @@
 #include <cstddef>
 
 #include "flat/scene.h"
-#include "geometry/bvh/wide_bvh.h"
 #include "math/compress-inl.h"
-#include "trace/box_ray.h"
 #include "trace/leaf-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// Children yet to be visited, and where the ray enters their boxes. A visit pushes at most 7 of 8, a whole vector is
-// written.
+// The children that are still to be visited, with the t at which the ray enters their boxes.
 struct Stack {
-    static constexpr std::size_t kSize = accel::kMaxWideDepth * (flat::kWidth - 1) + flat::kWidth;
     struct Rows {
-        flat::Child child[kSize];
-        float near[kSize];
+        flat::Child child[flat::kMaxStack];
+        float near[flat::kMaxStack];
     };
     flat::Child* const child;
     float* const near;
-    std::size_t size = 0;  // apart from what vectors are written to: in a register
+    std::size_t size = 0;  // kept in a register, because no vector is written to this object
 
     explicit Stack(Rows& rows) : child(rows.child), near(rows.near) {}
 
@@ -39,7 +35,8 @@ struct Stack {
         near[size++] = t;
     }
 
-    // The last one that is entered up to `bound`. False where there is none.
+    // Removes children up to and including the last one that is entered up to `bound`, and sets `next` to that. Returns
+    // false if there is none.
     HWY_INLINE bool pop(float bound, flat::Child& next) {
         while (size != 0) {
             if (near[--size] > bound) continue;
@@ -50,7 +47,7 @@ struct Stack {
     }
 
 #if HWY_MAX_BYTES >= 32
-    // Those of eight lanes whose mask is set, in their order.
+    // Pushes the lanes that `mask` selects, in their order.
     HWY_INLINE void push_some(V children, V t, M mask) {
         const Lanes d;
         const hn::RebindToUnsigned<Lanes> du;
@@ -62,120 +59,158 @@ struct Stack {
 #endif
 };
 
-// Where a ray enters the boxes of eight children, and which it meets: as many vectors as that takes.
-inline constexpr std::size_t kVectors = flat::kWidth / hn::MaxLanes(Lanes());
-struct Eight {
-    V near[kVectors];
-    M met[kVectors];
-};
-
 HWY_INLINE void prefetch(const flat::Scene& scene, flat::Child child) {
     const bool is_leaf = (child & flat::kLeaf) != 0;
-    const void* const at = is_leaf ? static_cast<const void*>(scene.blocks.data()) : scene.nodes.data();
-    const std::size_t offset = is_leaf ? std::size_t{8} * (child & ~flat::kLeaf) : sizeof(flat::Node) * child;
-    const auto* const first = static_cast<const std::byte*>(at) + offset;
+    const void* const at =
+        is_leaf ? static_cast<const void*>(&scene.lines[child & flat::kPlaceMask]) : &scene.nodes[child];
+    const auto* const first = static_cast<const std::byte*>(at);
     for (std::size_t line = 0; line < 4; ++line) hwy::Prefetch(first + 64 * line);
 }
 
-// The nearest child that is met, or kNothing; the others go onto the stack, the farthest first.
+// The planes of some boxes at which rays of an octant enter and leave them. `boxes` are rows of a node or block.
+struct BoxPlanes {
+    V near[3], far[3];
+
+    HWY_INLINE BoxPlanes(const float* boxes, unsigned octant) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            const std::size_t negative = octant >> a & 1;
+            near[a] = hn::LoadU(Lanes(), boxes + flat::kWidth * (a + 3 * negative));
+            far[a] = hn::LoadU(Lanes(), boxes + flat::kWidth * (a + 3 - 3 * negative));
+        }
+    }
+};
+// A ray in all lanes. Boxes that it enters after `bound` are missed.
+struct BoxRay {
+    V inverse[3], near_shift[3], far_shift[3], t_min, bound;
+
+    HWY_INLINE BoxRay(const WalkRay& ray, float t_max)
+        : t_min(hn::Set(Lanes(), ray.t_min)), bound(hn::Set(Lanes(), t_max)) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            inverse[a] = hn::Set(Lanes(), ray.inverse[a]);
+            near_shift[a] = hn::Set(Lanes(), ray.near_shift[a]);
+            far_shift[a] = hn::Set(Lanes(), ray.far_shift[a]);
+        }
+    }
+};
+// The result of a test of boxes.
+struct BoxHits {
+    V near;  // t at which the ray enters each box
+    M missed;
+};
+
+// Tests a ray against boxes.
+//
+// If kOrdinary, t are compared as integers, by their bits. Minima and maxima of integers take one cycle, those of
+// floats four. \pre t_min and the bound are at least +0
+//   - Floats from +0 up are ordered as their bits are, and negative floats have negative bits. As t_min >= +0, the
+//     largest of t_min and the t of near planes is right.
+//   - The smallest of the bound and the t of far planes is right if none is negative. If one is negative or -0, the
+//     result is negative, and the box is missed. It holds no hit at t > t_min >= 0, because the t of far planes is
+//     larger than that of each hit (WalkRay).
+//   - The near planes of an absent box are met at +infinity, and its far planes at -infinity, so it is missed.
+//   - No t is a NaN, because the inverse is finite and not 0 and the shifts are finite.
+template <bool kOrdinary>
+HWY_INLINE BoxHits test_boxes(const BoxPlanes& planes, const BoxRay& ray) {
+    using Order = Wide<std::conditional_t<kOrdinary, hn::RebindToSigned<Lanes>, Lanes>>;
+    const auto ordered = [](V t) HWY_ATTR { return Order(hn::BitCast(typename Order::Tag(), t)); };
+    const auto near = [&](std::size_t a)
+                          HWY_ATTR { return ordered(hn::MulAdd(planes.near[a], ray.inverse[a], ray.near_shift[a])); };
+    const auto far = [&](std::size_t a)
+                         HWY_ATTR { return ordered(hn::MulAdd(planes.far[a], ray.inverse[a], ray.far_shift[a])); };
+    const Order enter = max(max(near(0), near(1)), max(near(2), ordered(ray.t_min)));
+    const Order leave = min(min(far(0), far(1)), min(far(2), ordered(ray.bound)));
+    return {hn::BitCast(Lanes(), enter.v), hn::RebindMask(Lanes(), (leave < enter).m)};
+}
+
+// The number of vectors that hold eight boxes.
+inline constexpr std::size_t kVectors = flat::kWidth / hn::MaxLanes(Lanes());
+
+// The result of a test of eight boxes.
+struct Eight {
+    BoxHits hits[kVectors];
+    std::uint32_t met = 0;  // bit i: the ray enters box i up to the bound
+
+    // Tests a ray. `boxes` are the rows of a node or block.
+    template <bool kOrdinary>
+    HWY_INLINE static Eight test(const float* boxes, unsigned octant, const BoxRay& ray) {
+        Eight eight;
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            eight.hits[i] = test_boxes<kOrdinary>(BoxPlanes(boxes + i * kLanes<Floats>, octant), ray);
+            eight.met |= (bits(eight.hits[i].missed) ^ ((1u << kLanes<Floats>)-1)) << (i * kLanes<Floats>);
+        }
+        return eight;
+    }
+    HWY_INLINE void store_near(float* to) const {
+        for (std::size_t i = 0; i < kVectors; ++i) hn::Store(hits[i].near, Lanes(), to + i * kLanes<Floats>);
+    }
+};
+
+// Returns one of the children that are met, and pushes the others. If kSorts, it returns the nearest and pushes the
+// farthest first. Otherwise it returns the last and pushes the others in their order, as if they were entered before
+// any t. \pre eight.met is not 0
+template <bool kSorts>
 HWY_INLINE flat::Child choose(const flat::Scene& scene, const flat::Node& node, unsigned octant, const Eight& eight,
                               Stack& stack) {
-    const Lanes d;
-    std::uint32_t mask = 0;
-    for (std::size_t i = 0; i < kVectors; ++i) mask |= bits(eight.met[i]) << (i * hn::Lanes(d));
-    if (mask == 0) return flat::kNothing;
-    const auto first = static_cast<std::size_t>(std::countr_zero(mask));
-    const std::uint32_t others = mask & (mask - 1);
+    const auto first = static_cast<std::size_t>(std::countr_zero(eight.met));
+    const std::uint32_t others = eight.met & (eight.met - 1);
     if (others == 0) return node.child[first];
+    constexpr float kAnywhere = -std::numeric_limits<float>::infinity();
     HWY_ALIGN float near[flat::kWidth];
     if ((others & (others - 1)) == 0) {
-        // The most common case but one. A branch can be predicted, and then nothing waits for the comparison.
-        for (std::size_t i = 0; i < kVectors; ++i) hn::Store(eight.near[i], d, near + i * hn::Lanes(d));
+        // Only one child is more common than two. A branch may be predicted; then nothing waits for the comparison.
         const auto second = static_cast<std::size_t>(std::countr_zero(others));
-        const bool is_first = near[first] <= near[second];
+        if constexpr (kSorts) eight.store_near(near);
+        const bool is_first = kSorts && near[first] <= near[second];
         const flat::Child later = node.child[is_first ? second : first];
         prefetch(scene, later);
-        stack.push(later, near[is_first ? second : first]);
+        stack.push(later, kSorts ? near[is_first ? second : first] : kAnywhere);
         return node.child[is_first ? first : second];
     }
+#if HWY_MAX_BYTES >= 32
+    // Push all that are met, and take the last back.
+    const Lanes d;
+    const hn::RebindToUnsigned<Lanes> du;
+    const auto children = hn::BitCast(d, hn::LoadU(du, node.child));
+    if constexpr (!kSorts) {
+        stack.push_some(children, hn::Set(d, kAnywhere), hn::Not(eight.hits[0].missed));
+        return stack.child[--stack.size];
+    }
+#endif
     const std::uint32_t order = node.order[octant];
 #if HWY_MAX_BYTES >= 32
-    const hn::RebindToUnsigned<Lanes> du;
     const auto slots = hn::And(hn::Shr(hn::Set(du, order), hn::ShiftLeft<2>(hn::Iota(du, 0))), hn::Set(du, 7));
     const auto sorted = hn::IndicesFromVec(d, hn::BitCast(hn::RebindToSigned<Lanes>(), slots));
     const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-    const auto near_sorted = hn::TableLookupLanes(hn::IfThenElse(eight.met[0], eight.near[0], infinity), sorted);
-    const auto children = hn::TableLookupLanes(hn::BitCast(d, hn::LoadU(du, node.child)), sorted);
-    stack.push_some(children, near_sorted, hn::Lt(near_sorted, infinity));
+    const auto near_sorted =
+        hn::TableLookupLanes(hn::IfThenElse(eight.hits[0].missed, infinity, eight.hits[0].near), sorted);
+    stack.push_some(hn::TableLookupLanes(children, sorted), near_sorted, hn::Lt(near_sorted, infinity));
 #else
-    for (std::size_t i = 0; i < kVectors; ++i) hn::Store(eight.near[i], d, near + i * hn::Lanes(d));
+    eight.store_near(near);
     for (std::uint32_t slots = order, k = 0; k < flat::kWidth; ++k, slots >>= 4) {
         const std::uint32_t i = slots & 7;
-        if ((mask >> i & 1) != 0) stack.push(node.child[i], near[i]);
+        if ((eight.met >> i & 1) != 0) stack.push(node.child[i], near[i]);
     }
 #endif
     return stack.child[--stack.size];
 }
 
-// BoxRay in vectors.
-struct NodeTest {
-    V inverse[3], near_shift[3], far_shift[3], t_min;
-    std::size_t near_plane[3], far_plane[3];  // of the six of a box
-    unsigned octant;
-
-    explicit NodeTest(const BoxRay& ray) : t_min(hn::Set(Lanes(), ray.t_min)), octant(ray.octant) {
-        for (std::size_t a = 0; a < 3; ++a) {
-            inverse[a] = hn::Set(Lanes(), ray.inverse[a]);
-            near_shift[a] = hn::Set(Lanes(), ray.near_shift[a]);
-            far_shift[a] = hn::Set(Lanes(), ray.far_shift[a]);
-            const bool negative = (ray.octant >> a & 1) != 0;
-            near_plane[a] = a + (negative ? 3 : 0);
-            far_plane[a] = a + (negative ? 0 : 3);
-        }
-    }
-
-    // plane(p): that of the six, of several boxes.
-    template <class Plane>
-    HWY_INLINE V enter(const Plane& plane) const {
-        const auto x = hn::MulAdd(plane(near_plane[0]), inverse[0], near_shift[0]);
-        const auto y = hn::MulAdd(plane(near_plane[1]), inverse[1], near_shift[1]);
-        const auto z = hn::MulAdd(plane(near_plane[2]), inverse[2], near_shift[2]);
-        return hn::Max(hn::Max(x, y), hn::Max(z, t_min));
-    }
-    template <class Plane>
-    HWY_INLINE V leave(const Plane& plane, V t_max) const {
-        const auto x = hn::MulAdd(plane(far_plane[0]), inverse[0], far_shift[0]);
-        const auto y = hn::MulAdd(plane(far_plane[1]), inverse[1], far_shift[1]);
-        const auto z = hn::MulAdd(plane(far_plane[2]), inverse[2], far_shift[2]);
-        return hn::Min(hn::Min(x, y), hn::Min(z, t_max));
-    }
-
-    // Which of the boxes in a block are met, and where.
-    HWY_INLINE Candidates test_boxes(const flat::BlockView& block, std::size_t count, float t_max) const {
-        const Lanes d;
-        const std::uint32_t* const rows = block.rows(count);
-        Candidates found;
-        for (std::size_t i = 0; has_vector(i, count); i += hn::Lanes(d)) {
-            const auto plane = [&](std::size_t p) HWY_ATTR { return load_floats(rows + p * count + i); };
-            const auto near = enter(plane), far = leave(plane, hn::Set(d, t_max));
-            found.add({{hn::And(hn::Le(near, far), hn::FirstN(d, count - i))}, {hn::FirstN(d, 0)}, near, far}, i);
-        }
-        return found;
-    }
-
-    // The nearest child that the ray meets before t_max, or kNothing; the others go onto the stack, the farthest first.
-    HWY_INLINE flat::Child visit(const flat::Scene& scene, flat::Child at, float t_max, Stack& stack) const {
-        const Lanes d;
-        const flat::Node& node = scene.nodes[at];
-        Eight eight;
-        for (std::size_t i = 0; i < kVectors; ++i) {
-            const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(d, node.planes[p] + i * hn::Lanes(d)); };
-            eight.near[i] = enter(plane);
-            eight.met[i] = hn::Le(eight.near[i], leave(plane, hn::Set(d, t_max)));
-        }
-        return choose(scene, node, octant, eight, stack);
-    }
-};
+// Returns the next leaf that the ray may hit up to `bound`. It is below the node `next`, or else on the stack or below
+// it. Returns kNothing if there is none.
+template <bool kOrdinary, bool kSorts>
+HWY_INLINE flat::Child next_leaf(const flat::Scene& scene, const WalkRay& ray, flat::Child next, float bound,
+                                 Stack& stack) {
+    const BoxRay box_ray(ray, bound);
+    const unsigned octant = ray.octant;
+    do {
+        const flat::Node& node = scene.nodes[next];
+        const Eight eight = Eight::test<kOrdinary>(node.planes[0], octant, box_ray);
+        if (HWY_LIKELY(eight.met != 0))
+            next = choose<kSorts>(scene, node, octant, eight, stack);
+        else if (!stack.pop(bound, next))
+            return flat::kNothing;
+    } while (!(next & flat::kLeaf));
+    return next;
+}
 
 }  // namespace limn::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

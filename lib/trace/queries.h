@@ -1,5 +1,10 @@
-// What to do with hits; kMoved: with passages of the moved ray; kFewKinds: without code for each set of kinds. `limit`
-// is the t beyond which nothing matters; `report` returns true to end the search.
+// Queries receive the hits of a search. Each has these constants and functions:
+//   - kNearest is true if only the nearest hit counts, kFirstHit if any hit ends the search, kEveryHit if all count.
+//   - kMoved is true if passages of the moved ray are reported (geometry/passage.h), not hits.
+//   - kFewKinds is true if the search isn't compiled for each set of kinds.
+//   - limit() returns a t beyond which no hit counts.
+//   - passes() returns true if a hit of a user-defined shape is ignored.
+//   - report() receives a hit and returns true to end the search; ended() returns true after that.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +19,8 @@ namespace limn::trace {
 
 struct Closest {
     static constexpr bool kNearest = true, kEveryHit = false, kFirstHit = false, kMoved = false, kFewKinds = false;
-    double t_max;         // lowered as hits are known, be it by their bounds
-    Hit* best = nullptr;  // the caller's, at first a miss; copying it out would wait for what was stored in parts
+    double t_max;         // lowered with each hit, or to a bound on its t
+    Hit* best = nullptr;  // the caller's, at first a miss. Copying it at the end would wait for its last stores.
 
     double limit() const { return t_max; }
     void lower_limit(double t) { t_max = smaller(t_max, t); }
@@ -32,7 +37,7 @@ struct Closest {
 struct Any {
     static constexpr bool kNearest = false, kEveryHit = false, kFirstHit = true, kMoved = false, kFewKinds = false;
     double t_max;
-    bool passes_boundaries = false;  // index-matched ones
+    bool passes_boundaries = false;  // true if index-matched boundaries are ignored
     bool found = false;
 
     double limit() const { return t_max; }
@@ -55,26 +60,27 @@ struct Every {
     }
 };
 
-// Passages of the moved ray (geometry/passage.h). What has no such rule, disks and user-defined shapes, counts as it
-// does for hits.
+// Counts passages of the moved ray, or lists them. Disks and user-defined shapes have no rule for such a ray, so their
+// hits count.
 struct Passages : PassageCount {
     static constexpr bool kNearest = false, kEveryHit = true, kFirstHit = false, kMoved = true, kFewKinds = true;
     double t_max;
-    std::vector<Crossing>* crossings = nullptr;  // where they are listed
-    bool wants_touched = false;                  // which primitives the origin lies on
+    std::vector<Crossing>* crossings = nullptr;  // the list, or null
+    bool wants_touched = false;                  // true if `touched` is to be set
 
     double limit() const { return t_max; }
     bool ended() const { return false; }
     bool passes(const UserDefinedHit&) const { return false; }
     void touch(std::uint64_t number) { touched = std::min(touched, number); }
     bool report(const PlanarHit& hit, std::uint64_t number, bool inward, bool matched = false) {
-        ++count, outward += inward ? -1 : 1;
+        ++count;
+        outward += inward ? -1 : 1;
         if (crossings != nullptr) crossings->push_back({hit.t, inward, matched, number, hit.u, hit.v});
         return false;
     }
 };
 
-// A query that passes some primitives over. No sure hit counts before the filter has accepted it, so each is
+// A query that ignores some primitives. A sure hit doesn't count before the filter has accepted it. Therefore each is
 // intersected at once.
 template <class Query>
 struct Filtered : Query {

@@ -1,4 +1,5 @@
-// The searches, of which each instruction set has its own. Per-target include guard, as Highway has it.
+// Declares the searches, which are compiled for each instruction set. The include guard is per target, as Highway
+// requires.
 #if defined(LIMN_TRACE_SEARCHES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_SEARCHES_INL_H
 #undef LIMN_TRACE_SEARCHES_INL_H
@@ -11,7 +12,7 @@
 #include "trace/queries.h"
 #include "trace/traverse.h"
 
-// The searches of one ray: X(name, Query) for each.
+// Calls X(name, Query) for each search with one ray.
 #undef LIMN_FOR_EACH_SEARCH
 #define LIMN_FOR_EACH_SEARCH(X)                   \
     X(search_closest, Closest)                    \
@@ -26,14 +27,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// A BLAS of primitives, numbered from `first` on, against a ray.
-#define LIMN_DECLARE_SEARCH(name, Query)                                                                       \
-    void name(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
-              Query& query);
+// Search the scene with a ray, and a BLAS with the ray of a frame. The primitives of the BLAS are numbered from `first`
+// on.
+#define LIMN_DECLARE_SEARCH(name, Query)                               \
+    void name(const flat::Scene& scene, const Ray& ray, Query& query); \
+    void name##_in(const flat::Scene& scene, BlasId id, const RayFrame& frame, std::uint64_t first, Query& query);
 LIMN_FOR_EACH_SEARCH(LIMN_DECLARE_SEARCH)
 #undef LIMN_DECLARE_SEARCH
 
-// The whole scene against up to kMostRays rays.
+// Search the scene with up to kMostRays rays.
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries);
 void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries);
 

@@ -1,4 +1,4 @@
-// The primitives of the flat scene as the filters have them. Per-target include guard, as Highway has it.
+// The filters of the primitives in the tables. The include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_SHAPES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_SHAPES_INL_H
 #undef LIMN_TRACE_SHAPES_INL_H
@@ -21,13 +21,13 @@ namespace limn::trace::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 
-// The predicates of rows.
+// Return the predicate of a row. `time` is that of the ray.
 HWY_INLINE auto shape_of(const primitives::Sphere& s, double) { return sphere_of<double>(s.center, s.radius); }
 HWY_INLINE auto shape_of(const primitives::MovingSphere& s, double time) { return shape_of(s.at(time), time); }
 HWY_INLINE auto shape_of(const primitives::Quad& q, double) { return quad_of<double>(q.corner, q.edge_u, q.edge_v); }
 HWY_INLINE auto shape_of(const primitives::Triangle& t, double) { return triangle_of<double>(t.a, t.b, t.c); }
 
-// Others know for themselves.
+// Other kinds have no predicate: the row intersects itself.
 template <class Kind>
 HWY_INLINE auto shape_of(const Kind& row, double) {
     return std::cref(row);
@@ -46,8 +46,8 @@ HWY_INLINE bool visit_row(const std::tuple<std::vector<Kind>...>& tables, Primit
     return (visit_row<kKinds>(std::get<std::vector<Kind>>(tables), kind, row, time, visit) || ...);
 }
 
-// visit(shape) with the predicate of a row of the table of its kind, or of triangle `element` of a mesh. kKinds: those
-// that there may be.
+// Calls visit() with the predicate of a row of the table of its kind, or of triangle `element` of a mesh, and returns
+// the result. Returns false if the kind is not in the set kKinds.
 template <unsigned kKinds, class Visit>
 HWY_INLINE bool with_shape(const flat::Scene& scene, PrimitiveKind kind, std::uint32_t row, std::uint32_t element,
                            double time, const Visit& visit) {

@@ -1,5 +1,5 @@
-// Which build of the inner loops is used: one for each instruction set, the best that the processor has unless a test
-// says otherwise.
+// The instruction sets for which the inner loops are compiled. The best that the processor has is used, unless a test
+// chooses another.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace limn::trace {
 
-// Those that there are and that this processor can run, the best first.
+// Returns the names of the instruction sets that were compiled and that this processor has, the best first.
 std::vector<std::string> targets();
 
-// For tests: uses this one from now on. Not thread-safe. False if it is not among the targets.
+// Uses this instruction set from now on; for tests. Not thread-safe. Returns false if it is not among the targets.
 bool force_target(const std::string& name);
 
 }  // namespace limn::trace

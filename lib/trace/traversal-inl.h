@@ -1,4 +1,4 @@
-// One ray through one BLAS. Per-target include guard, as Highway has it.
+// Searches one BLAS with one ray. The include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_TRAVERSAL_INL_H
 #undef LIMN_TRACE_TRAVERSAL_INL_H
@@ -9,14 +9,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <optional>
+#include <type_traits>
 
 #include "geometry/sphere_side.h"
-#include "trace/box_ray-inl.h"
-#include "trace/deferred_hits-inl.h"
 #include "trace/node-inl.h"
 #include "trace/queries.h"
 #include "trace/report-inl.h"
@@ -24,307 +20,317 @@
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-// kKinds: the primitive kinds that the scene has; code for the others is left out.
+template <unsigned kKinds, bool kInWorld, class Query>
+bool search_blas(const flat::Scene& scene, const flat::Blas& blas, const Ray& ray, const RayFrame& frame,
+                 std::uint64_t first_number, Query& query);
+
+// The search of a BLAS. Code is omitted for primitives of kinds outside the set kKinds. If kOrdinary, the ray was made
+// by set_up() in walk_ray-inl.h; otherwise it is an AdaptedRay.
 //
-// Boxes and packed primitives are tested in float. What those tests leave undecided is intersected exactly at once. Of
-// hits that they are sure of, `bound_` keeps a t that none of interest lies beyond, and only those that may be the
-// nearest are intersected exactly, at the end: mostly one.
-template <unsigned kKinds, class Query>
+// Boxes and packed primitives are tested in float. A primitive for which such a test is undecided is intersected
+// exactly at once. A sure hit is kept, and `bound_` is lowered to the upper bound on its t. At the end the sure hits
+// that may be the nearest are intersected exactly; mostly that is one.
+template <bool kOrdinary, unsigned kKinds, class Query>
 class Traversal {
 public:
-    // `ray`, which is the frame's, `frame` and `query` are kept by reference. `deferred` takes the sure hits of a
-    // batch, and is null for single rays.
-    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Blas& blas, const BoxRay& ray, const RayFrame& frame,
-                         std::uint64_t first_number, Query& query, DeferredHits* deferred)
+    using RayHere = std::conditional_t<kOrdinary, WalkRay, AdaptedRay>;
+    // True if children are visited from near to far. A search for any hit visits the largest child first, unless there
+    // are user-defined shapes, which may take long.
+    static constexpr bool kSorts = !Query::kFirstHit || (kKinds & flat::bit(PrimitiveKind::user_defined)) != 0;
+
+    // The arguments but first_number, the number of the first primitive of the BLAS, must outlive this object. If
+    // `instance` is null, `frame` is that of the ray. Otherwise the BLAS is that of the instance, and `frame` is that
+    // of the ray outside it: the frame inside is made only for exact tests.
+    HWY_INLINE Traversal(const flat::Scene& scene, const flat::Blas& blas, const RayHere& ray, const RayFrame& frame,
+                         const flat::Instance* instance, std::uint64_t first_number, Query& query)
         : scene_(scene),
           blas_(blas),
           frame_(frame),
-          box_ray_(ray),
+          instance_(instance),
+          ray_(ray),
           first_number_(first_number),
-          query_(query),
-          deferred_(deferred),
-          node_test_(ray),
-          bound_(box_ray_.upper(query.limit())),
-          possible_after_(below(box_ray_.t_min)),
-          certain_after_(above(box_ray_.lower(larger(frame.ray.t_min, -kEndless)) + 2 * box_ray_.t_error)),
-          certain_before_(below(box_ray_.upper(limn::smaller(query.limit(), kEndless)) - 2 * box_ray_.t_error)) {
-        if constexpr (has_planar()) planar_ = PlanarRay(box_ray_, packed_error());
-        if constexpr (has_spheres()) round_ = sphere_ray(box_ray_, packed_error());
-    }
-
-    // A part of run(), which ends where memory is about to be waited for. False at the end. `stack` and `next`, at
-    // first empty and the root, are the caller's.
-    HWY_INLINE bool advance(Stack& stack, flat::Child& next) {
-        for (;;) {
-            if (!(next & flat::kLeaf)) {
-                next = node_test_.visit(scene_, next, bound_, stack);
-                if (next != flat::kNothing) {
-                    prefetch(scene_, next);
-                    return true;
-                }
-            } else if (next != flat::kNothing && leaf(next)) {
-                return false;
-            }
-            if (!stack.pop(bound_, next)) {
-                finish();
-                return false;
-            }
+          query_(query) {
+        bound_ = upper(query.limit());
+        possible_after_ = lowered(ray.t_min);
+        if constexpr (kOrdinary) {
+            certain_after_ = raised(ray.t_min);
+            certain_before_ = lowered(bound_);
+        } else {
+            certain_after_ = above(ray.lower(larger(frame.ray.t_min, -kEndless)) + 2 * ray.t_error);
+            certain_before_ = below(ray.upper(smaller(query.limit(), kEndless)) - 2 * ray.t_error);
         }
     }
 
-    // True if the query ended the search.
+    // Searches the BLAS. Returns true if the query ended the search.
     bool run() {
         if (blas_.root == flat::kNothing) return false;
+        const bool ended = run_from(blas_.root);
+        if (!ended) finish();
+        return ended;
+    }
+
+    // These three make up a search: below a child, in a leaf, and the end of the search. The first two return true if
+    // the query ended the search.
+    HWY_INLINE bool run_from(flat::Child next) {
         Stack::Rows rows;
         Stack stack(rows);
-        flat::Child next = blas_.root;
-        for (;;) {
-            while (!(next & flat::kLeaf)) next = node_test_.visit(scene_, next, bound_, stack);
-            if (next != flat::kNothing && leaf(next)) return true;
-            if (!stack.pop(bound_, next)) {
-                finish();
-                return false;
-            }
-        }
+        do {
+            if (!(next & flat::kLeaf)) next = next_leaf<kOrdinary, kSorts>(scene_, ray_, next, bound_, stack);
+            if (next == flat::kNothing) return false;
+            if (leaf(next)) return true;
+        } while (stack.pop(bound_, next));
+        return false;
     }
+    HWY_INLINE bool leaf(flat::Child leaf) {
+        // Compare the form only with those that the scene may have.
+        using flat::Form;
+        constexpr unsigned kForms = flat::forms_of(kKinds);
+        const auto is = [&](Form form) HWY_ATTR {
+            const unsigned bit = 1u << static_cast<unsigned>(form);
+            return kForms == bit || ((kForms & bit) != 0 && flat::form_of(leaf) == form);
+        };
+        // Test the block.
+        const flat::BlockView block(&scene_.lines[leaf & flat::kPlaceMask]);
+        const float limit = raised(bound_);
+        if (is(Form::triangles)) return take(test_planar<false>(block, ray_, possible_after_, limit), leaf);
+        if (is(Form::quads)) return take(test_planar<true>(block, ray_, possible_after_, limit), leaf);
+        if (is(Form::spheres))
+            return take(test_spheres<false>(block, ray_, 0, possible_after_, certain_after_, limit), leaf);
+        if (is(Form::moving_spheres))
+            return take(test_spheres<true>(block, ray_, time(), possible_after_, certain_after_, limit), leaf);
+        return is(Form::boxes) && intersect_boxes(leaf);
+    }
+    HWY_INLINE void finish() {
+        if constexpr (Query::kNearest) intersect_pending();
+    }
+
+    // Returns a t beyond which no hit is of interest.
+    float bound() const { return bound_; }
 
 private:
     static constexpr bool has(PrimitiveKind kind) { return (kKinds & flat::bit(kind)) != 0; }
-    static constexpr unsigned kRoundKinds = flat::bit(PrimitiveKind::sphere) | flat::bit(PrimitiveKind::moving_sphere);
-    static constexpr bool has_planar() { return (kKinds & flat::kPlanarKinds) != 0; }
-    static constexpr bool has_spheres() { return (kKinds & kRoundKinds) != 0; }
-    // Where t may overflow, and a hit be none.
+    // A hit at a larger t may be none, because its t may overflow.
     static constexpr double kEndless = 1e300;
-    float packed_error() const { return kKinds == flat::bit(PrimitiveKind::mesh) ? 0 : blas_.packed_error; }
 
-    // A hit for sure, not intersected exactly yet.
-    struct Pending {
-        flat::BlockView block;
-        std::uint32_t lane;
-        float near;
-    };
-    // Of n hits in random order ln n + 0.6, on average, are nearer than all before: 8 of 1,700. A full list is only
-    // intersected earlier.
+    // Of n hits in random order, ln n + 0.6 on average are nearer than all before them: 8 of 1,700. If the array is
+    // full, its hits are intersected earlier.
     static constexpr std::size_t kMaxPending = 8;
 
-    HWY_INLINE bool leaf(flat::Child child) {
-        flat::BlockView block{scene_.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
-        for (;;) {
-            const flat::Block header = block.header();
-            if (test(block, header)) return true;
-            if (header.last) return false;
-            block.words += flat::words_of(header.kind, header.count);
-        }
-    }
-
-    // Nothing is compared that the set of kinds tells.
-    static constexpr bool is(const flat::Block& header, PrimitiveKind kind) {
-        return kKinds == flat::bit(kind) || (has(kind) && header.kind == kind);
-    }
-
-    HWY_INLINE bool test(const flat::BlockView& block, const flat::Block& header) {
-        if constexpr (has(PrimitiveKind::mesh) || has(PrimitiveKind::triangle))
-            if (is(header, PrimitiveKind::mesh) || is(header, PrimitiveKind::triangle))
-                return take(test_planar<false>(block, header.count, *planar_, possible_after_, above(bound_)), block);
-        if constexpr (has(PrimitiveKind::quad))
-            if (is(header, PrimitiveKind::quad))
-                return take(test_planar<true>(block, header.count, *planar_, possible_after_, above(bound_)), block);
-        if constexpr (has(PrimitiveKind::sphere))
-            if (is(header, PrimitiveKind::sphere))
-                return take(test_spheres<false>(block, header.count, *round_, 0, possible_after_, certain_after_,
-                                                above(bound_)),
-                            block);
-        if constexpr (has(PrimitiveKind::moving_sphere))
-            if (is(header, PrimitiveKind::moving_sphere))
-                return take(test_spheres<true>(block, header.count, *round_, time(), possible_after_, certain_after_,
-                                               above(bound_)),
-                            block);
-        if constexpr ((kKinds & ~(flat::kPlanarKinds | kRoundKinds)) != 0)
-            return intersect_boxes(block, header.count);
+    // Returns the t of ray_, rounded to float.
+    HWY_INLINE float upper(double t) const {
+        if constexpr (kOrdinary)
+            return t < 0x1p120 ? static_cast<float>(t) : std::numeric_limits<float>::infinity();
         else
-            return false;
+            return ray_.upper(t);
     }
+    // These return above(t) and below(t). The t of an ordinary ray are not negative.
+    static HWY_INLINE float raised(float t) { return kOrdinary ? t * (1 + 0x1p-22f) : above(t); }
+    static HWY_INLINE float lowered(float t) { return kOrdinary ? t * (1 - 0x1p-22f) : below(t); }
 
-    // As interpolate() clamps it.
+    // Returns the time, clamped as interpolate() does.
     float time() const { return static_cast<float>(std::clamp(frame_.ray.time, 0.0, 1.0)); }
 
-    HWY_INLINE bool take(const Candidates& found, const flat::BlockView& block) {
+    // Takes the result of the test of a leaf. Returns true if the query ended the search.
+    HWY_INLINE bool take(const Candidates& found, flat::Child leaf) {
         for (std::uint32_t possible = found.possible; possible != 0; possible &= possible - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(possible));
             const bool certain = (found.certain >> lane & 1) != 0 && found.near[lane] > certain_after_ &&
                                  found.far[lane] < certain_before_;
             if (certain && Query::kFirstHit) return query_.report({}, 0, false);
             if (certain && Query::kNearest) {
-                if (found.near[lane] > above(bound_)) continue;  // another lane's hit is nearer
-                bound_ = smaller(bound_, above(found.far[lane] + box_ray_.t_error));
-                postpone({block, lane, found.near[lane]});
-            } else if (intersect_in_block(block, lane)) {
+                if (found.near[lane] > raised(bound_)) continue;  // another lane's hit is nearer
+                bound_ = std::min(bound_, raised(found.far[lane] + ray_.t_error));
+                postpone({leaf, lane, found.near[lane], found.far[lane]});
+            } else if (intersect_in_block(leaf, lane)) {
                 return true;
             }
         }
         return false;
     }
 
-    // One by one, the nearest box first.
-    bool intersect_boxes(const flat::BlockView& block, std::size_t count) {
-        const Candidates found = node_test_.test_boxes(block, count, bound_);
-        for (std::uint32_t possible = found.possible; possible != 0;) {
-            auto next = static_cast<std::uint32_t>(std::countr_zero(possible));
-            for (std::uint32_t rest = possible & (possible - 1); rest != 0; rest &= rest - 1) {
+    // Intersects the primitives of a leaf whose boxes are met, the nearest box first. Returns true if the query ended
+    // the search.
+    bool intersect_boxes(flat::Child leaf) {
+        const flat::BlockView block(&scene_.lines[leaf & flat::kPlaceMask]);
+        const Eight eight = Eight::test<kOrdinary>(block.rows, ray_.octant, BoxRay(ray_, bound_));
+        std::uint32_t met = eight.met & ((2u << (block.count(flat::Form::boxes) - 1)) - 1);
+        if (met == 0) return false;
+        HWY_ALIGN float near[flat::kWidth];
+        eight.store_near(near);
+        while (met != 0) {
+            auto next = static_cast<std::uint32_t>(std::countr_zero(met));
+            for (std::uint32_t rest = met & (met - 1); rest != 0; rest &= rest - 1) {
                 const auto other = static_cast<std::uint32_t>(std::countr_zero(rest));
-                if (found.near[other] < found.near[next]) next = other;
+                if (near[other] < near[next]) next = other;
             }
-            if (found.near[next] > bound_) return false;
-            if (intersect_in_block(block, next)) return true;
-            possible &= ~(1u << next);
+            if (near[next] > bound_) return false;
+            if (intersect_in_block(leaf, next)) return true;
+            met &= ~(1u << next);
         }
         return false;
     }
 
-    static float smaller(float a, float b) { return a < b ? a : b; }
-
-    HWY_INLINE void postpone(const Pending& hit) {
+    HWY_INLINE void postpone(const SureHit& hit) {
         if (pending_count_ == kMaxPending) intersect_pending();
         pending_[pending_count_++] = hit;
     }
 
-    // Makes the query's limit say all that is known, before an instance's inside or a user-defined shape reads it. In
-    // between `bound_` is ahead of it, by the hits that are pending.
+    // Lowers the query's limit to what `bound_` knows from pending hits. The search of an instance and a user-defined
+    // shape need it.
     void update_limit() {
-        if constexpr (Query::kNearest) {
-            if (box_ray_.is_taken_as_it_is)
-                query_.lower_limit(double{above(bound_)});
-            else
-                intersect_pending();
-        }
-    }
-
-    // Nothing is left to be visited.
-    void finish() {
-        if constexpr (Query::kNearest) {
-            is_deferring_ = deferred_ != nullptr && box_ray_.is_taken_as_it_is;
-            if (is_deferring_) query_.lower_limit(double{above(bound_)});
-            intersect_pending();
-        }
+        if constexpr (Query::kNearest && kOrdinary) query_.lower_limit(double{raised(bound_)});
+        if constexpr (Query::kNearest && !kOrdinary) intersect_pending();
     }
 
     void intersect_pending() {
         for (std::size_t i = 0; i < pending_count_; ++i) {
-            const Pending& hit = pending_[i];
-            if (hit.near <= above(bound_)) intersect_in_block(hit.block, hit.lane);
+            const SureHit& hit = pending_[i];
+            if (hit.near <= raised(bound_) && !report_sure(hit)) intersect_in_block(hit.leaf, hit.lane);
         }
         pending_count_ = 0;
     }
 
-    // Exactly. Reads the header again: who tests blocks need not keep it.
-    bool intersect_in_block(const flat::BlockView& block, std::uint32_t lane) {
-        const flat::Block header = block.header();
-        const std::uint32_t id = block.id(lane);
-        bool end = false;
-        if constexpr (has(PrimitiveKind::mesh)) {
-            if (header.kind == PrimitiveKind::mesh) {
-                const TriangleVertices v = flat::packed_triangle(block, header.count, lane);
-                end = intersect_shape(triangle_of<double>(v.a, v.b, v.c),
-                                      first_number_ + scene_.ranges[header.range].first_number + id);
+    // Reports a sure hit of a ray in world space without an exact test. Returns false if that isn't possible.
+    HWY_INLINE bool report_sure([[maybe_unused]] const SureHit& hit) {
+#if HWY_MAX_BYTES >= 32
+        if constexpr (kOrdinary && Query::kNearest) {
+            if (frame_.outer != nullptr || instance_ != nullptr) return false;
+            const flat::BlockView block(&scene_.lines[hit.leaf & flat::kPlaceMask]);
+            const std::uint32_t id = block.id(flat::form_of(hit.leaf), hit.lane);
+            std::uint64_t number = first_number_ + id;
+            PlanarHit found;
+            if ((id & flat::kReference) == 0) {
+                if (!locate_sure_hit(block, hit, ray_, frame_.ray, found)) return false;
+            } else {
+                const flat::Reference& reference = scene_.references[id & ~flat::kReference];
+                const PrimitiveRange& range = scene_.ranges[reference.range];
+                number = first_number_ + range.first_number + reference.element;
+                const auto locate = [&](const SpherePredicate<double>& sphere)
+                                        HWY_ATTR { return locate_sure_hit(sphere, hit, frame_.ray, found); };
+                if (!with_shape<kKinds & flat::kRoundKinds>(scene_, range.kind, range.first_row + reference.element, 0,
+                                                            frame_.ray.time, locate))
+                    return false;
             }
+            if (found.t <= query_.limit()) query_.report(found, number, false);
+            bound_ = std::min(bound_, upper(query_.limit()));
+            return true;
         }
-        if constexpr (kKinds != flat::bit(PrimitiveKind::mesh)) {
-            if (header.kind != PrimitiveKind::mesh) end = intersect_reference(scene_.references[id]);
+#endif
+        return false;
+    }
+
+    // Intersects a primitive of a leaf exactly. Returns true if the query ended the search.
+    bool intersect_in_block(flat::Child leaf, std::uint32_t lane) {
+        const flat::BlockView block(&scene_.lines[leaf & flat::kPlaceMask]);
+        const std::uint32_t id = block.id(flat::form_of(leaf), lane);
+        bool end = false;
+        if ((id & flat::kReference) != 0) {
+            end = intersect_reference(scene_.references[id & ~flat::kReference]);
+        } else if constexpr (has(PrimitiveKind::mesh)) {
+            const TriangleVertices v = block.triangle(lane);
+            if (starts_at_corner(v)) return false;
+            end = intersect_shape(triangle_of<double>(v.a, v.b, v.c), first_number_ + id);
         }
-        bound_ = smaller(bound_, box_ray_.upper(query_.limit()));
+        bound_ = std::min(bound_, upper(query_.limit()));
         return end;
+    }
+
+    // Returns true if the origin is exactly a corner of the triangle and t_min is not negative. Then the ray misses: it
+    // either meets the triangle's plane at t = 0 or is in that plane.
+    bool starts_at_corner(const TriangleVertices& v) const {
+        const Ray& ray = frame_.ray;
+        const bool is_in_world = frame_.outer == nullptr && instance_ == nullptr;
+        return is_in_world && !Query::kMoved && ray.t_min >= 0 &&
+               (v.a == ray.origin || v.b == ray.origin || v.c == ray.origin);
     }
 
     bool intersect_reference(const flat::Reference& reference) {
         const PrimitiveRange& range = scene_.ranges[reference.range];
         const std::uint64_t number = first_number_ + range.first_number + reference.element;
-        const std::uint32_t row = range.first_row + reference.element;
         if constexpr (has(PrimitiveKind::instance)) {
             if (range.kind == PrimitiveKind::instance) {
-                const flat::Instance& instance = scene_.instances[range.first_row];
                 update_limit();
-                return inside(instance, frame_, [&](const RayFrame& frame) {
-                    return is_usable(frame.ray) && run_inside(flat::blas_at(scene_, instance.blas), frame, number);
-                });
+                return search_instance(scene_.instances[range.first_row], number);
             }
         }
+        const bool is_mesh = range.kind == PrimitiveKind::mesh;
+        const std::uint32_t row = range.first_row + (is_mesh ? 0 : reference.element);
         if constexpr (has(PrimitiveKind::user_defined)) {
             if (range.kind == PrimitiveKind::user_defined) {
                 update_limit();
                 return intersect_user_defined(scene_.user_defined[row], number);
             }
         }
-        constexpr unsigned kOthers = kKinds & ~flat::bit(PrimitiveKind::mesh);  // see above
-        return with_shape<kOthers>(scene_, range.kind, row, 0, frame_.ray.time,
-                                   [&](const auto& shape) { return intersect_shape(shape, number); });
-    }
-
-    bool run_inside(const flat::Blas& blas, const RayFrame& frame, std::uint64_t number) {
-        BoxRay ray;
-        set_up(frame.ray, frame, blas, ray);
-        return Traversal(scene_, blas, ray, frame, number, query_, deferred_).run();
-    }
-
-    template <class Shape>
-    HWY_INLINE bool defer(const Shape& shape, std::uint64_t number) {
-        if constexpr (Query::kNearest) {
-            if (is_deferring_) deferred_->add(shape, frame_, query_, number);
-            return is_deferring_;
-        }
-        return false;
+        return with_shape<kKinds>(scene_, range.kind, row, reference.element, frame_.ray.time,
+                                  [&](const auto& shape) { return intersect_shape(shape, number); });
     }
 
     template <class Shape>
     HWY_NOINLINE bool intersect_shape(const Shape& shape, std::uint64_t number) {
-        return !defer(shape, number) && report_hits(shape, frame_, number, query_);
-    }
-    template <class Kind>
-    HWY_NOINLINE bool intersect_shape(std::reference_wrapper<const Kind> row, std::uint64_t number) {
-        return report_hits(row, frame_, number, query_);
+        return with_frame([&](const RayFrame& frame) { return report_hits(shape, frame, number, query_); });
     }
     HWY_NOINLINE bool intersect_shape(const SpherePredicate<double>& sphere, std::uint64_t number) {
-        if constexpr (!Query::kEveryHit) {
-            if (defer(sphere, number)) return false;
-            const Ray& ray = frame_.ray;
-            const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
-            if (frame_.outer == nullptr && ray.t_min >= 0 &&
-                side_of(center, std::abs(sphere.radius), ray) == Side::missed)
-                return false;
+        return with_frame([&](const RayFrame& frame) {
+            if constexpr (!Query::kEveryHit) {
+                const Point3 center{sphere.center.x, sphere.center.y, sphere.center.z};
+                if (frame.outer == nullptr && frame.ray.t_min >= 0 &&
+                    side_of(center, std::abs(sphere.radius), frame.ray) == Side::missed)
+                    return false;
+            }
+            return report_hits(sphere, frame, number, query_);
+        });
+    }
+
+    HWY_NOINLINE bool search_instance(const flat::Instance& instance, std::uint64_t number) {
+        const flat::Blas& blas = flat::blas_at(scene_, instance.blas);
+#if HWY_MAX_BYTES >= 32
+        if (kOrdinary && frame_.outer == nullptr && instance_ == nullptr) {
+            WalkRay ray;
+            if (HWY_LIKELY(set_up<kKinds>(ray_in_instance(frame_.ray, instance), frame_.ray, blas, kFarInside, ray)))
+                return Traversal<true, kKinds, Query>(scene_, blas, ray, frame_, &instance, number, query_).run();
         }
-        return report_hits(sphere, frame_, number, query_);
+#endif
+        return with_frame([&](const RayFrame& outside) {
+            return inside(instance, outside, [&](const RayFrame& frame) {
+                return search_blas<kKinds, false>(scene_, blas, frame.ray, frame, number, query_);
+            });
+        });
+    }
+
+    template <class Visit>
+    HWY_INLINE bool with_frame(const Visit& visit) {
+        return instance_ == nullptr ? visit(frame_) : inside(*instance_, frame_, visit);
     }
 
     bool intersect_user_defined(const flat::UserDefined& shape, std::uint64_t number) {
-        Ray rest = frame_.with_frame();  // it may consist of limn's own shapes
-        rest.t_max = query_.limit();
-        UserDefinedHit hit;
-        while (shape.hit(*shape.object, rest, hit)) {
-            if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // not what hit() promises: a miss
-            const bool passes = query_.passes(hit);
-            const bool inward = Query::kEveryHit && dot(Vec3(hit.normal), frame_.ray.direction) < 0;
-            if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward, hit.index_matched)) return true;
-            if (!passes && !Query::kEveryHit) return false;
-            rest.t_min = hit.t;
-        }
-        return false;
+        return with_frame([&](const RayFrame& frame) {
+            Ray rest = frame.with_frame();  // the shape may consist of limn's own shapes
+            rest.t_max = query_.limit();
+            UserDefinedHit hit;
+            while (shape.hit(*shape.object, rest, hit)) {
+                if (!(hit.t > rest.t_min && hit.t <= rest.t_max)) return false;  // hit() is wrong: a miss
+                const bool passes = query_.passes(hit);
+                const bool inward = Query::kEveryHit && dot(Vec3(hit.normal), frame.ray.direction) < 0;
+                if (!passes && query_.report({hit.t, hit.u, hit.v}, number, inward, hit.index_matched)) return true;
+                if (!passes && !Query::kEveryHit) return false;
+                rest.t_min = hit.t;
+            }
+            return false;
+        });
     }
 
     const flat::Scene& scene_;
     const flat::Blas& blas_;
     const RayFrame& frame_;
-    const BoxRay& box_ray_;
-    std::optional<PlanarRay> planar_;
-    std::optional<SphereFloatRay<float>> round_;
+    const flat::Instance* const instance_;
+    const RayHere& ray_;
     const std::uint64_t first_number_;
     Query& query_;
-    DeferredHits* const deferred_;
-    const NodeTest node_test_;
-    float bound_;  // in BoxRay's t: no hit of interest is beyond
-    // By t_min and t_max: hits before the first do not count, those that lie between the others do.
-    const float possible_after_, certain_after_, certain_before_;
+    float bound_;  // no hit beyond this t is of interest
+    // Hits before possible_after_ are outside the search. Hits between the other two are surely inside.
+    float possible_after_, certain_after_, certain_before_;
     std::size_t pending_count_ = 0;
-    bool is_deferring_ = false;  // what is intersected from now on
-    Pending pending_[kMaxPending];
+    SureHit pending_[kMaxPending];
 };
 
 }  // namespace limn::trace::HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// The searches for one instruction set. Per-target include guard, as Highway has it.
+// The searches for one instruction set. The include guard is per target, as Highway requires.
 #if defined(LIMN_TRACE_TRAVERSE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMN_TRACE_TRAVERSE_INL_H
 #undef LIMN_TRACE_TRAVERSE_INL_H
@@ -8,31 +8,26 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <bit>
+#include <span>
 
 #include "trace/list_packet-inl.h"
 #include "trace/list_ray-inl.h"
-#include "trace/packet-inl.h"
 #include "trace/searches-inl.h"
-#include "trace/traversal-inl.h"
+#include "trace/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
-template <class... Kinds>
-constexpr unsigned kinds(Kinds... kind) {
-    return (flat::bit(kind) | ...);
-}
-
-// The sets of kinds that have code of their own. Simple scenes do not pay for what only others need.
-constexpr unsigned kMeshes = kinds(PrimitiveKind::mesh);
-constexpr unsigned kMeshesAndBoxes = kinds(PrimitiveKind::mesh, PrimitiveKind::instance, PrimitiveKind::user_defined);
-constexpr unsigned kSpheres = kinds(PrimitiveKind::sphere, PrimitiveKind::moving_sphere);
-constexpr unsigned kStill =
-    kinds(PrimitiveKind::sphere, PrimitiveKind::triangle, PrimitiveKind::quad, PrimitiveKind::mesh);
+// The sets of kinds for which the search is compiled. A simple scene doesn't pay for kinds that it lacks.
+constexpr unsigned kMeshes = flat::bit(PrimitiveKind::mesh);
+constexpr unsigned kMeshesAndBoxes =
+    kMeshes | flat::bit(PrimitiveKind::instance) | flat::bit(PrimitiveKind::user_defined);
+constexpr unsigned kStill = flat::kPlanarKinds | flat::bit(PrimitiveKind::sphere);
 constexpr unsigned kAll = ~0u;
 
-// visit(the smallest of the sets that has all kinds of the scene). kFew: of meshes and all, for rarer queries.
+// Calls visit() with the smallest of the sets that has all kinds of the scene. If kFew, it is kMeshes or kAll: rare
+// queries are compiled for these alone.
 template <bool kFew, class Visit>
 HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
     const auto covers = [&](unsigned set) { return (scene.kinds & ~set) == 0; };
@@ -40,184 +35,135 @@ HWY_INLINE void with_kinds(const flat::Scene& scene, const Visit& visit) {
     if constexpr (kFew) return visit(std::integral_constant<unsigned, kAll>{});
     if (covers(kMeshesAndBoxes)) return visit(std::integral_constant<unsigned, kMeshesAndBoxes>{});
     if (covers(flat::kPlanarKinds)) return visit(std::integral_constant<unsigned, flat::kPlanarKinds>{});
-    if (covers(kSpheres)) return visit(std::integral_constant<unsigned, kSpheres>{});
+    if (covers(flat::kRoundKinds)) return visit(std::integral_constant<unsigned, flat::kRoundKinds>{});
     if (covers(kStill)) return visit(std::integral_constant<unsigned, kStill>{});
     visit(std::integral_constant<unsigned, kAll>{});
 }
 
-template <unsigned kKinds, class Query>
-HWY_INLINE void search_blas(const flat::Scene& scene, const flat::Blas& blas, const Ray& ray, const RayFrame& frame,
-                            std::uint64_t first_number, Query& query, DeferredHits* deferred) {
-    BoxRay box;
-    set_up(ray, frame, blas, box);
-    Traversal<kKinds, Query>(scene, blas, box, frame, first_number, query, deferred).run();
+// Searches a BLAS with any ray. An unusable ray misses. Returns true if the query ended the search.
+template <class Query>
+HWY_NOINLINE bool search_adapted(const flat::Scene& scene, const flat::Blas& blas, const RayFrame& frame,
+                                 std::uint64_t first_number, Query& query) {
+    if (!is_usable(frame.ray)) return false;
+    const AdaptedRay ray(frame, blas);
+    return Traversal<false, kAll, Query>(scene, blas, ray, frame, nullptr, first_number, query).run();
 }
 
+// Searches a BLAS. Returns true if the query ended the search. If kInWorld, the ray is in world space. `ray` has the
+// same numbers as frame.ray. It is a parameter because vectors could not be loaded at once from a copy just made.
+template <unsigned kKinds, bool kInWorld, class Query>
+HWY_INLINE bool search_blas(const flat::Scene& scene, const flat::Blas& blas, [[maybe_unused]] const Ray& ray,
+                            const RayFrame& frame, std::uint64_t first_number, Query& query) {
+#if HWY_MAX_BYTES >= 32
+    WalkRay walk_ray;
+    const RayInSpace in_space = kInWorld ? ray_in_world(ray) : ray_in_space(frame);
+    const float far = kInWorld || frame.outer == nullptr ? kFar : kFarInside;
+    if (HWY_LIKELY((set_up<kKinds, kInWorld>(in_space, ray, blas, far, walk_ray))))
+        return Traversal<true, kKinds, Query>(scene, blas, walk_ray, frame, nullptr, first_number, query).run();
+#endif
+    return search_adapted(scene, blas, frame, first_number, query);
+}
+
+// Searches the scene with a ray: first the list, then the tree. \pre the ray is usable if the scene has a list
 template <class Query>
-void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number,
-            Query& query) {
-    const auto search_tree = [&] {
-        const flat::Blas& blas = flat::blas_at(scene, id);
+HWY_INLINE void search(const flat::Scene& scene, const Ray& ray, Query& query) {
+    const RayFrame frame(ray);
+    const bool has_list = !scene.list.empty();
+    WaitingHits waiting;
+    if (has_list && search_list(scene, ray, frame, query, waiting)) return;
+    if (!scene.list.is_all)
         with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-            search_blas<kKinds>(scene, blas, ray, frame, first_number, query, nullptr);
+            search_blas<kKinds, true>(scene, flat::blas_at(scene, BlasId::root), ray, frame, 0, query);
         });
-    };
-    if (id != BlasId::root || scene.list.empty()) return search_tree();
-    search_list(scene, ray, frame, query, [&] {
-        if (!scene.list.is_all) search_tree();
+    if (has_list) finish_list(scene, frame, query, waiting);
+}
+// Searches a BLAS with the ray of a frame. The primitives of the BLAS are numbered from `first_number` on.
+template <class Query>
+HWY_INLINE void search(const flat::Scene& scene, BlasId id, const RayFrame& frame, std::uint64_t first_number,
+                       Query& query) {
+    with_kinds<Query::kFewKinds>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+        search_blas<kKinds, false>(scene, flat::blas_at(scene, id), frame.ray, frame, first_number, query);
     });
 }
 
-constexpr float kPacketTriangles = 4;  // across; 4 x 4 are as many as a packet has lanes
-
-// The largest difference of directions, relative to one, and of origins, relative to the extent, of rays that are
-// traced as a packet: over more triangles than there are lanes it does more work than its rays one by one.
-float packet_spread(const flat::Scene& scene) {
-    const auto across = std::sqrt(static_cast<float>(scene.stored_primitives));  // triangles from side to side
-    return std::min(1 / 16.0f, kPacketTriangles / across);
-}
-
-// Whether the rays go much the same way, so that they meet much the same boxes.
-bool are_alike(const Ray* rays, std::size_t count, float spread, const flat::Blas& root) {
-    const Ray& first = rays[0];
-    const double near = double{spread} * max_abs(first.direction), beside = double{spread} * root.extent;
-    for (std::size_t i = 1; i < count; ++i)
-        if (!(max_abs(rays[i].direction - first.direction) < near && max_abs(rays[i].origin - first.origin) < beside))
-            return false;
-    return true;
-}
-
-// Rays that go different ways, some at a time by turns: while what one needs comes from memory, others go on.
-template <class Query>
-class Interleaved {
-public:
-    Interleaved(const flat::Scene& scene, DeferredHits* deferred)
-        : scene_(scene), root_(flat::blas_at(scene, BlasId::root)), deferred_(deferred) {}
-
-    HWY_INLINE void add(const Ray& ray, Query& query) {
-        if (root_.root == flat::kNothing) return;
-        while (active_ == kSlots) turn();
-        Slot& slot = slots_[order_[active_++]];
-        slot.frame.emplace(ray);
-        set_up(ray, *slot.frame, root_, slot.box);
-        slot.traversal = new (slot.storage) One(scene_, root_, slot.box, *slot.frame, 0, query, deferred_);
-        slot.stack.size = 0;
-        slot.next = root_.root;
+// Searches the tree with some rays of a batch, whose indices are `which`, in streams.
+template <unsigned kKinds, class Query>
+void search_in_streams(const flat::Scene& scene, const Ray* rays, std::span<const std::uint16_t> which,
+                       Query* queries) {
+    const flat::Blas& root = flat::blas_at(scene, BlasId::root);
+#if HWY_MAX_BYTES >= 32
+    // Sort the rays by the octants of their directions.
+    std::array<std::uint16_t, kMostRays> order;
+    std::array<std::uint8_t, kMostRays> octants;
+    std::array<std::size_t, 9> first{};
+    for (const std::uint16_t i : which) {
+        const Vec3& d = rays[i].direction;
+        octants[i] = static_cast<std::uint8_t>((std::signbit(d.x) ? 1 : 0) | (std::signbit(d.y) ? 2 : 0) |
+                                               (std::signbit(d.z) ? 4 : 0));
+        ++first[octants[i] + 1u];
     }
-
-    void finish() {
-        while (active_ > 0) turn();
-    }
-
-private:
-    // With four, second bounces on 2 M triangles went at 2.5 instead of 2.9 million a second (docs/tried.md).
-    static constexpr std::size_t kSlots = 8;
-    using One = Traversal<kMeshes, Query>;
-    struct Slot {
-        std::optional<RayFrame> frame;
-        BoxRay box;
-        alignas(64) std::byte storage[sizeof(One)];
-        One* traversal;
-        Stack::Rows rows;
-        Stack stack{rows};
-        flat::Child next;
-    };
-
-    HWY_INLINE void turn() {
-        for (std::size_t i = 0; i < active_;) {
-            Slot& slot = slots_[order_[i]];
-            if (slot.traversal->advance(slot.stack, slot.next))
-                ++i;
-            else
-                std::swap(order_[i], order_[--active_]);
+    for (std::size_t octant = 0; octant < 8; ++octant) first[octant + 1] += first[octant];
+    std::array<std::size_t, 9> next = first;
+    for (const std::uint16_t i : which) order[next[octants[i]]++] = i;
+    // Search with the rays of each octant.
+    Stream<kKinds, Query> stream(scene);
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+        for (std::size_t k = first[octant]; k < first[octant + 1]; ++k) {
+            const std::size_t i = order[k];
+            if (!stream.add(rays[i], queries[i])) search_adapted(scene, root, RayFrame(rays[i]), 0, queries[i]);
+            if (stream.is_full()) stream.run();
         }
+        stream.run();
     }
-
-    const flat::Scene& scene_;
-    const flat::Blas& root_;
-    DeferredHits* const deferred_;
-    std::size_t active_ = 0;
-    std::array<std::uint8_t, kSlots> order_ = [] {
-        std::array<std::uint8_t, kSlots> all{};
-        for (std::size_t i = 0; i < kSlots; ++i) all[i] = static_cast<std::uint8_t>(i);
-        return all;
-    }();
-    std::array<Slot, kSlots> slots_;
-};
-
-// Up to kPacket rays. Returns those, by bit, that may still meet what is not listed.
-template <class Query>
-std::uint32_t search_list(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries,
-                          DeferredHits* deferred) {
-    ListPacket<Query> packet(scene, rays, count, queries);
-    const std::uint32_t rest = packet.run();
-    if constexpr (Query::kNearest) packet.defer_candidates(*deferred);
-    return rest;
+#else
+    for (const std::uint16_t i : which) search_adapted(scene, root, RayFrame(rays[i]), 0, queries[i]);
+#endif
 }
 
-// False if the rays cannot be traced as a packet.
-template <class Query>
-bool search_packet(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries,
-                   DeferredHits* deferred) {
-    const flat::Blas& root = flat::blas_at(scene, BlasId::root);
-    std::array<BoxRay, kPacket> boxes;
-    std::vector<RayFrame> frames;
-    frames.reserve(kPacket);
-    for (std::size_t i = 0; i < count; ++i) {
-        frames.emplace_back(rays[i]);
-        set_up(rays[i], frames[i], root, boxes[i]);
-        if (!boxes[i].is_taken_as_it_is || boxes[i].octant != boxes[0].octant ||
-            longest_axis(boxes[i].direction) != longest_axis(boxes[0].direction))
-            return false;
+// Searches the scene with up to kMostRays rays: first the list, then the tree. If the rays are few, they are searched
+// with one by one, by search_one(scene, ray, query).
+template <class Query, class SearchOne>
+void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries,
+                 const SearchOne& search_one) {
+    constexpr std::size_t kFew = 7;
+    if (count <= kFew) {
+        for (std::size_t i = 0; i < count; ++i) search_one(scene, rays[i], queries[i]);
+        return;
     }
-    PacketTraversal<Query>(scene, root, boxes.data(), frames.data(), count, queries, deferred).run();
-    return true;
-}
-
-template <class Query>
-void search_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Query* queries, DeferredHits* deferred) {
-    const flat::Blas& root = flat::blas_at(scene, BlasId::root);
-    const float spread = packet_spread(scene);
-    HWY_ALIGN Interleaved<Query> interleaved(scene, deferred);
+    // Search the list, and collect the rays that may hit what is not in it.
+    std::array<std::uint16_t, kMostRays> rest;
+    std::size_t rest_count = 0;
+    DeferredHits deferred(scene);
     for (std::size_t first = 0; first < count; first += kPacket) {
         const std::size_t some = std::min(kPacket, count - first);
-        const std::uint32_t all = (std::uint32_t{1} << some) - 1;
-        std::uint32_t active = all;
-        if (!scene.list.empty()) active = search_list(scene, rays + first, some, queries + first, deferred);
-        if (active == 0) continue;
-        with_kinds<false>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
-            if constexpr (kKinds == kMeshes)
-                if (some > 1 && active == all && are_alike(rays + first, some, spread, root) &&
-                    search_packet(scene, rays + first, some, queries + first, deferred))
-                    return;
-            for (; active != 0; active &= active - 1) {
-                const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(active));
-                if (kKinds == kMeshes && scene.is_larger_than_cache)
-                    interleaved.add(rays[i], queries[i]);
-                else
-                    search_blas<kKinds>(scene, root, rays[i], RayFrame(rays[i]), 0, queries[i], deferred);
-            }
-        });
+        std::uint32_t active = (1u << some) - 1;
+        if (!scene.list.empty()) {
+            ListPacket<Query> packet(scene, rays + first, some, queries + first);
+            active = packet.run();
+            if constexpr (Query::kNearest) packet.defer_candidates(deferred);
+        }
+        for (; active != 0; active &= active - 1)
+            rest[rest_count++] = static_cast<std::uint16_t>(first + static_cast<std::size_t>(std::countr_zero(active)));
     }
-    interleaved.finish();
+    // Search the tree with those, and finish the list.
+    if (rest_count != 0)
+        with_kinds<false>(scene, [&]<unsigned kKinds>(std::integral_constant<unsigned, kKinds>) HWY_ATTR {
+            search_in_streams<kKinds>(scene, rays, std::span(rest.data(), rest_count), queries);
+        });
+    deferred.finish();
 }
 
 void search_closest_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Closest* queries) {
-    DeferredHits deferred(queries);
-    search_many(scene, rays, count, queries, &deferred);
-    deferred.finish(count, [&](std::size_t i) HWY_ATTR {
-        *queries[i].best = {}, queries[i].t_max = rays[i].t_max;
-        search(scene, BlasId::root, rays[i], RayFrame(rays[i]), 0, queries[i]);
-    });
+    search_many(scene, rays, count, queries, search_closest);
 }
 void search_any_of_many(const flat::Scene& scene, const Ray* rays, std::size_t count, Any* queries) {
-    search_many(scene, rays, count, queries, nullptr);
+    search_many(scene, rays, count, queries, search_any);
 }
 
-#define LIMN_DEFINE_SEARCH(name, Query)                                                                        \
-    void name(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
-              Query& query) {                                                                                  \
-        search(scene, id, ray, frame, first, query);                                                           \
+#define LIMN_DEFINE_SEARCH(name, Query)                                                                             \
+    void name(const flat::Scene& scene, const Ray& ray, Query& query) { search(scene, ray, query); }                \
+    void name##_in(const flat::Scene& scene, BlasId id, const RayFrame& frame, std::uint64_t first, Query& query) { \
+        search(scene, id, frame, first, query);                                                                     \
     }
 LIMN_FOR_EACH_SEARCH(LIMN_DEFINE_SEARCH)
 #undef LIMN_DEFINE_SEARCH

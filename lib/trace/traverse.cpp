@@ -19,27 +19,24 @@ namespace limn::trace {
 
 namespace {
 
-// search(scene, id, ray, frame, first, query) by the kind of query.
-#define LIMN_EXPORT_SEARCH(name, Query)                                                                          \
-    HWY_EXPORT(name);                                                                                            \
-    void search(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first, \
-                Query& query) {                                                                                  \
-        HWY_DYNAMIC_DISPATCH(name)(scene, id, ray, frame, first, query);                                         \
+// Define search(scene, ray, query) and search(scene, id, frame, first, query) for each query.
+#define LIMN_EXPORT_SEARCH(name, Query)                                                                           \
+    HWY_EXPORT(name);                                                                                             \
+    HWY_EXPORT(name##_in);                                                                                        \
+    [[maybe_unused]] void search(const flat::Scene& scene, const Ray& ray, Query& query) {                        \
+        HWY_DYNAMIC_DISPATCH(name)(scene, ray, query);                                                            \
+    }                                                                                                             \
+    [[maybe_unused]] void search(const flat::Scene& scene, BlasId id, const RayFrame& frame, std::uint64_t first, \
+                                 Query& query) {                                                                  \
+        HWY_DYNAMIC_DISPATCH(name##_in)(scene, id, frame, first, query);                                          \
     }
 LIMN_FOR_EACH_SEARCH(LIMN_EXPORT_SEARCH)
 #undef LIMN_EXPORT_SEARCH
 HWY_EXPORT(search_closest_of_many);
 HWY_EXPORT(search_any_of_many);
 
-Hit nearest(const flat::Scene& scene, BlasId id, const Ray& ray, const RayFrame& frame, std::uint64_t first_number) {
-    Hit best;
-    Closest query{frame.ray.t_max, &best};
-    search(scene, id, ray, frame, first_number, query);
-    return best;
-}
-
-// visit(frame) with the ray as a medium's boundary sees it, `level` instances below the scene, unless nothing can be
-// hit.
+// Calls visit() with the frame of the ray in the space of a medium's boundary, unless the ray is unusable there.
+// `frame` is that of the ray inside the first `level` instances that contain the medium.
 template <class Visit>
 void inside_medium(const flat::Scene& scene, const flat::Medium& medium, const RayFrame& frame, const Visit& visit,
                    std::uint32_t level = 0) {
@@ -52,10 +49,10 @@ void inside_medium(const flat::Scene& scene, const flat::Medium& medium, const R
 }
 
 void find_any(const flat::Scene& scene, std::span<const Ray> rays, bool passes_boundaries, std::uint8_t* found) {
-    std::array<Any, kMostRays> queries;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].t_max, passes_boundaries};
-    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.data());
-    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries[i].found ? 1 : 0;
+    RoomForRays<Any> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries.of[i] = {rays[i].t_max, passes_boundaries};
+    HWY_DYNAMIC_DISPATCH(search_any_of_many)(scene, rays.data(), rays.size(), queries.of.data());
+    for (std::size_t i = 0; i < rays.size(); ++i) found[i] = queries.of[i].found ? 1 : 0;
 }
 
 BlasId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
@@ -65,14 +62,14 @@ BlasId boundary_of(const flat::Scene& scene, const flat::Medium& medium) {
 template <class Query>
 void search_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, Query& query) {
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-        search(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number, query);
+        search(scene, boundary_of(scene, medium), frame, medium.first_number, query);
     });
 }
 
-// A search of the scene, then of all boundaries of media, which are flagged where they are listed in `out`.
+// Searches the scene, then all boundaries of media. Those that are appended to `out` are flagged.
 template <class Query>
 void search_all(const flat::Scene& scene, const Ray& ray, Query& query, std::vector<Crossing>* out) {
-    search(scene, BlasId::root, ray, RayFrame(ray), 0, query);
+    search(scene, ray, query);
     const std::size_t before = out != nullptr ? out->size() : 0;
     for (const flat::Medium& medium : scene.media) {
         if (query.ended()) return;
@@ -89,19 +86,25 @@ bool meets_bounds(const flat::Medium& medium, const Ray& ray) {
 }  // namespace
 
 Hit closest_hit(const flat::Scene& scene, const Ray& ray) {
-    return nearest(scene, BlasId::root, ray, RayFrame(ray), 0);
+    Hit best;
+    Closest query{ray.t_max, &best};
+    search(scene, ray, query);
+    return best;
 }
 
 bool any_hit(const flat::Scene& scene, const Ray& ray) {
     Any query{ray.t_max};
-    search(scene, BlasId::root, ray, RayFrame(ray), 0, query);
+    search(scene, ray, query);
     return query.found;
 }
 
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits) {
-    std::array<Closest, kMostRays> queries;
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {}, queries[i] = {rays[i].t_max, &hits[i]};
-    HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.data());
+    RoomForRays<Closest> queries;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = {};
+        queries.of[i] = {rays[i].t_max, &hits[i]};
+    }
+    HWY_DYNAMIC_DISPATCH(search_closest_of_many)(scene, rays.data(), rays.size(), queries.of.data());
 }
 
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found) {
@@ -116,7 +119,8 @@ Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const
     Hit hit;
     if (!meets_bounds(medium, ray)) return hit;
     inside_medium(scene, medium, RayFrame(ray), [&](const RayFrame& frame) {
-        hit = nearest(scene, boundary_of(scene, medium), frame.ray, frame, medium.first_number);
+        Closest query{frame.ray.t_max, &hit};
+        search(scene, boundary_of(scene, medium), frame, medium.first_number, query);
     });
     return hit;
 }

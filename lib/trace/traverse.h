@@ -1,7 +1,8 @@
-// Rays against the compiled scene, exactly: whatever the SIMD kernels find or leave undecided is decided by the
-// definitions that the described shapes use too, lib/geometry.
+// Searches of the compiled scene with rays. The results are exact: lib/geometry decides what vector code leaves
+// undecided, with the same functions as for described shapes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,47 +14,55 @@
 namespace limn::trace {
 
 struct Hit : flat::RawHit {
-    double u = 0, v = 0;         // of triangles, quads and disks, and as user-defined shapes say
-    bool index_matched = false;  // as user-defined shapes say
+    double u = 0, v = 0;         // set for triangles, quads, disks and user-defined shapes
+    bool index_matched = false;  // true if a user-defined shape says so
 };
 
-// The nearest surface with t in (t_min, t_max]; of equally near ones the lowest number. Media are apart. \pre
-// is_usable(ray)
+// Return the nearest hit with t in (t_min, t_max], and whether there is any hit. Of equally near hits, the primitive
+// with the lowest number is returned. Boundaries of media don't count. An unusable ray misses. \pre the scene has no
+// list or is_usable(ray)
 Hit closest_hit(const flat::Scene& scene, const Ray& ray);
 bool any_hit(const flat::Scene& scene, const Ray& ray);
 
-// The same for each of up to kMostRays rays: those that follow each other and go much the same way are traced together.
-inline constexpr std::size_t kMostRays = 256;  // so that what is kept for each stays in the cache
+// The same for each of up to kMostRays rays.
+inline constexpr std::size_t kMostRays = 512;  // few enough that their data stays in the cache
 void closest_hits(const flat::Scene& scene, std::span<const Ray> rays, Hit* hits);
 void any_hits(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
-// Whether something stops light on the way: user-defined shapes that say their boundary is index-matched do not.
+// Tells for each ray whether something stops its light. Index-matched boundaries of user-defined shapes don't.
 void are_occluded(const flat::Scene& scene, std::span<const Ray> rays, std::uint8_t* found);
 
-// The same for the boundary of a medium.
+// Room for an object for each of these rays. The objects aren't initialised: that would take longer than a small batch.
+template <class T>
+union RoomForRays {
+    std::array<T, kMostRays> of;
+    RoomForRays() {}
+};
+
+// Returns the nearest hit of the boundary of a medium.
 Hit closest_boundary(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray);
 
-// Where a ray meets a surface.
+// A hit or a passage of a ray.
 struct Crossing {
     double t;
-    bool inward;                 // against the outward normal
-    bool index_matched = false;  // as user-defined shapes say
+    bool inward;                 // true if the ray goes against the outward normal
+    bool index_matched = false;  // true for boundaries of media, and if a user-defined shape says so
     std::uint64_t primitive = 0;
     double u = 0, v = 0;
 };
 
-// The media, by their rows in the scene, whose bounds a ray may meet up to t_max, replacing what is in `media`.
+// Sets `media` to the rows of the media whose bounds the ray may meet up to t_max.
 void media_met(const flat::Scene& scene, const Ray& ray, std::vector<std::uint32_t>& media);
 
-// What the moved ray (geometry/passage.h) passes through of the boundary of a medium, in no particular order,
-// replacing what is in `out`.
+// Sets `out` to the passages of the moved ray (geometry/passage.h) through the boundary of a medium, in no particular
+// order.
 void crossings(const flat::Scene& scene, const flat::Medium& medium, const Ray& ray, std::vector<Crossing>& out);
 
-// What a ray passes over.
+// The primitives and sides that a query ignores.
 struct Filter {
     const flat::Scene& scene;
     std::uint64_t without;
-    bool front, back;                       // which sides count
-    std::span<const std::uint8_t> objects;  // those of 0 do not; empty: all do
+    bool front, back;                       // true if hits of that side count
+    std::span<const std::uint8_t> objects;  // objects with 0 don't count; if empty, all count
 
     bool accepts(std::uint64_t number) const {
         return number != without && (objects.empty() || objects[flat::object_of(scene, number)] != 0);
@@ -61,7 +70,7 @@ struct Filter {
     bool accepts(std::uint64_t number, bool inward) const { return (inward ? front : back) && accepts(number); }
 };
 
-// closest_hit and any_hit with a filter, of boundaries of media too.
+// The same with a filter. Boundaries of media count here.
 Hit closest_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 
@@ -70,17 +79,17 @@ bool any_hit(const flat::Scene& scene, const Ray& ray, const Filter& filter);
 void every_hit(const flat::Scene& scene, const Ray& ray, std::vector<Crossing>& out,
                const std::optional<Filter>& filter = {});
 
-// What the moved ray (geometry/passage.h) passes through, boundaries of media too.
+// The number of passages of the moved ray (geometry/passage.h). Boundaries of media count.
 struct PassageCount {
     std::uint64_t count = 0;
-    std::int64_t outward = 0;                     // of which go outward, less those that go inward
-    std::uint64_t touched = flat::RawHit::kMiss;  // the lowest number of what the origin lies on, where that was wanted
+    std::int64_t outward = 0;                     // the number that goes outward, less that which goes inward
+    std::uint64_t touched = flat::RawHit::kMiss;  // if wanted, the lowest number of a primitive that the origin is on
 };
 // Counts the crossings, and appends them to `out` if that is not null, in no particular order. \pre is_usable(ray)
 PassageCount passages(const flat::Scene& scene, const Ray& ray, bool wants_touched, std::vector<Crossing>* out,
                       const std::optional<Filter>& filter = {});
 
-// visit(frame) with the ray as an instance's BLAS sees it, and the result of that.
+// Calls visit() with the frame of the ray inside an instance, and returns the result.
 template <class Visit>
 auto inside(const flat::Instance& instance, const RayFrame& outside, const Visit& visit) {
     if (!instance.moving)

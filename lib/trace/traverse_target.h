@@ -1,4 +1,4 @@
-// All that the source of one instruction set holds: LIMN_TARGET is Highway's number of it. Empty where it is not built.
+// The source of one instruction set. LIMN_TARGET is Highway's number of it. It is empty if this set isn't compiled.
 #pragma once
 
 #include <hwy/detect_targets.h>

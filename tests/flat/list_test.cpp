@@ -190,12 +190,11 @@ TEST_CASE("Lists: rays that end about the side of the box of the rest stop where
     }
 }
 
-TEST_CASE("Lists: what a ray meets beyond them is met however far away it is", "[compile][list]") {
+TEST_CASE("Lists: what a ray meets beside other shapes is met however far away it is", "[compile][list]") {
     Scene scene;
     scene.add(std::make_shared<Floor>());
     scene.add(ball({0, 5, 0}, 1));
     const CompiledScene compiled = compile(scene);
-    REQUIRE(compiled.flat().list.spheres == 1);
     for (const double t : {0x1p10, 0x1p100, 0x1p150, 0x1p300}) {
         const std::vector<Ray> rays(3, Ray{.origin = {0, 1, 0}, .direction = {1, -1 / t, 0}});
         std::vector<RayHit> hits(rays.size());

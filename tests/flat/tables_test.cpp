@@ -1,4 +1,5 @@
 // The flat tables: trees that hold all that is under them, numbers that lead to a place, and what is counted.
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,31 +21,34 @@ namespace {
 
 using Seen = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;  // range and element
 
-void visit_leaf(const flat::Scene& scene, flat::Child child, Seen& seen) {
-    flat::BlockView block{scene.blocks.data() + std::size_t{2} * (child & ~flat::kLeaf)};
-    for (;;) {
-        const flat::Block header = block.header();
-        REQUIRE((header.count > 0 && header.count <= flat::kMaxBlock));
-        for (std::size_t i = 0; i < header.count; ++i) {
-            if (header.kind == PrimitiveKind::mesh) {
-                ++seen[{header.range, block.id(i)}];
-            } else {
-                const flat::Reference& r = scene.references.at(block.id(i));
-                CHECK(scene.ranges.at(r.range).kind == header.kind);
-                ++seen[{r.range, r.element}];
-            }
+void visit_leaf(const flat::Scene& scene, const flat::Blas& blas, flat::Child leaf, Seen& seen) {
+    const flat::Form form = flat::form_of(leaf);
+    REQUIRE((leaf & flat::kPlaceMask) + flat::lines_of(form) <= scene.lines.size());
+    const flat::BlockView block(&scene.lines[leaf & flat::kPlaceMask]);
+    const std::size_t count = block.count(form);
+    REQUIRE((count > 0 && count <= flat::kMaxBlock));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t id = block.id(form, i);
+        if ((id & flat::kReference) == 0) {
+            const auto ranges = flat::ranges_of(scene, blas);
+            const auto after = std::ranges::upper_bound(ranges, std::uint64_t{id}, {}, &PrimitiveRange::first_number);
+            const auto range = static_cast<std::uint32_t>(after - ranges.begin() - 1);
+            CHECK(ranges[range].kind == PrimitiveKind::mesh);
+            ++seen[{blas.first_range + range, id - static_cast<std::uint32_t>(ranges[range].first_number)}];
+        } else {
+            const flat::Reference& r = scene.references.at(id & ~flat::kReference);
+            const flat::Form own = flat::form_of(scene.ranges.at(r.range).kind);
+            CHECK((own == form || (own == flat::Form::spheres && form == flat::Form::moving_spheres)));
+            ++seen[{r.range, r.element}];
         }
-        if (header.last) return;
-        block.words += flat::words_of(header.kind, header.count);
-        REQUIRE(block.words + flat::kSlackWords < scene.blocks.data() + scene.blocks.size());
     }
 }
 
 // Counts the primitives below a child; its box must hold the boxes of its own children.
-void visit(const flat::Scene& scene, flat::Child child, Seen& seen, int depth = 0) {
+void visit(const flat::Scene& scene, const flat::Blas& blas, flat::Child child, Seen& seen, int depth = 0) {
     REQUIRE(depth < 100);
     if (child == flat::kNothing) return;
-    if ((child & flat::kLeaf) != 0) return visit_leaf(scene, child, seen);
+    if ((child & flat::kLeaf) != 0) return visit_leaf(scene, blas, child, seen);
     const flat::Node& node = scene.nodes.at(child);
     for (std::size_t i = 0; i < flat::kWidth; ++i) {
         if (node.child[i] == flat::kNothing) {
@@ -59,7 +63,7 @@ void visit(const flat::Scene& scene, flat::Child child, Seen& seen, int depth = 
                     CHECK(child_node.planes[3 + a][k] <= node.planes[3 + a][i]);
                 }
         }
-        visit(scene, node.child[i], seen, depth + 1);
+        visit(scene, blas, node.child[i], seen, depth + 1);
     }
 }
 
@@ -86,7 +90,7 @@ TEST_CASE("Trees: each primitive of a BLAS stands in one leaf of its tree, under
         std::size_t references = 0;
         for (const flat::Blas& blas : scene.blases) {
             Seen seen;
-            visit(scene, blas.root, seen);
+            visit(scene, blas, blas.root, seen);
             for (const auto& [place, times] : seen) {
                 CHECK(times == 1);
                 CHECK((place.first >= blas.first_range && place.first < blas.first_range + blas.range_count));

@@ -257,7 +257,7 @@ void add_batches(std::vector<Entry>& entries, const CompiledScene& scene, const 
 
 void add_tables(Results& r, const CompiledScene& scene) {
     r.add_bytes(scene.flat().nodes);
-    r.add_bytes(scene.flat().blocks);
+    r.add_bytes(scene.flat().lines);
 }
 
 // The threads of an arena take over the environment in which it is made.

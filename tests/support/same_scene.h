@@ -25,7 +25,7 @@ inline void check_same(const CompiledScene& a, const CompiledScene& b) {
     CHECK(a.stats().memory_bytes == b.stats().memory_bytes);
     const flat::Scene &s = a.flat(), &t = b.flat();
     CHECK(same_bytes(s.nodes, t.nodes));
-    CHECK(same_bytes(s.blocks, t.blocks));
+    CHECK(same_bytes(s.lines, t.lines));
     CHECK(same_bytes(s.references, t.references));
     CHECK(same_bytes(s.lights.nodes, t.lights.nodes));
     CHECK(s.kinds == t.kinds);

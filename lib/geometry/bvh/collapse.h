@@ -63,6 +63,9 @@ double leaf_cost(std::uint32_t size, const BuildSettings& settings);
 ForestCosts plan_node(SplitNode& node, const ForestCosts& left, const ForestCosts& right,
                       const BuildSettings& settings);
 
+// Returns a node with the boxes and the orders of its children. Their references are set later.
+Node node_over(const Slots& children);
+
 // Returns the wide tree whose root has these children, all but its cost. `indices` are the indices of the primitives,
 // in the order in which split nodes refer to them.
 WideBvh assemble(const Slots& root, HugeVector<std::uint32_t> indices);
