@@ -73,8 +73,8 @@ def page(scenes, seeds):
 
 ## How good the estimate is
 
-Each cell has the estimate over the true relMSE, both as means over the seeds that have an estimate. Then it says how
-often the 95 % interval holds the true error, of the renders that have an estimate.
+The cell of a scene has the estimate over the true relMSE, both as means over the seeds that have an estimate. Then it
+says in how many of these renders the 95 % interval holds the true error. The row "together" has only the latter.
 
 {table(["scene", *(f"{samples} samples" for samples in SAMPLES)], list(coverage_rows(scenes)))}
 

@@ -26,7 +26,9 @@ from meshes import icosphere, voxels  # noqa: E402
 GRID = 16
 KINDS = ("at random", "at vertices", "along edges", "in planes of faces")
 ROUNDS, LONG = 3, 10  # largest number of rounds, of which the fastest counts; seconds after which none begins
-TOLERANCE = 1e-4  # largest relative error of t, for float32 after some roundings; a wrong triangle has a larger error
+# The largest relative error of t, for float32 after some roundings. Only t is judged: a wrong triangle with nearly the
+# same t does not count.
+TOLERANCE = 1e-4
 # The largest numbers of rays or points for slow libraries and queries.
 MOST = {"trimesh": 200, "compute_closest_points": 20000, "compute_signed_distance": 20000}
 ON_POINTS = ("compute_occupancy", "compute_closest_points", "compute_signed_distance", "contains_points")

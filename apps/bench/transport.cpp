@@ -1,5 +1,5 @@
-// limn_transport SCENE [--describe | OPTION ...] renders a scene of ./build.sh convergence as the programs of the
-// figures do. With --describe it prints the scene as JSON for limn's peers.
+// limn_transport SCENE [--describe | OPTION ...] renders a scene of ./build.sh convergence, with the options of the
+// programs in examples/figures. With --describe it prints the scene as JSON for limn's peers.
 #include "bench/transport_scenes.h"
 #include "program.h"
 #include "text_file.h"

@@ -14,6 +14,6 @@ void* load_module(const std::string& name);
 
 }  // namespace limn::app
 
-/// The id that each module exports: limn's version and a digest of the headers that program and module share
-/// (apps/CMakeLists.txt). A module with another id than the program's is refused.
+/// The id that each module exports: limn's version and a digest of the headers between program and module
+/// that apps/CMakeLists.txt lists. A module with another id than the program's is refused.
 extern "C" const char limn_module_id[];

@@ -8,7 +8,8 @@ namespace limn {
 
 namespace {
 
-// Throws a FileError if the contents are recognised as another kind of file. An OBJ itself has no mark to recognise.
+// Throws a FileError if the contents are recognised as another kind of file, unless a text may begin like that. An OBJ
+// itself has no mark to recognise.
 void require_no_other_kind(const std::string& text, const std::string& path) {
     const FileKind kind = kind_of_contents(text);
     if (kind.name.empty() || kind.may_be_text) return;

@@ -27,10 +27,10 @@ struct Scene;
 struct SceneStats {
     std::size_t memory_bytes = 0;         ///< memory of the scene, with the mesh arrays that it shares with the Scene
     std::uint64_t primitives = 0;         ///< number of primitives; an instanced one counts for each instance
-    std::uint64_t stored_primitives = 0;  ///< number of primitives; an instanced one counts once
-    std::uint64_t degenerate = 0;         ///< number of stored triangles of exactly zero area, which no ray can hit
-    std::uint64_t lights = 0;             ///< number of light sources that can be sampled
-    double seconds = 0;                   ///< time that compiling took
+    std::uint64_t stored_primitives = 0;  ///< the same without degenerate ones; an instanced one counts once
+    std::uint64_t degenerate = 0;  ///< number of triangles of exactly zero area, which no ray can hit; counted likewise
+    std::uint64_t lights = 0;      ///< number of light sources that can be sampled
+    double seconds = 0;            ///< time that compiling took
 };
 
 /// A scene in the flat form that limn traces rays against. `compile` makes it from a Scene.
@@ -75,8 +75,9 @@ public:
     /// an edge or a vertex is listed once. The ray and both of its ends count as moved by an infinitesimal vector, the
     /// same for all rays (docs/queries.md). Throws as closest_hit does.
     ///
-    /// - A ray that touches an edge of a closed surface, or runs along a face of it, has two crossings there or none.
-    ///   So the number of crossings with closed surfaces is even between two points outside.
+    /// - The number of crossings with a closed surface is even between two points outside.
+    /// - A ray that touches an edge of a closed surface has two crossings there or none. The same holds for a ray that
+    ///   runs along a face and is outside before and after it.
     /// - An end exactly on a surface is on the side to which it is moved.
     /// - A ray that touches a sphere between its ends does not cross it.
     /// - Disks and user-defined shapes are crossed where all_hits has hits.
@@ -97,8 +98,8 @@ public:
     /// Returns PointLocation::is_inside of `locate`: true if the point is inside or exactly on a surface.
     bool contains(const Point3& point, double time = 0) const;
     /// Returns the number of open edges of triangles, quads and disks. An edge is open if faces use it more often in
-    /// one direction than in the other. The ends of edges are compared by their coordinates. If the number is 0, all
-    /// meshes and boxes are closed, and winding numbers are meaningful.
+    /// one direction than in the other. It counts once for each use in excess. The ends of edges are compared by their
+    /// coordinates. If the number is 0, all meshes and boxes are closed, and winding numbers are meaningful.
     ///
     /// - An edge that coincides with several shorter ones is open.
     /// - If a surface is closed only by several instances taken together, the edges at which they meet count as open.
@@ -108,11 +109,11 @@ public:
     std::uint64_t open_edges() const;
 
     /// Returns the point of all surfaces that is nearest to `point`. If several are equally near, the one on the
-    /// primitive with the lowest number is returned. Let M be the largest coordinate of the point, of the surfaces and
-    /// of what is computed inside instances. The distance is off by at most 2^-32 M. Returns std::nullopt if no surface
-    /// is within `max_distance`, or if a coordinate or the time is not finite.
-    /// \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a sphere or disk
-    /// that may be the nearest is in an instance that shears it or scales it unevenly
+    /// primitive with the lowest number is returned. Let M be the largest magnitude of a coordinate of the point, of
+    /// the surfaces in world space, and of the intermediate results of the transforms of instances. The distance is off
+    /// by at most 2^-32 M. Returns std::nullopt if no surface is within `max_distance`, or if a coordinate or the time
+    /// is not finite. \throws ArgumentError if the scene has user-defined shapes, which only rays can query, or if a
+    /// sphere or disk that may be the nearest is in an instance that shears it or scales it unevenly
     std::optional<ClosestPoint> closest_point(const Point3& point, double max_distance = kInfinity,
                                               double time = 0) const;
     /// Returns the distance of closest_point. It is negative if the point is inside, 0 if the point is exactly on a
