@@ -18,8 +18,8 @@ struct Int192 {
 
     int sign() const { return high != 0 ? (high < 0 ? -1 : 1) : low != 0; }
     friend Int192 operator+(const Int192& a, const Int192& b) {
-        const std::uint64_t low = a.low + b.low;
-        return {a.high + b.high + (low < a.low ? 1 : 0), low};
+        const std::uint64_t sum = a.low + b.low;
+        return {a.high + b.high + (sum < a.low ? 1 : 0), sum};
     }
     friend Int192 operator-(const Int192& a, const Int192& b) {
         return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};

@@ -12,10 +12,10 @@
 
 #include "trace/traversal-inl.h"
 
+#if HWY_MAX_BYTES >= 32
+
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
-
-#if HWY_MAX_BYTES >= 32
 
 // A stream of rays whose directions are in the same octant. A node is loaded once and tested against each ray that
 // reaches it; the rays are the bits of a mask. These tests are independent of each other, and no branch depends on one
@@ -142,9 +142,9 @@ private:
     };
 };
 
-#endif
-
 }  // namespace limn::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+#endif
 
 #endif

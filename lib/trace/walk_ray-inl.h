@@ -12,13 +12,13 @@
 #include "math/lanes-inl.h"
 #include "trace/walk_ray.h"
 
+#if HWY_MAX_BYTES >= 32
+
 HWY_BEFORE_NAMESPACE();
 namespace limn::trace::HWY_NAMESPACE {
 
 using namespace limn::HWY_NAMESPACE;
 namespace hn = hwy::HWY_NAMESPACE;
-
-#if HWY_MAX_BYTES >= 32
 
 using Doubles4 = hn::FixedTag<double, 4>;
 using Floats4 = hn::FixedTag<float, 4>;
@@ -231,9 +231,9 @@ HWY_INLINE bool set_up(const RayInSpace& ray, const Ray& limits, const flat::Bla
     return true;
 }
 
-#endif
-
 }  // namespace limn::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+#endif
 
 #endif

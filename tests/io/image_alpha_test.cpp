@@ -191,7 +191,8 @@ TEST_CASE("EXR: of a part the data window is its own, and the display window tha
     save_image(premultiplied(), path);
     CHECK_FALSE(load_image_info(path).part_of);
     for (const PartOf& bad : {PartOf{19, 5, 20, 10}, PartOf{3, 9, 20, 10}, PartOf{-1, 0, 20, 10}, PartOf{}})
-        CHECK_THROWS_WITH(save_image(premultiplied(), path, {.part_of = bad}), Catch::Contains("is not inside the whole"));
+        CHECK_THROWS_WITH(save_image(premultiplied(), path, {.part_of = bad}),
+                          Catch::Contains("is not inside the whole"));
 }
 
 #endif

@@ -25,8 +25,14 @@ struct Rows {
 // first, and a large child is likely to have one (Ogaki, Derouet-Jourdan, An N-ary BVH Child Node Sorting Technique for
 // Occlusion Tests, JCGT 5(2), 2016).
 Slots sorted(Slots children) {
-    std::stable_sort(children.node, children.node + children.count,
-                     [](const SplitNode* a, const SplitNode* b) { return half_area(a->box) < half_area(b->box); });
+    const auto is_smaller = [](const SplitNode* a, const SplitNode* b) {
+        return half_area(a->box) < half_area(b->box);
+    };
+    // Insert each child behind those that are not larger. Equal ones keep their order.
+    for (std::size_t i = 1; i < children.count; ++i) {
+        const auto child = children.node + i;
+        std::rotate(std::upper_bound(children.node + 0, child, *child, is_smaller), child, child + 1);
+    }
     return children;
 }
 
