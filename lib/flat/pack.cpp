@@ -51,8 +51,9 @@ private:
     // Returns the range of the primitive with the given index in the tree.
     const PrimitiveRange& range_of(std::uint32_t index) const { return scene_.ranges[references_[index].range]; }
 
-    std::span<std::uint32_t> indices_of(const accel::Leaf& leaf) const {
-        return std::span(bvh_.indices).subspan(leaf.first, leaf.count);
+    // Returns the indices of the primitives of a leaf or block.
+    std::span<std::uint32_t> indices_of(const auto& part) const {
+        return std::span(bvh_.indices).subspan(part.first, part.count);
     }
 
     // Returns the form of a primitive in a leaf. Beside moving spheres, a still sphere is packed like them.
@@ -120,8 +121,7 @@ private:
         for_each_block(leaf, [&](const Block& block) {
             write_block(block, place);
             accel::SplitNode& above = blocks[slots.count];
-            for (const std::uint32_t index : std::span(bvh_.indices).subspan(block.first, block.count))
-                above.box.extend(accel::to_bounds(boxes_[index]));
+            for (const std::uint32_t index : indices_of(block)) above.box.extend(accel::to_bounds(boxes_[index]));
             children[slots.count] = flat::leaf_child(block.form, place.line);
             slots.node[slots.count++] = &above;
             place.line += flat::lines_of(block.form);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -29,10 +30,9 @@ Slots sorted(Slots children) {
         return half_area(a->box) < half_area(b->box);
     };
     // Insert each child behind those that are not larger. Equal ones keep their order.
-    for (std::size_t i = 1; i < children.count; ++i) {
-        const auto child = children.node + i;
-        std::rotate(std::upper_bound(children.node + 0, child, *child, is_smaller), child, child + 1);
-    }
+    const auto first = std::begin(children.node);
+    for (auto child = first; child != first + children.count; ++child)
+        std::rotate(std::upper_bound(first, child, *child, is_smaller), child, child + 1);
     return children;
 }
 
